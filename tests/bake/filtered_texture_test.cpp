@@ -25,7 +25,7 @@ FilteredTexture all_covered(int size, const std::function<float(int x, int y)>& 
 }
 
 float at(const FilteredTexture& texture, double u, double v, double across, double down) {
-  return texture.at({u, v}, {across, 0}, {0, -down})[0];
+  return texture.mean_at({u, v}, {across, 0}, {0, -down})[0];
 }
 
 TEST(FilteredTexture, GivesTexelsAsTheyAreAtTheirCentres) {

@@ -110,7 +110,7 @@ class ScanBaking : public ::testing::Test {
     const Scan scan = scan_of(mesh, scan_file);
     const ScanSurface surface(skin_only(scan));
     const ScanColours colours(std::move(mesh), scan_file);
-    EXPECT_TRUE(colours.any());
+    EXPECT_TRUE(colours.has_colours());
     EXPECT_TRUE(colours.warnings().empty());
     const BakeTemplate target(file_, shape_, kTexels);
     EXPECT_EQ(target.names().size(), 1U);

@@ -195,7 +195,7 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
         const double w = mirror_share(recipe);
         const auto built = [&](const Recipe& of) {
           const Positions blended = blend_exact(faces_, *filter_, regions_, of);
-          return between_mirrored(blended, mirrored(mirror, blended), w);
+          return blend_with_image(blended, mirrored(mirror, blended), w);
         };
         as_built.push_back(built(recipe));
         const Positions sampled = sample_face(space.sampled(), recipe);

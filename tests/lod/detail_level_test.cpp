@@ -72,7 +72,7 @@ TEST(DetailLevels, KeepRimsSeamsAndBordersOfLooks) {
   for (const std::uint32_t look : looks) whole[look] += 1;
   const std::array<double, 2> shares = {0.4, 0.1};
   for (const DetailLevel& level : detail_levels(set, looks, shares)) {
-    const Positions positions = level.of(set.heads[0].positions);
+    const Positions positions = level.restrict_rows(set.heads[0].positions);
     std::map<std::uint32_t, double> area;
     for (Index t = 0; t < level.topology.face_count(); ++t) {
       const auto corners = level.topology.face(t);
@@ -110,12 +110,12 @@ TEST(DetailLevels, AreRowsOfTheWholeMesh) {
   whole.moves = testing::random_positions(static_cast<Index>(whole.vertices.size()), 3);
   Positions moved = set.heads[0].positions;
   whole.add_to(moved);
-  Positions some = level.of(set.heads[0].positions);
-  const Displacements of_level = level.of(whole);
+  Positions some = level.restrict_rows(set.heads[0].positions);
+  const Displacements of_level = level.restrict_rows(whole);
   EXPECT_FALSE(of_level.vertices.empty());
   EXPECT_LT(of_level.vertices.size(), whole.vertices.size());
   of_level.add_to(some);
-  EXPECT_EQ(some, level.of(moved));
+  EXPECT_EQ(some, level.restrict_rows(moved));
 }
 
 HeadSet synthetic_heads() {
@@ -154,7 +154,7 @@ TEST(LevelError, IsNotBelowTheDistanceToTheSurfaceNorFarAbove) {
     std::vector<const Positions*> heads;
     for (const Head& head : set.heads) {
       heads.push_back(&head.positions);
-      const Positions some = level.of(head.positions);
+      const Positions some = level.restrict_rows(head.positions);
       for (const std::uint32_t v : map.vertices) {
         const double distance = distance_to_level(level, some, row3(head.positions, v));
         most = std::max(most, distance);
@@ -164,9 +164,9 @@ TEST(LevelError, IsNotBelowTheDistanceToTheSurfaceNorFarAbove) {
     const auto count = static_cast<double>(heads.size() * map.vertices.size());
     const double rms = std::sqrt(squares / count);
     const LevelError error = level_error(level, map, heads);
-    EXPECT_GE(error.most, most);
+    EXPECT_GE(error.max, most);
     EXPECT_GE(error.root_mean_square, rms);
-    EXPECT_LT(error.most, 1.5 * most);
+    EXPECT_LT(error.max, 1.5 * most);
     EXPECT_LT(error.root_mean_square, 1.2 * rms);
     EXPECT_GT(error.root_mean_square, before) << "fewer triangles are farther off";
     before = error.root_mean_square;

@@ -62,7 +62,7 @@ TEST(SameGraph, FindsVerticesInAnotherOrder) {
     // Moved and somewhat out of shape: the symmetric cubes are told by where they are.
     Positions moved = other.positions.rowwise() + Eigen::RowVector3d(1, 2, 3);
     for (Index v = 0; v < moved.rows(); ++v) moved(v, v % 3) += 0.05 * static_cast<double>(v % 5);
-    EXPECT_EQ(same_graph(mesh.topology, mesh.positions, other.topology, moved), to);
+    EXPECT_EQ(match_graphs(mesh.topology, mesh.positions, other.topology, moved), to);
   }
 }
 
@@ -72,7 +72,7 @@ TEST(SameGraph, TellsOtherGraphs) {
   std::iota(to.begin(), to.end(), 0U);
   Mesh other = mesh;
   std::swap(other.topology.corner_vertices[0], other.topology.corner_vertices[1]);
-  EXPECT_FALSE(same_graph(mesh.topology, mesh.positions, other.topology, other.positions));
+  EXPECT_FALSE(match_graphs(mesh.topology, mesh.positions, other.topology, other.positions));
   other = mesh;
   // Inside out.
   for (Index f = 0; f < other.topology.face_count(); ++f) {
@@ -80,10 +80,10 @@ TEST(SameGraph, TellsOtherGraphs) {
     std::reverse(other.topology.corner_vertices.begin() + begin,
                  other.topology.corner_vertices.begin() + end);
   }
-  const auto turned = same_graph(mesh.topology, mesh.positions, other.topology, other.positions);
+  const auto turned = match_graphs(mesh.topology, mesh.positions, other.topology, other.positions);
   EXPECT_NE(turned, to);
   EXPECT_FALSE(
-      same_graph(mesh.topology, mesh.positions, triangulated(mesh.topology, 0), mesh.positions));
+      match_graphs(mesh.topology, mesh.positions, triangulated(mesh.topology, 0), mesh.positions));
 }
 
 TEST(Triangulated, CutsQuadsEitherWay) {

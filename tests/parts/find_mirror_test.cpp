@@ -49,7 +49,7 @@ TEST(FindMirror, OfASymmetricHeadIsItself) {
   const Positions image = mirrored(found.map, mean);
   EXPECT_EQ(image, mean);
   for (const double w : {-0.4, 0.0, 0.3, 0.5, 1.0, 1.2}) {
-    EXPECT_EQ(between_mirrored(mean, image, w), mean);
+    EXPECT_EQ(blend_with_image(mean, image, w), mean);
   }
 }
 
@@ -60,9 +60,9 @@ TEST(FindMirror, MirroringTwiceGivesTheFaceBack) {
   const Positions image = mirrored(found.map, face);
   EXPECT_NE(image, face);
   EXPECT_EQ(mirrored(found.map, image), face);
-  EXPECT_EQ(between_mirrored(face, image, 0), face);
-  EXPECT_EQ(between_mirrored(face, image, 1), image);
-  const Positions even = between_mirrored(face, image, 0.5);
+  EXPECT_EQ(blend_with_image(face, image, 0), face);
+  EXPECT_EQ(blend_with_image(face, image, 1), image);
+  const Positions even = blend_with_image(face, image, 0.5);
   EXPECT_LT((mirrored(found.map, even) - even).cwiseAbs().maxCoeff(), 1e-14);
 }
 
@@ -109,8 +109,8 @@ TEST(FindMirror, VerticesWithoutPartnersGetPlacesOnTheSurface) {
         6 - 3 * (u * u + t * t) + std::exp(-9 * (u * u + (t - 0.2) * (t - 0.2)));
   }
   const FoundMirror found = found_on(topology, mean);
-  EXPECT_GT(found.on_surface, mean.rows() / 2);
-  EXPECT_GT(found.share(), 0.99);
+  EXPECT_GT(found.surface_partners, mean.rows() / 2);
+  EXPECT_GT(found.partner_fraction(), 0.99);
   EXPECT_LT(found.rms, 0.03);
   EXPECT_LT((mirrored(found.map, mean) - mean).rowwise().norm().maxCoeff(), found.largest + 1e-12);
 }
@@ -148,7 +148,7 @@ TEST(FindMirror, EyesChangePlaces) {
 TEST(FindMirror, WhatIsOnOneSideOnlyKeepsItsForm) {
   const BowlWithCubes head({{-3, 2, 8}});
   const FoundMirror found = found_on(head.topology, head.mean);
-  EXPECT_EQ(found.map.without.size(), 8U);
+  EXPECT_EQ(found.map.unpaired.size(), 8U);
   EXPECT_EQ(found.vertices, head.mean.rows() - 8);
   const Positions moved = mirrored(found.map, head.mean) - head.mean;
   // But for the reach within which nothing is kept.

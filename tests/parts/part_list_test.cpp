@@ -53,7 +53,7 @@ TEST(Parts, KeepTheTeethOfTheTwoJawsApart) {
   EXPECT_THAT(list.parts[0].components, ElementsAre(1, 2, 3));
   EXPECT_THAT(list.parts[1].components, ElementsAre(4, 5, 6));
   PartOverrides overrides;
-  overrides.together = {{1, 2, 3, 4, 5, 6}};
+  overrides.joined_components = {{1, 2, 3, 4, 5, 6}};
   EXPECT_EQ(parts_of(mesh, overrides).parts.size(), 1U) << "what is said by hand counts";
 }
 
@@ -87,7 +87,7 @@ TEST(Parts, FollowWhatIsSaidByHand) {
   overrides.classes.resize(8);
   overrides.classes[HeadComponent::kRightEye] = PartClass::kSkin;
   overrides.classes[HeadComponent::kLash] = PartClass::kRigid;
-  overrides.together = {{HeadComponent::kLeftIris, HeadComponent::kLash}};
+  overrides.joined_components = {{HeadComponent::kLeftIris, HeadComponent::kLash}};
   const PartList list = parts_of(testing::simple_head(), overrides);
   EXPECT_EQ(list.classes[HeadComponent::kRightEye], PartClass::kSkin);
   ASSERT_EQ(list.parts.size(), 3U);

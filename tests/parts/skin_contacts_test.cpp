@@ -77,8 +77,8 @@ TEST(SkinContacts, AreAsWideAsTheyWereMade) {
   for (const auto& [head, gap] : {std::pair{0, 0.04}, {1, 0.08}, {2, 0.12}}) {
     for (const double found : contacts.head_gaps(head)) EXPECT_NEAR(found, gap, 1e-9);
   }
-  EXPECT_NEAR(contacts.wider(slotted_roller(0.5).positions), 0.38, 1e-9);
-  EXPECT_EQ(contacts.wider(slotted_roller(0.1).positions), 0);
+  EXPECT_NEAR(contacts.max_excess(slotted_roller(0.5).positions), 0.38, 1e-9);
+  EXPECT_EQ(contacts.max_excess(slotted_roller(0.1).positions), 0);
 }
 
 TEST(SkinContacts, AreBroughtIntoTheirRanges) {
@@ -87,7 +87,7 @@ TEST(SkinContacts, AreBroughtIntoTheirRanges) {
   for (const auto& [made, wanted] : {std::pair{0.5, 0.12}, {-0.2, 0.04}}) {
     Positions face = slotted_roller(made).positions;
     const Positions before = face;
-    contacts.bring_into(everywhere(contacts, 0.04, 0.12), face);
+    contacts.fit_gaps(everywhere(contacts, 0.04, 0.12), face);
     for (const double gap : contacts.gaps(face)) EXPECT_NEAR(gap, wanted, 1e-3);
     for (Index v = 0; v < face.rows(); ++v) {
       if (before(v, 2) >= -1) continue;
@@ -117,8 +117,8 @@ TEST(SkinContacts, AreBroughtIntoTheirRangesFromFarWhereWallsAreWaves) {
     ranges.push_back({least, most});
   }
   Positions face = waves(1);
-  contacts.bring_into(ranges, face);
-  EXPECT_LT(contacts.wider(face), 2e-3);
+  contacts.fit_gaps(ranges, face);
+  EXPECT_LT(contacts.max_excess(face), 2e-3);
 }
 
 // Places closer than skin bends were pulled apart and together by turns, until lips were an S.
@@ -139,13 +139,13 @@ TEST(SkinContacts, DoNotPullSkinApartAndTogetherWhereNeighboursDiffer) {
   }
   Positions face = slotted_roller(0.5, kFine).positions;
   const Positions before = face;
-  contacts.bring_into(ranges, face);
+  contacts.fit_gaps(ranges, face);
   EXPECT_LT((face - before).rowwise().norm().maxCoeff(), 0.27)
       << "half of what is missing, or little more";
   const std::vector<double> gaps = contacts.gaps(face);
   for (std::size_t p = 0; p < gaps.size(); ++p) {
-    EXPECT_GT(gaps[p], ranges[p].least - 0.2);
-    EXPECT_LT(gaps[p], ranges[p].most + 0.2);
+    EXPECT_GT(gaps[p], ranges[p].min - 0.2);
+    EXPECT_LT(gaps[p], ranges[p].max + 0.2);
   }
 }
 
@@ -153,7 +153,7 @@ TEST(SkinContacts, AreLeftAloneToTheBitWhereAllIsWell) {
   const HeadSet faces = heads_with_gaps({0.04, 0.12});
   const SkinContacts contacts = contacts_of(faces);
   Positions face = slotted_roller(0.07).positions;
-  contacts.bring_into(everywhere(contacts, 0.04, 0.12), face);
+  contacts.fit_gaps(everywhere(contacts, 0.04, 0.12), face);
   EXPECT_TRUE(face == slotted_roller(0.07).positions);
 }
 

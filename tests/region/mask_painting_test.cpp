@@ -39,7 +39,7 @@ TEST(MaskPainting, EveryPaintedTexelAddsUpAndTheFirstRowIsTheTop) {
   const PaintedMasks masks =
       paint_masks(two_tiles().topology, two_tiles().uvs, from_below(), {}, kSize);
   ASSERT_EQ(masks.tiles.size(), 2U);
-  EXPECT_TRUE(masks.tiled());
+  EXPECT_TRUE(masks.is_tiled());
   const auto at = [&](int tile, int x, int y) {
     const auto i = static_cast<std::size_t>(3 * (y * kSize + x));
     const auto& p = masks.tiles.at(tile).at(0);
@@ -100,7 +100,7 @@ TEST(MaskPainting, WhereFacesShareAPlaceTheFirstCounts) {
   mesh.topology.corner_uvs = {0, 1, 2, 3, 3, 2, 1, 0};  // the other way up, over the first
   const auto red_on_top = [&](const std::vector<bool>& first) {
     const PaintedMasks masks = paint_masks(mesh.topology, mesh.uvs, from_below(), first, 64);
-    EXPECT_FALSE(masks.tiled());
+    EXPECT_FALSE(masks.is_tiled());
     return masks.tiles.at(1001)[0][3 * (64 * 10 + 5)];
   };
   EXPECT_LT(red_on_top({true, true, true, true, false, false}), 100);

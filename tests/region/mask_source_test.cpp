@@ -14,11 +14,11 @@ using ::testing::HasSubstr;
 
 TEST(MaskSource, TileNumberReplacesEveryMark) {
   const MaskSource set("a.<UDIM>/b.<UDIM>.png");
-  EXPECT_TRUE(set.tiled());
-  EXPECT_EQ(set.file_of(1012), "a.1012/b.1012.png");
+  EXPECT_TRUE(set.is_tiled());
+  EXPECT_EQ(set.tile_path(1012), "a.1012/b.1012.png");
   const MaskSource one("bands.png");
-  EXPECT_FALSE(one.tiled());
-  EXPECT_EQ(one.file_of(1012), "bands.png");
+  EXPECT_FALSE(one.is_tiled());
+  EXPECT_EQ(one.tile_path(1012), "bands.png");
 }
 
 TEST(MaskSource, AlphaIsNoMask) {

@@ -33,11 +33,11 @@ std::string message_of_uvs(const Topology& topology, const TextureCoordinates& u
 }
 
 TEST(TileStep, IsTheWholePartExceptOnABorder) {
-  EXPECT_EQ(tile_step(0.25, 3), 0);
-  EXPECT_EQ(tile_step(2.75, 0), 2);
-  EXPECT_EQ(tile_step(1.0, 0.9), 0);
-  EXPECT_EQ(tile_step(1.0, 1.1), 1);
-  EXPECT_EQ(tile_step(0.0, 0.5), 0);
+  EXPECT_EQ(tile_index(0.25, 3), 0);
+  EXPECT_EQ(tile_index(2.75, 0), 2);
+  EXPECT_EQ(tile_index(1.0, 0.9), 0);
+  EXPECT_EQ(tile_index(1.0, 1.1), 1);
+  EXPECT_EQ(tile_index(0.0, 0.5), 0);
 }
 
 TEST(TileNumber, CountsTenColumnsARow) {

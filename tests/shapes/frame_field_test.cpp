@@ -36,7 +36,7 @@ double farthest_frame(const FrameField& field, const Positions& face, const Matr
   const FrameField::Frames frames = field.frames(face);
   double most = 0;
   for (std::size_t v = 0; v < static_cast<std::size_t>(face.rows()); ++v) {
-    most = std::max(most, (field.at(v, frames) - expected).cwiseAbs().maxCoeff());
+    most = std::max(most, (field.map_at(v, frames) - expected).cwiseAbs().maxCoeff());
   }
   return most;
 }
@@ -123,7 +123,7 @@ TEST(FrameField, IsThePlainLeastSquaresFit) {
       expected += share * maps[p];
       sum += share;
     }
-    EXPECT_LT((field.at(v, frames) - expected / sum).cwiseAbs().maxCoeff(), 1e-9) << v;
+    EXPECT_LT((field.map_at(v, frames) - expected / sum).cwiseAbs().maxCoeff(), 1e-9) << v;
   }
 }
 

@@ -87,7 +87,7 @@ class SkinCrossingsTest : public ::testing::Test {
     const SkinCrossings::Face there{face, at_rest, {}};
     Displacements result = shape;
     Positions mesh = face;
-    const Index left = crossings_.mend(there, watched, mesh, result);
+    const Index left = crossings_.repair(there, watched, mesh, result);
     EXPECT_EQ(mesh, face);
     EXPECT_EQ(crossings_.count(there, watched, result, mesh), left);
     EXPECT_EQ(mesh, face);

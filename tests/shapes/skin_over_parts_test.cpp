@@ -47,7 +47,7 @@ class SkinOverPartsTest : public ::testing::Test {
     Displacements shape = back(2);
     turn(whole, shape.moves);
     Positions mesh = face;
-    over.keep(face, whole, rows_, mesh, shape);
+    over.keep_in_front(face, whole, rows_, mesh, shape);
     EXPECT_EQ(mesh, face);
     return shape;
   }

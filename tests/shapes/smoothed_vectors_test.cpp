@@ -29,7 +29,7 @@ TEST(SmoothedVectors, WhatIsEvenAlreadyStays) {
   const SmoothedVectors field({kHere, kThere}, 0.5, 1, 2);
   for (const auto& change :
        field.changes(scattered([](const auto&) { return Eigen::Vector3d(1, 2, 3); }))) {
-    EXPECT_LT(change.by.norm(), 1e-12);
+    EXPECT_LT(change.displacement.norm(), 1e-12);
   }
 }
 
@@ -43,7 +43,8 @@ TEST(SmoothedVectors, NearItIsTheMeanAndFarAwayWhatItWas) {
   for (const auto& [number, by] : field.changes(samples)) left[number] += by.z();
   std::size_t near = 0, far = 0;
   for (const auto& sample : samples) {
-    const double distance = std::min((sample.place - kHere).norm(), (sample.place - kThere).norm());
+    const double distance =
+        std::min((sample.position - kHere).norm(), (sample.position - kThere).norm());
     if (distance < 1) {
       EXPECT_LT(std::abs(left[sample.number]), 0.6);
       ++near;

@@ -246,7 +246,7 @@ TEST(Tiles, HoldEveryRingTheyNeed) {
     for (std::uint32_t r = 0; r < tile.count; ++r) reached.insert(tiling.order[tile.first + r]);
     for (std::size_t ring = 0; ring < 3; ++ring) {
       std::set<std::uint32_t> computed;
-      for (std::size_t r = 0; r < tile.runs_to[ring]; ++r) {
+      for (std::size_t r = 0; r < tile.run_counts[ring]; ++r) {
         const ValenceRun& run = tile.runs[r];
         for (std::uint32_t i = 0; i < run.count; ++i) {
           const std::uint32_t vertex = vertex_of(run.first + i);

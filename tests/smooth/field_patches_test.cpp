@@ -144,7 +144,7 @@ TEST(FieldPatches, KeepAllVerticesWhereNoneIsLikeAnother) {
     noise.push_back(
         static_cast<float>(random_between({1, static_cast<std::uint64_t>(i), "noise", 0}, -1, 1)));
   }
-  const std::vector<HeadLevels> heads = {{in_16_bits(noise, kVertices), [](std::uint64_t level) {
+  const std::vector<HeadLevels> heads = {{quantize(noise, kVertices), [](std::uint64_t level) {
                                             return std::vector<double>(8, level == 0 ? 0.0 : 1.0);
                                           }}};
   const FieldPatches patches = interpolate_fields(heads, kLevels, rows_of_grid(), 0.001);
@@ -172,7 +172,7 @@ TEST(FieldPatches, AVertexThatNothingMovesIsMovedByNothing) {
 
 TEST(FieldPatches, OfHeadsThatStandStillAreEmpty) {
   const std::vector<HeadLevels> heads = {
-      {in_16_bits(std::vector<float>(2 * 3 * kVertices, 0.0F), kVertices),
+      {quantize(std::vector<float>(2 * 3 * kVertices, 0.0F), kVertices),
        [](std::uint64_t) { return std::vector<double>(2, 1.0); }}};
   const FieldPatches patches = interpolate_fields(heads, kLevels, rows_of_grid(), 0.01);
   EXPECT_EQ(mean_skeleton(patches), 0);
@@ -197,7 +197,7 @@ TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   ASSERT_FALSE(made.lists().weights.empty());
   const std::vector<Index> ranks(heads.size(), heads[0].fields.rank);
   const auto taken = [&](const PatchLists& lists) {
-    return FieldPatches::of(lists, kVertices, ranks).has_value();
+    return FieldPatches::from_lists(lists, kVertices, ranks).has_value();
   };
   ASSERT_TRUE(taken(made.lists()));
   const auto with = [&](auto PatchLists::*list, auto change) {
@@ -223,8 +223,9 @@ TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v[0] = NAN; }));
   EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v.pop_back(); }));
   EXPECT_FALSE(with(&PatchLists::numbers, [](auto& v) { v.push_back(0); }));
-  EXPECT_FALSE(FieldPatches::of(made.lists(), kVertices, std::vector<Index>{ranks[0]}).has_value());
-  EXPECT_FALSE(FieldPatches::of(made.lists(), kVertices + 128, ranks).has_value());
+  EXPECT_FALSE(
+      FieldPatches::from_lists(made.lists(), kVertices, std::vector<Index>{ranks[0]}).has_value());
+  EXPECT_FALSE(FieldPatches::from_lists(made.lists(), kVertices + 128, ranks).has_value());
 }
 
 TEST(FieldPatches, TellOfEachPatchAndEndWhereTheyAreTold) {

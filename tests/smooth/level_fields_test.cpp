@@ -28,7 +28,7 @@ std::vector<float> some_fields(Index vertices) {
 TEST(LevelFields, AreOffByHalfAStepAtMost) {
   for (const Index vertices : {1, 63, 64, 65, 1000}) {
     const std::vector<float> exact = some_fields(vertices);
-    const LevelFields fields = in_16_bits(exact, vertices);
+    const LevelFields fields = quantize(exact, vertices);
     ASSERT_EQ(fields.rank, 3);
     for (std::size_t i = 0; i < exact.size(); ++i) {
       const auto at = static_cast<Index>(i) % (3 * vertices);
@@ -43,7 +43,7 @@ TEST(LevelFields, AreOffByHalfAStepAtMost) {
 }
 
 TEST(LevelFields, HaveStepsThatAreTheLeastPowersOfTwo) {
-  const auto step_of_one = [](float largest) { return step_of(std::span(&largest, 1)); };
+  const auto step_of_one = [](float largest) { return quantization_step(std::span(&largest, 1)); };
   EXPECT_EQ(step_of_one(32767), 1);
   EXPECT_EQ(step_of_one(-32767), 1);
   EXPECT_EQ(step_of_one(32768), 2);
@@ -60,7 +60,7 @@ TEST(LevelFields, HaveStepsThatAreTheLeastPowersOfTwo) {
 
 TEST(LevelFields, KeepTheLargestNumberAndZero) {
   const std::vector<float> values = {0, 0.25F, -0.75F};
-  const LevelFields fields = in_16_bits(values, 1);
+  const LevelFields fields = quantize(values, 1);
   EXPECT_EQ(fields.numbers[0], 0);
   EXPECT_EQ(fields.numbers[2], -24576);
   for (Index c = 0; c < 3; ++c) {
@@ -69,7 +69,7 @@ TEST(LevelFields, KeepTheLargestNumberAndZero) {
 }
 
 TEST(LevelFields, AreZeroPastTheLastVertex) {
-  const LevelFields fields = in_16_bits(some_fields(70), 70);
+  const LevelFields fields = quantize(some_fields(70), 70);
   ASSERT_EQ(fields.numbers.size(), 2 * 3 * 3 * kFieldTile);
   std::size_t past = 0;
   for (std::size_t i = 0; i < fields.numbers.size(); ++i) {
@@ -89,7 +89,7 @@ TEST(LevelFields, OfATileAreTheFirstFew) {
   parts[0].add(values, 1);
   parts[0].add(values, 0);
   parts[1].add(values, 2);
-  const LevelFields fields = joined(3 * kFieldTile, 2, std::move(parts));
+  const LevelFields fields = concatenate(3 * kFieldTile, 2, std::move(parts));
   for (Index v = 0; v < fields.vertex_count; ++v) {
     EXPECT_EQ(fields.value(0, v, 1), v / Index{kFieldTile} == 1 ? 0 : 5) << v;
     EXPECT_EQ(fields.value(1, v, 2), v < 2 * Index{kFieldTile} ? 0 : 3) << v;
@@ -135,7 +135,7 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
     SCOPED_TRACE(name);
     use_instruction_set(name);
     for (std::size_t kept = 0; kept <= kFields; ++kept) {
-      const MissedLevel found =
+      const TruncationError found =
           choose_fewest_functions(values.data(), kFields, functions.data(), kFields, kLevelCount,
                                   static_cast<float>(missed[kept] * 1.001));
       EXPECT_EQ(found.kept, kept);
@@ -148,10 +148,10 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
 
 TEST(LevelFields, AreTheSameOnEveryInstructionSet) {
   const std::vector<float> exact = some_fields(500);
-  const LevelFields expected = in_16_bits(exact, 500);
+  const LevelFields expected = quantize(exact, 500);
   for (const std::string& name : instruction_sets()) {
     use_instruction_set(name);
-    const LevelFields fields = in_16_bits(exact, 500);
+    const LevelFields fields = quantize(exact, 500);
     EXPECT_TRUE(std::ranges::equal(fields.steps, expected.steps)) << name;
     EXPECT_TRUE(std::ranges::equal(fields.numbers, expected.numbers)) << name;
   }

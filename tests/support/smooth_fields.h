@@ -25,7 +25,7 @@ inline HeadLevels smooth_levels(Index columns, Index rows, std::size_t head) {
       }
     }
   }
-  return {in_16_bits(fields, columns * rows), [](std::uint64_t level) {
+  return {quantize(fields, columns * rows), [](std::uint64_t level) {
             std::vector<double> functions;
             for (int p = 0; p < kFields; ++p) {
               functions.push_back(1 - std::exp(-static_cast<double>(level) / (5 << p)));

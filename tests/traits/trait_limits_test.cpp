@@ -54,7 +54,7 @@ TEST(TraitSpread, LimitsIncludeTheirEnds) {
 TEST(TraitLimits, OwnLimitsReplaceThoseOfTheSameTrait) {
   const TraitLimits common = {{0, TraitEnd{1}}, {2, TraitEnd{3}}}, own = {{1}, {2, TraitEnd{9}}};
   const TraitLimits expected = {{0, TraitEnd{1}}, {1}, {2, TraitEnd{9}}};
-  EXPECT_EQ(with_own(common, own), expected);
+  EXPECT_EQ(merge_limits(common, own), expected);
 }
 
 TEST(TraitTarget, DifferencesAreThoseOfKolmogorovAndSmirnov) {

@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Carries one attachment to faces. The constructor precomputes what depends on the fitted mesh
-/// only.
+/// Carries one attachment from the fitted mesh to faces. The constructor computes everything that
+/// depends on the fitted mesh only.
 class AttachmentCarrier {
  public:
   /// \param skin      Skin of the fitted mesh; must outlive this object.
@@ -24,9 +24,9 @@ class AttachmentCarrier {
                     AttachmentMove move);
 
   /// Returns the attachment's vertices on a face. Vertices that were outside the skin of the fitted
-  /// mesh stay outside. For a bending attachment, a narrow gap to the skin is restored; elsewhere
-  /// the gap is at least two millimetres. A rigid attachment moves as a whole, so it keeps its gaps
-  /// only approximately.
+  /// mesh stay outside. A bending attachment gets its narrow gaps to the skin back; wider gaps stay
+  /// at least two millimetres wide. A rigid attachment moves as a whole, so it keeps its gaps only
+  /// approximately.
   ///
   /// \param face     #V by 3, in the topology of the fitted mesh.
   /// \param normals  Normals of the face, from FittedSkin::normals.

@@ -3,9 +3,9 @@
 
 namespace crowdface {
 
-/// How an attachment follows the skin under it.
+/// How an attachment follows the skin.
 enum class AttachmentMove {
-  kBend,   ///< each point follows the skin around it, smoothly: hair, brows, beard
+  kBend,   ///< each point follows the surrounding skin smoothly: hair, brows, beard
   kRigid,  ///< the whole attachment rotates, translates and scales: glasses
 };
 

@@ -9,18 +9,18 @@
 
 namespace crowdface {
 
-/// The nodes of a moving-least-squares deformation. Each node has a patch of skin that determines
-/// its motion; each point blends the motions of the nodes around it.
-struct BendPlaces {
+/// The nodes of a moving-least-squares deformation. A patch of skin determines the motion of each
+/// node; each point blends the motions of nearby nodes.
+struct BendNodes {
   /// Minimum distance between two nodes, as a fraction of the reach of a node's patch. Every point
   /// is within this distance of a node.
-  static constexpr double kApart = 0.3;
-  /// Radius within which a node influences points, in multiples of the distance kApart.
-  static constexpr double kHeard = 2;
+  static constexpr double kNodeSpacing = 0.3;
+  /// Radius within which a node influences points, in multiples of kNodeSpacing.
+  static constexpr double kInfluence = 2;
 
   /// The weight of one node at one point.
   struct Share {
-    std::uint32_t place;
+    std::uint32_t node;
     float weight;  ///< weights of a point do not sum to one
   };
   std::vector<FittedSkin::Patch> patches;

@@ -17,12 +17,13 @@
 namespace crowdface {
 namespace {
 
-/// The reach of a point on the skin is the larger of kReachMm millimetres and kReachSpacings vertex
-/// spacings. The reach grows by kReachGrowth per unit of distance from the skin.
+/// The reach of the patch around a point on the skin is the larger of kReachMm millimetres and
+/// kReachSpacings vertex spacings. The reach grows by kReachGrowth per unit of distance from the
+/// skin.
 constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
-/// A patch has at least kMin vertices within its reach divided by kMinReach; otherwise the reach
-/// grows.
-constexpr std::size_t kMin = 12;
+/// The reach of a patch grows until at least kMinVertices vertices lie within the reach divided by
+/// kMinReach.
+constexpr std::size_t kMinVertices = 12;
 constexpr double kMinReach = 1.4;
 /// Up to a reach of kSpacings spacings of a level, the patch uses only this level. From there to
 /// twice that reach, the patch blends into the next coarser level.
@@ -43,7 +44,7 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
       mesh_(std::move(mesh)),
       skin_(std::move(skin)),
       mm_(mm),
-      around_(topology),
+      vertex_faces_(topology),
       fans_(topology),
       areas_(static_cast<std::size_t>(topology.vertex_count), 0.0) {
   require(mesh_.rows() == topology.vertex_count && skin_.size() >= 3, "fitted skin: ", mesh_.rows(),
@@ -63,7 +64,7 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
     for (const std::uint32_t v : face) areas_[v] += share;
     volume += vector.dot(row3(mesh_, face[0]) - middle);
   }
-  side_ = volume < 0 ? -1 : 1;
+  normal_sign_ = volume < 0 ? -1 : 1;
   double area = 0;
   for (const std::uint32_t v : skin_) area += areas_[v];
   const double spacing = std::sqrt(area / static_cast<double>(skin_.size()));
@@ -83,8 +84,8 @@ void FittedSkin::add_level(double spacing, std::vector<std::uint32_t> vertices,
   levels_.push_back({spacing, std::move(vertices), std::move(areas), std::move(grid)});
 }
 
-/// Picks one vertex per cell, the vertex nearest to the cell's centre of area, and gives it the
-/// area of the whole cell.
+/// Adds a coarser level: picks in each cell the vertex nearest to the cell's centre of area, and
+/// gives this vertex the area of the whole cell.
 void FittedSkin::add_coarser(double spacing) {
   std::vector<InCell> cells;
   const Eigen::Vector3d low = row3(mesh_, skin_.front());
@@ -125,15 +126,15 @@ void FittedSkin::add_coarser(double spacing) {
   add_level(spacing, std::move(vertices), std::move(areas));
 }
 
-double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
+double FittedSkin::reach_at(const Eigen::Vector3d& point, double min_reach) const {
   const Level& finest = levels_.front();
   const double nearest = finest.grid.nearest(point).distance;
-  const double reach = kReachGrowth * nearest + least;
-  const std::size_t fewest = std::min(kMin, finest.vertices.size());
+  const double reach = kReachGrowth * nearest + min_reach;
+  const std::size_t fewest = std::min(kMinVertices, finest.vertices.size());
   std::vector<double> distances;
   for (double around = reach;; around *= 2) {
     distances.clear();
-    for (const std::uint32_t v : finest.grid.about(point, around)) {
+    for (const std::uint32_t v : finest.grid.vertices_near(point, around)) {
       const double distance = (row3(mesh_, v) - point).norm();
       if (distance <= around) distances.push_back(distance);
     }
@@ -145,7 +146,7 @@ double FittedSkin::reach_at(const Eigen::Vector3d& point, double least) const {
 void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                              Patch& patch) const {
   if (share <= 0) return;
-  for (const std::uint32_t v : level.grid.about(point, patch.reach)) {
+  for (const std::uint32_t v : level.grid.vertices_near(point, patch.reach)) {
     const double away = std::min(1.0, (row3(mesh_, v) - point).norm() / patch.reach);
     const double weight = share * level.areas[v] * biweight(away);
     if (weight <= 0) continue;
@@ -158,9 +159,9 @@ FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point) const {
   return patch_around(point, std::max(kReachMm * mm_, kReachSpacings * spacing()));
 }
 
-FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double least) const {
+FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double min_reach) const {
   Patch patch;
-  patch.reach = reach_at(point, least);
+  patch.reach = reach_at(point, min_reach);
   std::size_t level = 0;
   while (level + 1 < levels_.size() && patch.reach > 2 * kSpacings * levels_[level].spacing) {
     ++level;
@@ -175,13 +176,13 @@ FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double 
 }
 
 Positions FittedSkin::normals(const Positions& face) const {
-  return side_ * fans_.normals(topology_, face, {0, 0, 0});
+  return normal_sign_ * fans_.normals(topology_, face, {0, 0, 0});
 }
 
 SkinPlace FittedSkin::place_near(const Positions& face, const Positions& normals,
                                  std::uint32_t start, const Eigen::Vector3d& point) const {
-  const SurfacePoint place = nearest_from(topology_, around_, face,
-                                          descend(topology_, around_, face, start, point), point);
+  const SurfacePoint place = nearest_from(
+      topology_, vertex_faces_, face, descend(topology_, vertex_faces_, face, start, point), point);
   const Eigen::Vector3d outward = point_on(normals, place.corners, place.shares).normalized();
   return {place.corners[0], (point - place.position).dot(outward), outward, place.position};
 }

@@ -13,10 +13,10 @@
 
 namespace crowdface {
 
-/// The place on the skin nearest to a point.
+/// The point of the skin that is nearest to a given point.
 struct SkinPlace {
   std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
-  /// signed distance of the point from the skin; negative: inside
+  /// signed distance of the given point from the skin; negative if the point is inside
   double height = 0;
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();   ///< unit normal, continuous over the skin
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest point on the skin
@@ -47,16 +47,16 @@ class FittedSkin {
   /// A weighted sample of the skin around a point.
   struct Patch {
     std::vector<std::uint32_t> vertices;
-    std::vector<double> weights;  ///< #vertices: area × nearness
-    double reach = 0;
+    std::vector<double> weights;  ///< #vertices: area times a weight that decreases with distance
+    double reach = 0;             ///< distance from the point at which weights become zero
   };
-  /// Returns the skin around a point. Weights decrease with distance and are zero at `reach`. The
-  /// reach is a few millimetres at the skin and grows with the point's distance from the skin.
-  /// Weights and reach are continuous in the point, so neighbouring points get almost the same
-  /// patch.
+  /// Returns the skin around a point, with weights that decrease with distance to zero at `reach`.
+  /// For a point on the skin, the reach is a few millimetres; it grows with the point's distance
+  /// from the skin. Weights and reach are continuous in the point, so neighbouring points get
+  /// almost the same patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
-  /// \param least  Minimum reach of the patch.
-  Patch patch_around(const Eigen::Vector3d& point, double least) const;
+  /// \param min_reach  Minimum reach of the patch.
+  Patch patch_around(const Eigen::Vector3d& point, double min_reach) const;
 
   /// Returns the outward unit normals of a face's vertices, #V by 3.
   Positions normals(const Positions& face) const;
@@ -70,7 +70,7 @@ class FittedSkin {
                        const Eigen::Vector3d& point) const;
 
  private:
-  /// A level of detail of the skin: one vertex for each occupied cell of a grid.
+  /// A level of detail of the skin: one vertex in each occupied cell of a grid.
   struct Level {
     double spacing;
     std::vector<std::uint32_t> vertices;
@@ -79,7 +79,7 @@ class FittedSkin {
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   void add_coarser(double spacing);
-  double reach_at(const Eigen::Vector3d& point, double least) const;
+  double reach_at(const Eigen::Vector3d& point, double min_reach) const;
   void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                    Patch& patch) const;
 
@@ -87,9 +87,9 @@ class FittedSkin {
   Positions mesh_;
   std::vector<std::uint32_t> skin_;
   double mm_;
-  VertexFaces around_;
+  VertexFaces vertex_faces_;
   NormalFans fans_;
-  double side_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
+  double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
   std::vector<double> areas_;
   std::vector<Level> levels_;  ///< from fine to coarse; the spacing doubles from level to level
 };

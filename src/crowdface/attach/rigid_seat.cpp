@@ -38,7 +38,7 @@ RigidSeat::RigidSeat(const FittedSkin& skin, const Positions& points, const Skin
   }
 }
 
-Positions RigidSeat::moved(const RigidMotion& motion) const {
+Positions RigidSeat::moved_points(const RigidMotion& motion) const {
   Positions result(points_.rows(), 3);
   for (Index p = 0; p < points_.rows(); ++p) {
     result.row(p) = motion.apply(row3(points_, p)).transpose();
@@ -46,16 +46,16 @@ Positions RigidSeat::moved(const RigidMotion& motion) const {
   return result;
 }
 
-/// One least-squares step that moves the attachment out of the skin.
-RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
-                                 const std::vector<SkinGaps::Missing>& missing) const {
-  // translation, rotation, growth; the last two are scaled by the radius
+/// Returns `motion` followed by one least-squares step that moves the attachment out of the skin.
+RigidMotion RigidSeat::step_out_of_skin(const RigidMotion& motion,
+                                        const std::vector<SkinGaps::Violation>& missing) const {
+  // translation, rotation and growth; rotation and growth are scaled by the radius
   constexpr std::size_t kUnknowns = 7;
   QuadraticProgram program(kUnknowns);
   const Eigen::Vector3d pivot = motion.apply(middle_);
   const double radius = motion.scale * radius_;
   const double weight = 1 / static_cast<double>(missing.size());
-  for (const SkinGaps::Missing& one : missing) {
+  for (const SkinGaps::Violation& one : missing) {
     const Eigen::Vector3d arm = (motion.apply(row3(points_, one.vertex)) - pivot) / radius;
     const Eigen::Vector3d turned = arm.cross(one.outward);
     const Eigen::Vector3d& n = one.outward;
@@ -69,14 +69,14 @@ RigidMotion RigidSeat::nudge_off(const RigidMotion& motion,
 }
 
 Positions RigidSeat::seat(const Positions& face, const Positions& normals) const {
-  if (socket_.vertices.size() < 3) return moved({});
+  if (socket_.vertices.size() < 3) return moved_points({});
   RigidMotion motion = fit_rigid_motion(skin_.mesh(), face, socket_.vertices, socket_.weights);
   for (int round = 0; round < kSeatRounds; ++round) {
-    const auto missing = gaps_.missing(face, normals, moved(motion));
+    const auto missing = gaps_.violations(face, normals, moved_points(motion));
     if (missing.empty()) break;
-    motion = nudge_off(motion, missing);
+    motion = step_out_of_skin(motion, missing);
   }
-  return moved(motion);
+  return moved_points(motion);
 }
 
 }  // namespace crowdface

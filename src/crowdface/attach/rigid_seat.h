@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Places a rigid attachment on a face. The attachment first gets the best rotation, translation
-/// and scale of the skin near it. A few small rigid motions then reduce how far it penetrates the
-/// skin.
+/// Places a rigid attachment on a face. First, the attachment moves by the rotation, translation
+/// and scale that best fit the motion of the nearby skin. Then a few small rigid motions reduce the
+/// depth by which the attachment penetrates the skin.
 class RigidSeat {
  public:
   /// \param skin    Must outlive this object.
@@ -26,9 +26,9 @@ class RigidSeat {
   Positions seat(const Positions& face, const Positions& normals) const;
 
  private:
-  RigidMotion nudge_off(const RigidMotion& motion,
-                        const std::vector<SkinGaps::Missing>& missing) const;
-  Positions moved(const RigidMotion& motion) const;
+  RigidMotion step_out_of_skin(const RigidMotion& motion,
+                               const std::vector<SkinGaps::Violation>& missing) const;
+  Positions moved_points(const RigidMotion& motion) const;
 
   const FittedSkin& skin_;
   const Positions& points_;

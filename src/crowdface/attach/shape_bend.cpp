@@ -29,12 +29,13 @@ constexpr double kAlong = 1.5;
 constexpr std::size_t kMinNear = 6;
 
 /// A point's nearest skin is ambiguous if different parts of the skin are about equally near. The
-/// test uses a sphere around the point that is kBetweenMm larger than the distance to the nearest
-/// skin: the nearest skin is ambiguous if the sphere contains skin whose distance from it, along
-/// the surface, exceeds kFarther times the sphere's radius.
-constexpr double kBetweenMm = 2, kFarther = 4;
+/// test uses a sphere around the point. Its radius is the distance to the nearest skin plus
+/// kAmbiguousMm. The nearest skin is ambiguous if the sphere also contains skin that is farther than
+/// kFarther radii away from the nearest skin along the surface.
+constexpr double kAmbiguousMm = 2, kFarther = 4;
 
-/// Finds the root of each point on the skin, each from the root of a neighbouring point.
+/// Finds the root of each point of an attachment on the skin, starting the search at the root of a
+/// neighbouring point.
 class Roots {
  public:
   Roots(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
@@ -44,44 +45,45 @@ class Roots {
         normals_(skin.normals(skin.mesh())),
         of_point_(static_cast<std::size_t>(points.rows())),
         is_found_(of_point_.size(), false) {
-    std::vector<Open> nearest(of_point_.size());
+    std::vector<QueueEntry> nearest(of_point_.size());
     parallel_for_each(nearest.size(), [&](std::size_t p) {
       const auto found = skin.grid().nearest(row3(points, p));
       nearest[p] = {false, found.distance, static_cast<std::uint32_t>(p), found.vertex};
     });
     EdgeDistances along(adjacency, skin.mesh());
-    for (Open& at : nearest) at.is_ambiguous = is_ambiguous(at, along);
-    std::vector<Open> starts = nearest;
+    for (QueueEntry& at : nearest) at.is_ambiguous = is_ambiguous(at, along);
+    std::vector<QueueEntry> starts = nearest;
     std::ranges::sort(starts);
     const Adjacency neighbours = build_adjacency(topology);
-    for (const Open& start : starts) {
-      if (!is_found_[start.point]) spread(start, nearest, neighbours);
+    for (const QueueEntry& start : starts) {
+      if (!is_found_[start.point]) grow(start, nearest, neighbours);
     }
   }
   const std::vector<SkinPlace>& of_point() const { return of_point_; }
 
  private:
-  struct Open {
-    /// whether two areas of skin are about equally near (see kBetweenMm), so that the skin vertex
+  struct QueueEntry {
+    /// whether two areas of skin are about equally near (see kAmbiguousMm), so that the skin vertex
     /// of a neighbour is more reliable
     bool is_ambiguous;
     double distance;
     std::uint32_t point, vertex;
 
-    auto operator<=>(const Open&) const = default;  // NOLINT(modernize-use-nullptr)
+    auto operator<=>(const QueueEntry&) const = default;  // NOLINT(modernize-use-nullptr)
   };
 
-  bool is_ambiguous(const Open& at, EdgeDistances& along) const {
-    const double reach = at.distance + kBetweenMm * skin_.mm();
+  bool is_ambiguous(const QueueEntry& at, EdgeDistances& along) const {
+    const double reach = at.distance + kAmbiguousMm * skin_.mm();
     along.search(std::array{at.vertex}, kFarther * reach);
     const Eigen::Vector3d point = row3(points_, at.point);
-    return std::ranges::any_of(skin_.grid().about(point, reach), [&](std::uint32_t v) {
+    return std::ranges::any_of(skin_.grid().vertices_near(point, reach), [&](std::uint32_t v) {
       return (row3(skin_.mesh(), v) - point).norm() < reach && std::isinf(along.distance(v));
     });
   }
 
-  void spread(const Open& start, const std::vector<Open>& nearest, const Adjacency& neighbours) {
-    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  void grow(const QueueEntry& start, const std::vector<QueueEntry>& nearest,
+            const Adjacency& neighbours) {
+    std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;
     open.push(start);
     while (!open.empty()) {
       const auto [is_ambiguous, distance, point, from] = open.top();
@@ -91,7 +93,7 @@ class Roots {
       of_point_[point] = skin_.place_near(skin_.mesh(), normals_, from, row3(points_, point));
       for (const std::uint32_t next : neighbours.of(point)) {
         if (is_found_[next]) continue;
-        Open found = nearest[next];
+        QueueEntry found = nearest[next];
         found.vertex = of_point_[point].vertex;
         open.push(found);
       }
@@ -105,8 +107,8 @@ class Roots {
   std::vector<bool> is_found_;
 };
 
-/// Returns the positions at which a point's patches are selected: its root, or, if the point is
-/// farther than `off` from its root, the point moved towards the root by `off`.
+/// Returns, for each point, the position around which the patch is selected: the point moved
+/// towards its root by `off`, or the root itself if it is nearer than `off`.
 Positions anchors_of(const std::vector<SkinPlace>& roots, const Positions& points, double off) {
   Positions anchors(points.rows(), 3);
   for (std::size_t p = 0; p < roots.size(); ++p) {
@@ -129,31 +131,32 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   const Positions anchors = anchors_of(roots, points, kOffMm * skin.mm());
   const PointGrid grid(anchors, all);
   EdgeDistances along(adjacency, skin.mesh());
-  std::vector<std::vector<BendPlaces::Share>> of_point(all.size());
+  std::vector<std::vector<BendNodes::Share>> of_point(all.size());
   std::vector<bool> covered(all.size(), false);
   for (std::uint32_t p = 0; p < all.size(); ++p) {
     if (covered[p]) continue;
     const Eigen::Vector3d middle = row3(anchors, p);
-    const auto number = static_cast<std::uint32_t>(places_.patches.size());
-    places_.patches.push_back(skin.patch_around(middle, kPatchReachMm * skin.mm()));
-    FittedSkin::Patch& patch = places_.patches.back();
+    const auto number = static_cast<std::uint32_t>(nodes_.patches.size());
+    nodes_.patches.push_back(skin.patch_around(middle, kPatchReachMm * skin.mm()));
+    FittedSkin::Patch& patch = nodes_.patches.back();
     const double near = kAlong * patch.reach;
     along.search(std::array{roots[p].vertex}, near);
-    const double heard = BendPlaces::kHeard * BendPlaces::kApart * patch.reach;
-    for (const std::uint32_t q : grid.about(middle, heard)) {
-      const double distance = (row3(anchors, q) - middle).norm() / heard;
+    const double radius = BendNodes::kInfluence * BendNodes::kNodeSpacing * patch.reach;
+    for (const std::uint32_t q : grid.vertices_near(middle, radius)) {
+      const double distance = (row3(anchors, q) - middle).norm() / radius;
       if (distance >= 1 || along.distance(roots[q].vertex) > near) continue;
       of_point[q].push_back({number, static_cast<float>(biweight(distance))});
-      if (distance * BendPlaces::kHeard < 1) covered[q] = true;
+      if (distance * BendNodes::kInfluence < 1) covered[q] = true;
     }
     covered[p] = true;
-    keep_near(along, near, patch);
+    remove_distant(along, near, patch);
   }
-  for (const auto& shares : of_point) places_.shares.add_group(shares);
+  for (const auto& shares : of_point) nodes_.shares.add_group(shares);
 }
 
-/// Removes vertices that are farther along the surface than `limit`, unless too few would remain.
-void ShapeBend::keep_near(const EdgeDistances& along, double limit, FittedSkin::Patch& patch) {
+/// Removes vertices whose distance along the surface exceeds `limit`, unless too few vertices would
+/// remain.
+void ShapeBend::remove_distant(const EdgeDistances& along, double limit, FittedSkin::Patch& patch) {
   FittedSkin::Patch near{{}, {}, patch.reach};
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
     if (along.distance(patch.vertices[i]) > limit) continue;
@@ -169,26 +172,26 @@ Displacements ShapeBend::shape_displacements(const Positions& face, const Positi
   for (const std::uint32_t v : shape.vertices) is_moved[v] = true;
   Positions acting = face;
   shape.add_to(acting);
-  std::vector<RigidMotion> motions(places_.patches.size());
+  std::vector<RigidMotion> motions(nodes_.patches.size());
   std::vector<bool> affects(motions.size(), false);
   for (std::size_t n = 0; n < motions.size(); ++n) {
-    const FittedSkin::Patch& patch = places_.patches[n];
+    const FittedSkin::Patch& patch = nodes_.patches[n];
     affects[n] = std::ranges::any_of(patch.vertices, [&](std::uint32_t v) { return is_moved[v]; });
     if (affects[n]) motions[n] = fit_rigid_motion(face, acting, patch.vertices, patch.weights);
   }
   Displacements moves;
   moves.moves.resize(placed.rows(), 3);
-  for (std::uint32_t p = 0; p < places_.shares.group_count(); ++p) {
+  for (std::uint32_t p = 0; p < nodes_.shares.group_count(); ++p) {
     const Eigen::Vector3d point = row3(placed, p);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
     bool any = false;
-    for (const BendPlaces::Share& share : places_.shares.of(p)) {
+    for (const BendNodes::Share& share : nodes_.shares.of(p)) {
       const double weight = static_cast<double>(share.weight);
       weights += weight;
-      if (!affects[share.place]) continue;
+      if (!affects[share.node]) continue;
       any = true;
-      sum += weight * (motions[share.place].apply(point) - point);
+      sum += weight * (motions[share.node].apply(point) - point);
     }
     if (!any) continue;
     moves.moves.row(static_cast<Index>(moves.vertices.size())) = (sum / weights).transpose();

@@ -12,11 +12,11 @@ namespace crowdface {
 /// Moves a bending attachment when an expression moves the skin. Like SmoothBend, this class fits
 /// the rotation, translation and scale of patches of skin, but the patches are smaller and contain
 /// only skin that is near along the surface. So a moustache does not follow the lower lip, and a
-/// lash follows the lid it grows on.
+/// lash follows its own lid.
 ///
-/// Each point has a root on the skin. The search for roots walks over the attachment's mesh: it
-/// begins where the mesh is nearest to the skin, and finds each further root near the root of a
-/// neighbouring point.
+/// Each point has a root on the skin. The search for roots begins where the attachment's mesh is
+/// nearest to the skin. It finds each further root near the root of a neighbouring point of the
+/// mesh.
 class ShapeBend {
  public:
   /// \param skin       Must outlive this object.
@@ -36,12 +36,12 @@ class ShapeBend {
   Displacements shape_displacements(const Positions& face, const Positions& placed,
                                     const Displacements& shape) const;
 
-  std::size_t memory_bytes() const { return places_.memory_bytes(); }
+  std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
-  static void keep_near(const EdgeDistances& along, double limit, FittedSkin::Patch& patch);
+  static void remove_distant(const EdgeDistances& along, double limit, FittedSkin::Patch& patch);
 
-  BendPlaces places_;
+  BendNodes nodes_;
 };
 
 }  // namespace crowdface

@@ -18,7 +18,7 @@ constexpr double kFarMm = 25;
 constexpr double kCloseMm = 2, kLooseMm = 6;
 /// Minimum distance of vertices that are not close to the skin.
 constexpr double kMinMm = 2;
-/// Number of times that pushed vertices move their neighbours along.
+/// Number of rounds in which pushed vertices move their neighbours.
 constexpr int kRounds = 8;
 constexpr std::uint32_t kGapsPerBlock = 512;
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
@@ -49,9 +49,10 @@ double SkinGaps::min_height(std::uint32_t point) const {
   return std::min(heights_[point], kMinMm * skin_.mm());
 }
 
-std::vector<SkinGaps::Missing> SkinGaps::missing(const Positions& face, const Positions& normals,
-                                                 const Positions& points) const {
-  std::vector<Missing> all;
+std::vector<SkinGaps::Violation> SkinGaps::violations(const Positions& face,
+                                                      const Positions& normals,
+                                                      const Positions& points) const {
+  std::vector<Violation> all;
   for (std::uint32_t p = 0; p < heights_.size(); ++p) {
     if (heights_[p] == kNowhere || heights_[p] < 0) continue;
     const SkinPlace place = skin_.place_near(face, normals, starts_[p], row3(points, p));
@@ -75,8 +76,8 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
     moves.row(p) = move * place.outward.transpose();
     outward.row(p) = place.outward.transpose();
   });
-  // Where the neighbours are pushed outwards farther on average than the vertex, the vertex gets
-  // their mean movement.
+  // A vertex moves by the mean push of its neighbours, if this mean is larger than the vertex's own
+  // push.
   for (int round = 0; round < kRounds; ++round) {
     const Positions before = moves;
     parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {

@@ -18,8 +18,8 @@ class SkinGaps {
   /// \param points    #P by 3, on the fitted mesh.
   SkinGaps(const FittedSkin& skin, const Topology& topology, const Positions& points);
 
-  /// A vertex that is too near to the skin, or inside.
-  struct Missing {
+  /// A vertex that is too near to the skin or inside the skin.
+  struct Violation {
     std::uint32_t vertex;
     double height;            ///< distance by which the vertex must move outwards
     Eigen::Vector3d outward;  ///< unit normal of the skin
@@ -30,12 +30,12 @@ class SkinGaps {
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
   /// \param points   #P by 3, on the face.
-  std::vector<Missing> missing(const Positions& face, const Positions& normals,
-                               const Positions& points) const;
+  std::vector<Violation> violations(const Positions& face, const Positions& normals,
+                                    const Positions& points) const;
 
-  /// Moves points so that those close to the skin get their original gap, and no point that was
-  /// outside the fitted skin is inside this skin or too near to it. Pushed points move their
-  /// neighbours along.
+  /// Corrects the distances of points from the skin. Points close to the skin get their original
+  /// gap. Points that were outside the fitted skin come out of this skin, to their minimum
+  /// distance. Neighbours of pushed points move too.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
@@ -52,7 +52,7 @@ class SkinGaps {
   std::vector<double> heights_;
   /// #P: a skin vertex near each point, where the search for the nearest skin starts
   std::vector<std::uint32_t> starts_;
-  Adjacency neighbours_;  ///< #P
+  Adjacency neighbours_;  ///< #P: neighbours in the attachment's mesh
 };
 
 }  // namespace crowdface

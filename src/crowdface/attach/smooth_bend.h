@@ -6,11 +6,11 @@
 
 namespace crowdface {
 
-/// Moves points smoothly with the skin beside them (moving least squares, Schaefer et al. 2006,
-/// with similarities). At nodes among the points, the best rotation, translation and scale of the
-/// surrounding skin is fitted; each point gets a weighted mean of these motions. Nodes are denser
-/// near the skin. If the face is the fitted mesh, rotated, translated and scaled, the points
-/// undergo the same motion up to rounding.
+/// Moves points smoothly with the nearby skin (moving least squares, Schaefer et al. 2006, with
+/// similarities). Some points are nodes. The surrounding skin determines the rotation, translation
+/// and scale of each node; each point moves by a weighted mean of the motions of nearby nodes.
+/// Nodes are denser near the skin. If the face is the fitted mesh, rotated, translated and scaled,
+/// the points undergo the same motion up to rounding.
 class SmoothBend {
  public:
   /// \param skin    Must outlive this object.
@@ -21,12 +21,12 @@ class SmoothBend {
   /// \return      Points on the face, #P by 3.
   Positions bend(const Positions& face) const;
 
-  std::size_t memory_bytes() const { return places_.memory_bytes(); }
+  std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
   const FittedSkin& skin_;
   const Positions& points_;
-  BendPlaces places_;
+  BendNodes nodes_;
 };
 
 }  // namespace crowdface

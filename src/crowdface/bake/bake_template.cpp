@@ -18,9 +18,9 @@
 namespace crowdface {
 namespace {
 
-/// Keeps the textures that skin uses, and gives skin without a texture a file without a path for
-/// each material and tile.
-/// \param is_skin  #F
+/// Removes textures that the skin does not use. For skin without a texture, adds a file without a
+/// path for each material and tile.
+/// \param is_skin  #F: whether the face belongs to the skin
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      HeadsTextures& found) {
   AttachmentTextures& placed = found.heads[0];
@@ -89,7 +89,7 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int s
   for (TextureLayout::Picture& picture : layout.pictures) picture = {size, size};
   for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
     if (layout.of_face[f] == kNoIndex) continue;
-    of_material_.try_emplace(materials.names[materials.of_face[f]], layout.of_face[f]);
+    pictures_by_material_.try_emplace(materials.names[materials.of_face[f]], layout.of_face[f]);
   }
   maps_ = read_mesh_maps(own, TextureKind::kColour, topology, file.uvs);
   for (std::uint32_t p = 0; p < pictures.size(); ++p) {
@@ -101,7 +101,7 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int s
 }
 
 void BakeTemplate::place_vertices(const ObjFile& file, const TextureLayout& layout) {
-  vertex_places_.resize(shape_.skin.vertices.size());
+  picture_vertices_.resize(shape_.skin.vertices.size());
   const Topology& topology = file.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t picture = layout.of_face[static_cast<std::size_t>(f)];
@@ -119,8 +119,8 @@ void BakeTemplate::place_vertices(const ObjFile& file, const TextureLayout& layo
     const double area = face_area_vector(topology, f, shape_.positions).norm();
     for (std::size_t c = 0; c < vertices.size(); ++c) {
       const std::uint32_t row = skin_rows_[vertices[c]];
-      if (row == kNotSkin || vertex_places_[row].picture != kNoIndex) continue;
-      vertex_places_[row] = {picture, uv_at(c), area > 0 ? std::sqrt(uv_area / area) : 0};
+      if (row == kNotSkin || picture_vertices_[row].picture != kNoIndex) continue;
+      picture_vertices_[row] = {picture, uv_at(c), area > 0 ? std::sqrt(uv_area / area) : 0};
     }
   }
 }

@@ -14,25 +14,27 @@
 
 namespace crowdface {
 
-/// The template's side of a bake: its texture layout and its own colours. Built once for any number
-/// of scans.
+/// The texture layout and the colours of a template, for baking any number of scans.
 ///
-/// A picture is baked for each texture file of the template that skin uses; skin without a texture
-/// gets one picture for each material and UDIM tile.
+/// Each texture file that the template's skin uses gives a picture. Skin without a texture gets a
+/// picture for each material and UDIM tile.
 class BakeTemplate {
  public:
-  /// \param file, shape  the template; must outlive this object.
-  /// \param size  texels a side of each picture.
+  /// \param file, shape  the file and the shape of the template; must outlive this object.
+  /// \param size  width and height of each picture, in texels.
   /// \throws InvalidInput if the skin has no texture coordinates.
   BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int size);
 
   const WrapTemplate& shape() const { return shape_; }
-  /// #pictures
+  /// #pictures: the name of each picture.
+
   const std::vector<PictureName>& names() const { return names_; }
-  /// The picture of each baked material.
-  const std::map<std::string, std::size_t>& of_material() const { return of_material_; }
+  /// The index of the picture of each baked material.
+  const std::map<std::string, std::size_t>& pictures_by_material() const {
+    return pictures_by_material_;
+  }
   const SurfaceTexels& texels(std::size_t picture) const { return texels_[picture]; }
-  /// The template's texture in the place of a picture; nullptr if there is none.
+  /// The template's own texture that corresponds to a picture; nullptr if there is none.
   const FilteredTexture* texture(std::size_t picture) const { return textures_[picture]; }
   /// Messages about missing or unreadable files of the template.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -42,26 +44,27 @@ class BakeTemplate {
   /// #V: row of the skin of each vertex of the template, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
 
-  /// The place of a vertex in a picture.
-  struct VertexPlace {
+  /// The texture coordinate of a vertex in a picture.
+  struct PictureVertex {
     std::uint32_t picture = kNoIndex;  ///< kNoIndex: the vertex is in no picture
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();
-    double uv_per_mm = 0;  ///< scale of the picture there
+    double uv_per_mm = 0;  ///< scale of the picture at the vertex
   };
-  /// #skin
-  const std::vector<VertexPlace>& vertex_places() const { return vertex_places_; }
+  /// #skin: the texture coordinate of each vertex of the skin.
+
+  const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:
   void place_vertices(const ObjFile& file, const TextureLayout& layout);
 
   const WrapTemplate& shape_;
   std::vector<PictureName> names_;
-  std::map<std::string, std::size_t> of_material_;
+  std::map<std::string, std::size_t> pictures_by_material_;
   std::vector<SurfaceTexels> texels_;
   MeshMaps maps_;
   std::vector<const FilteredTexture*> textures_;  ///< #pictures
   std::vector<std::uint32_t> skin_rows_;
-  std::vector<VertexPlace> vertex_places_;
+  std::vector<PictureVertex> picture_vertices_;
   std::vector<std::string> warnings_;
 };
 

@@ -14,7 +14,7 @@ namespace crowdface {
 namespace {
 
 constexpr int kBlockSide = 4;
-constexpr int kMaxTaps = 6;  ///< lookups per side of the parallelogram
+constexpr int kMaxTaps = 6;  ///< largest number of lookups along a side of the parallelogram
 constexpr int kLevelRows = 16;
 
 std::vector<float> values_of(const MapCoding& coding) {
@@ -29,7 +29,8 @@ std::vector<float> values_of(const MapCoding& coding) {
 constexpr int kLobes = 3;
 using LanczosWeights = std::array<float, 2 * kLobes>;
 
-/// Weights of the six texels around a place (Lanczos; Duchon 1979), by its distance from the third.
+/// Lanczos weights of the six texels around a position (Duchon 1979). \param t distance of the
+/// position from the third texel
 LanczosWeights lanczos(double t) {
   LanczosWeights weights;
   float sum = 0;
@@ -82,7 +83,7 @@ FilteredTexture::FilteredTexture(TextureMap map, std::vector<bool> covered)
   }
 }
 
-Eigen::Array3f FilteredTexture::stored(int x, int y) const {
+Eigen::Array3f FilteredTexture::stored_value(int x, int y) const {
   Eigen::Array3f value;
   for (int c = 0; c < 3; ++c) {
     const int plane = std::min(c, map_.coding.channels - 1);
@@ -97,10 +98,11 @@ Eigen::Array4f FilteredTexture::texel(std::size_t level, int x, int y) const {
     return coarse.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(coarse.width) +
                          static_cast<std::size_t>(x)];
   }
-  return is_covered(x, y) ? with_full_weight(stored(x, y)) : Eigen::Array4f(Eigen::Array4f::Zero());
+  return is_covered(x, y) ? with_full_weight(stored_value(x, y))
+                          : Eigen::Array4f(Eigen::Array4f::Zero());
 }
 
-Eigen::Array4f FilteredTexture::linear(std::size_t level, double x, double y) const {
+Eigen::Array4f FilteredTexture::sample_linear(std::size_t level, double x, double y) const {
   const int width = level > 0 ? levels_[level - 1].width : map_.width;
   const int height = level > 0 ? levels_[level - 1].height : map_.height;
   const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
@@ -118,16 +120,16 @@ Eigen::Array4f FilteredTexture::linear(std::size_t level, double x, double y) co
   return sum;
 }
 
-Eigen::Array4f FilteredTexture::sharp(double x, double y) const {
+Eigen::Array4f FilteredTexture::sample_lanczos(double x, double y) const {
   const auto left = static_cast<int>(std::floor(x - 0.5)) - kLobes + 1;
   const auto top = static_cast<int>(std::floor(y - 0.5)) - kLobes + 1;
   constexpr int kSide = 2 * kLobes;
   if (left < 0 || top < 0 || left + kSide > map_.width || top + kSide > map_.height) {
-    return linear(0, x, y);
+    return sample_linear(0, x, y);
   }
   for (int j = 0; j < kSide; ++j) {
     for (int i = 0; i < kSide; ++i) {
-      if (!is_covered(left + i, top + j)) return linear(0, x, y);
+      if (!is_covered(left + i, top + j)) return sample_linear(0, x, y);
     }
   }
   const LanczosWeights across = lanczos(x - 0.5 - std::floor(x - 0.5));
@@ -136,7 +138,7 @@ Eigen::Array4f FilteredTexture::sharp(double x, double y) const {
   for (int j = 0; j < kSide; ++j) {
     Eigen::Array3f row = Eigen::Array3f::Zero();
     for (int i = 0; i < kSide; ++i) {
-      row += across[static_cast<std::size_t>(i)] * stored(left + i, top + j);
+      row += across[static_cast<std::size_t>(i)] * stored_value(left + i, top + j);
     }
     sum += down[static_cast<std::size_t>(j)] * row;
   }
@@ -144,14 +146,14 @@ Eigen::Array4f FilteredTexture::sharp(double x, double y) const {
   return with_full_weight(sum);
 }
 
-/// The nearest texel, covered or not.
-Eigen::Array3f FilteredTexture::uncovered(double x, double y) const {
-  return stored(static_cast<int>(std::clamp(x, 0.0, map_.width - 1.0)),
-                static_cast<int>(std::clamp(y, 0.0, map_.height - 1.0)));
+/// The value of the nearest texel, covered or not.
+Eigen::Array3f FilteredTexture::nearest_texel(double x, double y) const {
+  return stored_value(static_cast<int>(std::clamp(x, 0.0, map_.width - 1.0)),
+                      static_cast<int>(std::clamp(y, 0.0, map_.height - 1.0)));
 }
 
-Eigen::Array3f FilteredTexture::at(const Eigen::Vector2d& uv, const Eigen::Vector2d& across,
-                                   const Eigen::Vector2d& down) const {
+Eigen::Array3f FilteredTexture::mean_at(const Eigen::Vector2d& uv, const Eigen::Vector2d& across,
+                                        const Eigen::Vector2d& down) const {
   constexpr float kMinCovered = 1e-3F;
   const Eigen::Array2d size(map_.width, map_.height);
   const auto in_texels = [&](const Eigen::Vector2d& side) -> Eigen::Vector2d {
@@ -170,17 +172,17 @@ Eigen::Array3f FilteredTexture::at(const Eigen::Vector2d& uv, const Eigen::Vecto
   const int columns = taps_of(one.norm()), rows = taps_of(other.norm());
   Eigen::Array4f sum = Eigen::Array4f::Zero();
   if (level == 0 && columns == 1 && rows == 1) {
-    sum = sharp(place.x(), place.y());
+    sum = sample_lanczos(place.x(), place.y());
   } else {
     for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < columns; ++i) {
         const Eigen::Vector2d tap =
             place + ((i + 0.5) / columns - 0.5) * one + ((j + 0.5) / rows - 0.5) * other;
-        sum += linear(level, tap.x(), tap.y());
+        sum += sample_linear(level, tap.x(), tap.y());
       }
     }
   }
-  if (sum[3] < kMinCovered) return uncovered(middle.x(), middle.y());
+  if (sum[3] < kMinCovered) return nearest_texel(middle.x(), middle.y());
   return sum.head<3>() / sum[3];
 }
 

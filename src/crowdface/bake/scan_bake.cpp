@@ -20,14 +20,16 @@ namespace {
 
 constexpr Index kVertexBlock = 256;
 constexpr int kTexelRows = 8;
-/// Farther surfaces of the scan are not what the wrapped skin shows.
+/// Largest distance between the wrapped skin and the surface of the scan that gives a texel its
+/// colour.
 constexpr double kReachMm = 3;
-/// The scan's colours fade out over this distance to the edge of its data.
+/// Distance from the edge of the scan's data over which its colours fade out.
 constexpr double kFeatherMm = 3;
-constexpr double kToneMm = 8;  ///< smallest size of differences in tone that holes continue
+/// smallest size of the differences in tone that continue into holes
+constexpr double kToneMm = 8;
 constexpr int kMaxSamples = 4;
 
-/// 0 at `low` and below, 1 at `high` and above.
+/// Smooth function of `value`: 0 up to `low`, 1 from `high` on.
 double smooth_step(double low, double high, double value) {
   const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -54,7 +56,8 @@ Harmonics harmonics_of(const Eigen::Vector3d& n) {
   return values;
 }
 
-/// Mean distance between neighbouring vertices of a scan, in mm, from its mean triangle.
+/// Mean distance between neighbouring vertices of a scan, in mm, estimated from the mean area of
+/// its triangles.
 double spacing_of(const Scan& scan) {
   const double count = static_cast<double>(scan.triangles.size());
   constexpr std::size_t kBlock = 65536;
@@ -86,7 +89,7 @@ ScanBake::ScanBake(const BakeTemplate& target, const Positions& wrapped, const S
     densities -= shading_;
   }
   for (Index v = 0; v < densities.rows(); ++v) {
-    const auto& place = target_.vertex_places()[static_cast<std::size_t>(v)];
+    const auto& place = target_.picture_vertices()[static_cast<std::size_t>(v)];
     if (place.picture == kNoIndex) continue;
     const double side = place.uv_per_mm * edge_length(v);
     densities.row(v) -=
@@ -102,12 +105,13 @@ double ScanBake::edge_length(Index vertex) const {
   return around.empty() ? 0 : sum / static_cast<double>(around.size());
 }
 
-ScanBake::ScanPoint ScanBake::look(const SkinPoint& from, std::uint32_t guess) const {
+ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& from, std::uint32_t guess) const {
   ScanPoint seen;
   ScanSurface::ClosestPoint place =
       surface_.nearest(from.position, from.normal, kMinCosine, kReachMm, guess);
   if (place.triangle == kNoIndex) return seen;
-  // The surface along the normal instead of the closest one: one step of a fixed-point iteration.
+  // Find the surface along the normal, not the closest surface, by one step of a fixed-point
+  // iteration.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
     const double height = (place.point - from.position).dot(from.normal);
@@ -128,7 +132,7 @@ ScanBake::ScanPoint ScanBake::look(const SkinPoint& from, std::uint32_t guess) c
 }
 
 std::optional<Eigen::Vector3d> ScanBake::density_at(const ScanArea& area) const {
-  const auto light = colours_.at(surface_.scan(), area);
+  const auto light = colours_.mean_at(surface_.scan(), area);
   if (!light) return std::nullopt;
   return density_of(*light);
 }
@@ -150,7 +154,7 @@ std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
       const auto row = static_cast<std::size_t>(v);
       const Eigen::Vector3d normal = row3(normals_, v);
       if (normal.isZero()) continue;
-      ScanPoint seen = look({row3(positions_, v), normal, skin.openness[row]}, guess);
+      ScanPoint seen = find_scan_point({row3(positions_, v), normal, skin.openness[row]}, guess);
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
       const auto [one, other] = tangents_of(normal);
@@ -165,7 +169,8 @@ std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
   return confidence;
 }
 
-/// Finds the visible vertices without data, and lets the trust grow with the distance from them.
+/// Computes trust_ from the distance between each vertex and the nearest visible vertex without
+/// data.
 void ScanBake::find_trust(const std::vector<double>& confidence) {
   constexpr double kNone = 0.5;
   const SkinMesh& skin = target_.shape().skin;
@@ -182,8 +187,8 @@ void ScanBake::find_trust(const std::vector<double>& confidence) {
 }
 
 /// Fits the mean density of the channels by spherical harmonics of the normals (light from far away
-/// on a convex surface: Ramamoorthi & Hanrahan 2001), with weights that leave out lips, brows and
-/// hair (iteratively reweighted least squares).
+/// on a convex surface: Ramamoorthi & Hanrahan 2001), by iteratively reweighted least squares,
+/// which gives lips, brows and hair small weights.
 void ScanBake::estimate_shading(const std::vector<double>& confidence, const Positions& densities) {
   constexpr int kRounds = 10;
   const SkinMesh& skin = target_.shape().skin;
@@ -198,7 +203,7 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
                                                      : 0);
   }
   Harmonics fit = Harmonics::Zero(), middle = Harmonics::Zero();
-  double scale = 0;  // 0: all weights as given
+  double scale = 0;  // residual scale of the weights; 0 in the first round: no reweighting
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix<double, 9, 9> matrix = 1e-9 * Eigen::Matrix<double, 9, 9>::Identity();
     Harmonics right = Harmonics::Zero();
@@ -232,7 +237,7 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
 
 void ScanBake::match_tone(const std::vector<double>& confidence, const Positions& differences) {
   const WrapTemplate& shape = target_.shape();
-  // Templates of many vertices are solved on their reduced skin.
+  // For templates with many vertices, solve on the reduced skin.
   std::vector<std::uint32_t> rows(shape.skin.vertices.size());
   for (std::uint32_t v = 0; v < rows.size(); ++v) rows[v] = v;
   const std::vector<std::uint32_t>& used = shape.reduced ? shape.reduced->mesh.vertices : rows;
@@ -282,17 +287,18 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
     trust += middle[k] * trust_[texel.rows[k]];
     open += middle[k] * openness[texel.rows[k]];
   }
-  // Textures are filtered over the texel; colours at vertices are sampled at several points of it.
+  // Textures are filtered over the area of the texel; vertex colours are sampled at several points
+  // of this area.
   const double side = std::max(texel.across.norm(), texel.down.norm());
   const int samples =
-      colours_.at_vertices()
+      colours_.has_vertex_colours()
           ? std::clamp(static_cast<int>(std::lround(side / spacing_mm_)), 1, kMaxSamples)
           : 1;
   for (int j = 0; j < samples && trust > 0; ++j) {
     for (int i = 0; i < samples; ++i) {
       const auto shares = shares_at(x + (i + 0.5) / samples - 0.5, y + (j + 0.5) / samples - 0.5);
-      ScanPoint seen =
-          look({mix(positions_, shares), mix(normals_, shares).normalized(), open}, guess);
+      ScanPoint seen = find_scan_point(
+          {mix(positions_, shares), mix(normals_, shares).normalized(), open}, guess);
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
       seen.area.across = texel.across / samples;

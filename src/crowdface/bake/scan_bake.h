@@ -13,10 +13,12 @@
 namespace crowdface {
 
 struct BakeOptions {
-  /// Removes shading: the part of the brightness that spherical harmonics of the normals explain.
+  /// Whether to remove shading: the part of the brightness that spherical harmonics of the normals
+  /// explain.
   bool delight = false;
 };
 
+/// A baked texture of the template.
 struct BakedPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> srgb;    ///< height by width by 3
@@ -26,12 +28,12 @@ struct BakedPicture {
 
 /// Transfers the colours of a scan to the texture layout of a template that was wrapped onto it.
 ///
-/// Each texel looks along the smooth normal of the wrapped skin for the nearest surface of the scan
-/// that faces the same way, and takes the mean colour over its own area. Where the scan has no
-/// data, or its surface ends, a texel keeps the template's colour, shifted by the difference of
-/// optical densities between scan and template. This difference is continued smoothly into the
-/// holes (a membrane, as Poisson image editing does: Pérez et al. 2003), but over the mesh, so that
-/// it crosses the seams of the texture.
+/// For each texel, the bake searches along the smooth normal of the wrapped skin for the nearest
+/// surface of the scan that faces the same way. The texel takes the mean colour of the scan over
+/// the texel's area. In holes of the scan, a texel keeps the template's colour, shifted by the
+/// difference of optical densities between scan and template. The difference continues smoothly
+/// into holes as a membrane, as in Poisson image editing (Pérez et al. 2003). The membrane lies on
+/// the mesh, so that it crosses the seams of the texture.
 class ScanBake {
  public:
   /// \param wrapped  #V by 3, as `wrap` returns them: in the template's frame, in millimetres.
@@ -44,7 +46,7 @@ class ScanBake {
   BakedPicture picture(std::size_t number) const;
 
  private:
-  /// The point of the scan that a point of the wrapped skin sees along its normal.
+  /// The point of the scan that lies on the normal of a point of the wrapped skin.
   struct ScanPoint {
     ScanArea area;
     double confidence = 0;  ///< 0 to 1
@@ -56,10 +58,10 @@ class ScanBake {
   };
   /// Mean length of the edges at a vertex of the skin.
   double edge_length(Index vertex) const;
-  ScanPoint look(const SkinPoint& from, std::uint32_t guess) const;
-  /// The mean optical density of an area of the scan; nothing if it has no colour.
+  ScanPoint find_scan_point(const SkinPoint& from, std::uint32_t guess) const;
+  /// The mean optical density of an area of the scan; nothing if the area has no colour.
   std::optional<Eigen::Vector3d> density_at(const ScanArea& area) const;
-  /// The template's optical densities; zero if it has no texture.
+  /// The optical densities of the template over a texel; zero if the template has no texture.
   Eigen::Vector3d template_density(std::size_t picture, const Eigen::Vector2d& uv,
                                    const Eigen::Vector2d& across,
                                    const Eigen::Vector2d& down) const;
@@ -73,10 +75,11 @@ class ScanBake {
   /// One texel of a picture.
   struct Texel {
     const SurfaceTexels::Triangle* triangle = nullptr;
-    std::array<std::uint32_t, 3> rows = {};  ///< of the skin
-    Eigen::Vector3d across, down;  ///< change of place to the texel to the right, and below
+    std::array<std::uint32_t, 3> rows = {};  ///< rows of the triangle's corners in the skin
+    Eigen::Vector3d across, down;  ///< vectors to the texel to the right and to the texel below
   };
-  /// The colour of a texel of the skin, as optical densities, and its share that is filled.
+  /// The colour of a texel of the skin, as optical densities, and the share of this colour that
+  /// does not come from the scan.
   struct Colour {
     Eigen::Vector3d density = Eigen::Vector3d::Zero();
     double filled = 1;

@@ -30,7 +30,7 @@ TextureMap map_of(const Image& image, TextureKind kind) {
   return make_texture_map(image.width, image.height, slopes_of(image), MapCoding::slopes());
 }
 
-/// #texels of a picture: whether a polygon with this file covers the centre.
+/// #texels of a picture: whether a polygon that uses this file covers the texel's centre.
 std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, int height,
                            const Topology& topology, const TextureCoordinates& uvs) {
   std::vector<bool> covered(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -38,7 +38,7 @@ std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, 
     if (maps.of_face[static_cast<std::size_t>(f)] != file) continue;
     const auto corners = topology.face_uvs(f);
     if (std::ranges::count(corners, kNoIndex) > 0) continue;
-    const auto& tile = maps.tile[static_cast<std::size_t>(f)];
+    const auto& tile = maps.tiles[static_cast<std::size_t>(f)];
     const auto at = [&](std::size_t corner) -> Eigen::Vector2d {
       const auto uv = uvs.row(corners[corner]);
       return {(uv[0] - tile[0]) * width, (1 - (uv[1] - tile[1])) * height};
@@ -53,7 +53,8 @@ std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, 
   return covered;
 }
 
-/// The unit square in which a polygon's texture coordinates are centred: textures repeat.
+/// The lower corner of the unit square that contains the centre of a polygon's texture coordinates.
+/// Textures repeat in each unit square.
 std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
                                       const TextureCoordinates& uvs) {
   constexpr double kFarthest = 1e6;
@@ -75,10 +76,10 @@ MeshMaps read_mesh_maps(const AttachmentTextures& placed, TextureKind kind,
   MeshMaps maps;
   maps.of_face = placed.of_face;
   if (placed.files.empty()) return maps;
-  maps.tile.resize(static_cast<std::size_t>(topology.face_count()));
+  maps.tiles.resize(static_cast<std::size_t>(topology.face_count()));
   constexpr Index kBlock = 16384;
   parallel_for_each(topology.face_count(), kBlock, [&](Index f) {
-    maps.tile[static_cast<std::size_t>(f)] = square_of(topology.face_uvs(f), uvs);
+    maps.tiles[static_cast<std::size_t>(f)] = square_of(topology.face_uvs(f), uvs);
   });
   maps.files.resize(placed.files.size());
   parallel_for_each(placed.files.size(), [&](std::size_t i) {
@@ -94,14 +95,14 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
   faces_.topology = std::move(mesh.topology);
   faces_.uvs = std::move(mesh.uvs);
   const Topology& topology = faces_.topology;
-  // The triangles in the order of triangles_of.
+  // List the source of each triangle, in the order of triangles_of.
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto [begin, end] = topology.corners(f);
     for (std::uint32_t c = begin + 1; c + 1 < end; ++c) {
       sources_.push_back({static_cast<std::uint32_t>(f), begin, c, c + 1});
     }
   }
-  // Textures: files that material files name, or files inside the mesh file.
+  // Read textures: files that material files name, or files inside the mesh file.
   const ScratchFolder scratch;
   for (MaterialRange& range : mesh.materials) range.name = material_name_of(range.name);
   ObjFile named;
@@ -121,7 +122,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
       paths_.push_back(texture.path);
     }
   }
-  // Colours of vertices and of materials.
+  // Read colours of vertices and of materials.
   if (mesh.colours.rows() > 0) light_ = linear_light(byte_colours(mesh.colours));
   FaceMaterials materials = face_materials(mesh.materials, topology.face_count());
   const std::vector<SurfaceMaterial> looks =
@@ -133,25 +134,26 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     material_light_.push_back(colour);
   }
   material_ = std::move(materials.of_face);
-  any_ = !colours_.files.empty() || at_vertices() ||
-         std::ranges::any_of(material_light_, [](const auto& light) { return light.has_value(); });
+  has_colours_ =
+      !colours_.files.empty() || has_vertex_colours() ||
+      std::ranges::any_of(material_light_, [](const auto& light) { return light.has_value(); });
 }
 
-std::optional<Eigen::Array3f> ScanColours::at(const Scan& scan, const ScanArea& area) const {
+std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanArea& area) const {
   const Source& source = sources_[scan.sources[area.triangle]];
   const std::uint32_t file = colours_.of_face.empty() ? kNoIndex : colours_.of_face[source.face];
   if (file != kNoIndex) {
     const auto& rows = faces_.topology.corner_uvs;
     if (rows[source.first] != kNoIndex && rows[source.second] != kNoIndex &&
         rows[source.third] != kNoIndex) {
-      const auto& tile = colours_.tile[source.face];
+      const auto& tile = colours_.tiles[source.face];
       const auto uv_of = [&](std::uint32_t corner) -> Eigen::Vector2d {
         return faces_.uvs.row(rows[corner]).transpose();
       };
       const Eigen::Vector2d first = uv_of(source.first);
       const Eigen::Vector2d second = uv_of(source.second) - first;
       const Eigen::Vector2d third = uv_of(source.third) - first;
-      // A direction in space as a direction in the triangle's plane (least squares).
+      // Express a direction in space by the two edges of the triangle (least squares).
       const Triangle& corners = scan.triangles[area.triangle];
       const Eigen::Vector3d at = row3(scan.positions, corners[0]);
       const Eigen::Vector3d one = row3(scan.positions, corners[1]) - at;
@@ -164,11 +166,11 @@ std::optional<Eigen::Array3f> ScanColours::at(const Scan& scan, const ScanArea& 
         return ((bb * a - ab * b) * second + (aa * b - ab * a) * third) / det;
       };
       const Eigen::Vector2d uv = first + area.shares[1] * second + area.shares[2] * third;
-      return colours_.files[file]->at(uv - Eigen::Vector2d(tile[0], tile[1]), in_uv(area.across),
-                                      in_uv(area.down));
+      return colours_.files[file]->mean_at(uv - Eigen::Vector2d(tile[0], tile[1]),
+                                           in_uv(area.across), in_uv(area.down));
     }
   }
-  if (at_vertices()) {
+  if (has_vertex_colours()) {
     const auto& vertices = faces_.topology.corner_vertices;
     const Eigen::Vector3d light = area.shares[0] * row3(light_, vertices[source.first]) +
                                   area.shares[1] * row3(light_, vertices[source.second]) +
@@ -181,13 +183,13 @@ std::optional<Eigen::Array3f> ScanColours::at(const Scan& scan, const ScanArea& 
 }
 
 ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
-  if (!colours.any()) return {};
+  if (!colours.has_colours()) return {};
   constexpr float kUnknown = 0.3F;
   ColourRows rows(scan.positions.rows(), 3);
   std::vector<bool> is_done(static_cast<std::size_t>(rows.rows()), false);
   for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
     const Triangle& corners = scan.triangles[t];
-    // The mean over half a triangle: the page shows fewer vertices than the texture has texels.
+    // Take the mean over half a triangle, because vertices are farther apart than texels.
     const Eigen::Vector3d first = row3(scan.positions, corners[0]);
     ScanArea area{static_cast<std::uint32_t>(t),
                   {},
@@ -199,7 +201,7 @@ ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
       area.shares = {};
       area.shares[c] = 1;
       const Eigen::Array3f light =
-          colours.at(scan, area).value_or(Eigen::Array3f::Constant(kUnknown));
+          colours.mean_at(scan, area).value_or(Eigen::Array3f::Constant(kUnknown));
       for (int k = 0; k < 3; ++k) {
         rows(corners[c], k) =
             static_cast<std::uint8_t>(std::lround(255 * srgb_of_linear(light[k])));

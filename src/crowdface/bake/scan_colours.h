@@ -17,45 +17,45 @@
 
 namespace crowdface {
 
-/// The textures of one kind that the polygons of a mesh use.
+/// The textures of one kind, such as colour, that the polygons of a mesh use.
 struct MeshMaps {
   std::vector<std::unique_ptr<const FilteredTexture>> files;
-  std::vector<std::uint32_t> of_face;             ///< #F, index into `files` or kNoIndex; or empty
-  std::vector<std::array<std::int32_t, 2>> tile;  ///< #F: lower corner of the polygon's unit square
+  std::vector<std::uint32_t> of_face;  ///< #F, index into `files` or kNoIndex; or empty
+  std::vector<std::array<std::int32_t, 2>>
+      tiles;  ///< #F: lower corner of the polygon's unit square
 };
 
-/// Reads the textures that `placed` names and marks the texels that the polygons cover.
+/// Reads the textures in `placed`, and marks the texels that the polygons cover.
 /// \throws InvalidInput naming a damaged file.
 MeshMaps read_mesh_maps(const AttachmentTextures& placed, TextureKind kind,
                         const Topology& topology, const TextureCoordinates& uvs);
 
 /// A point of a scan, and the area around it that one texel shows.
 struct ScanArea {
-  std::uint32_t triangle = 0;         ///< of the scan
+  std::uint32_t triangle = 0;         ///< index of a triangle of the scan
   std::array<double, 3> shares = {};  ///< barycentric coordinates of the point
-  /// The change of place from the texel to its right and to its lower neighbour, in the scan's
-  /// frame.
+  /// Vectors from the texel to its right neighbour and to its lower neighbour, in the scan's frame.
   Eigen::Vector3d across, down;
 };
 
-/// The colours of a scan: of textures, of vertices, or of whole materials, in this order.
+/// The colours of a scan. They come from textures, else from vertices, else from whole materials.
 class ScanColours {
  public:
   /// \param mesh  the file's mesh; its positions are not used.
-  /// \param file  of the mesh.
+  /// \param file  path of the mesh file.
   ScanColours(FileMesh mesh, const std::filesystem::path& file);
 
-  /// Whether any polygon has a colour.
-  bool any() const { return any_; }
-  bool at_vertices() const { return light_.rows() > 0; }
+  /// Whether at least one polygon has a colour.
+  bool has_colours() const { return has_colours_; }
+  bool has_vertex_colours() const { return light_.rows() > 0; }
   /// Messages about missing or unreadable files.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// The texture files that are used.
+  /// The paths of the texture files that give colours.
   const std::vector<std::filesystem::path>& files() const { return paths_; }
 
-  /// The mean colour of an area in linear light; nothing if its polygon has no colour.
-  /// \param scan  made from the file; in any frame.
-  std::optional<Eigen::Array3f> at(const Scan& scan, const ScanArea& area) const;
+  /// Returns the mean colour of an area in linear light; nothing if the polygon has no colour.
+  /// \param scan  the scan that was made from the file, in any frame.
+  std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:
   struct Source {
@@ -70,10 +70,11 @@ class ScanColours {
   std::vector<std::uint32_t> material_;                              ///< #F; or empty
   std::vector<std::filesystem::path> paths_;
   std::vector<std::string> warnings_;
-  bool any_ = false;
+  bool has_colours_ = false;
 };
 
-/// The colours at the vertices of a scan; grey where a polygon has none. No rows if the scan has no colours.
+/// The colours at the vertices of a scan, grey where a polygon has no colour. No rows if the scan
+/// has no colours.
 ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours);
 
 }  // namespace crowdface

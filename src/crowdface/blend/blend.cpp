@@ -15,7 +15,7 @@ const Positions& positions_of(const HeadSet& faces, Index head) {
 struct SmoothedBand {
   Index region = 0;
   const BandRecipe* band = nullptr;
-  bool first = false;  ///< whether this is the coarsest band of its region
+  bool is_coarsest = false;  ///< whether this is the coarsest band of its region
 };
 
 std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
@@ -28,16 +28,16 @@ std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
   return bands;
 }
 
-/// G_kb of level_shares for all bands of all regions, side by side: #V by 3·#bands. With one band
-/// per region this is D_k = B − e_k Σ_i ω̂_ki C_i.
-Columns coarser_less_finer(const HeadSet& faces, const std::vector<SmoothedBand>& bands,
-                           const Positions& target) {
+/// The differences G_kb of level_shares for all bands of all regions, side by side: #V by 3·#bands.
+/// With one band per region, they are D_k = B − e_k Σ_i ω̂_ki C_i.
+Columns band_differences(const HeadSet& faces, const std::vector<SmoothedBand>& bands,
+                         const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));
   parallel_blocks(target.rows(), kRowBlock, [&](Index begin, Index end) {
     Positions coarser;
     for (std::size_t i = 0; i < bands.size(); ++i) {
       const BandRecipe& band = *bands[i].band;
-      if (bands[i].first) coarser = target.middleRows(begin, end - begin);
+      if (bands[i].is_coarsest) coarser = target.middleRows(begin, end - begin);
       Positions mean = Positions::Zero(end - begin, 3);
       for (const SourceWeight& source : band.weights) {
         mean +=
@@ -68,13 +68,13 @@ void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const Regi
     require_fit(faces, regions, *recipe);
     results[f] = target_positions(faces, *recipe);
     bands.push_back(bands_of(*recipe));
-    differences.push_back(coarser_less_finer(faces, bands.back(), results[f]));
+    differences.push_back(band_differences(faces, bands.back(), results[f]));
     for (std::size_t b = 0; b < bands[f].size(); ++b) {
       inputs.push_back({filter.rows_of<double>(differences.back(), static_cast<Index>(b)),
                         {power_series(filter.kind(), bands[f][b].band->iterations)}});
     }
   }
-  // Smooth the differences of all bands of all faces in one pass.
+  // Smooth the band differences of all faces in one filter pass.
   const auto smoothed = filter.run<double>(inputs);
   const auto* of_face = smoothed.data();
   for (std::size_t f = 0; f < recipes.size(); of_face += bands[f].size(), ++f) {

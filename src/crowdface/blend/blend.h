@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Returns B, #V by 3: the target's positions, or for a mixture the weighted mean of its heads.
+/// Returns B, #V by 3: the positions of the target, or the weighted mean of the heads of a mixture.
 Positions target_positions(const HeadSet& faces, const Recipe& recipe);
 
 /// Blends the face of a recipe with exact levels, before mirroring (Eq. 7 in the form below;
@@ -21,14 +21,15 @@ Positions target_positions(const HeadSet& faces, const Recipe& recipe);
 ///
 /// The right-hand form keeps a vertex bit-identical to B if the vertex is fixed or if D_k = 0 there
 /// (the target blended with itself). For a mixture, B is the weighted mean of its heads.
-/// \param regions  α, #V by #regions, rows summing to one; as many regions as the recipe has.
+/// \param regions  α, #V by #regions, rows summing to one; the regions of the recipe.
 /// \return         #V by 3, in the unit of the heads.
 /// \throws BrokenPrecondition if recipe, regions and heads do not fit together.
 Positions blend_exact(const HeadSet& faces, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe);
 
-/// Blends several faces in one filter pass; bit-identical to blending them one by one.
-/// \param results  one for each recipe.
+/// Blends several faces in one filter pass. The results are bit-identical to blending the faces one
+/// by one.
+/// \param results  receives the positions for each recipe.
 void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results);
 

@@ -23,7 +23,7 @@ bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
          a.extrapolation == b.extrapolation;
 }
 
-/// Whether two region recipes contribute the same to faces with the same target.
+/// Whether two region recipes give the same result for faces with the same target.
 bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
   if (band_count(a) != band_count(b)) return false;
   for (std::size_t i = 0; i < band_count(a); ++i) {
@@ -36,12 +36,12 @@ bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
 class AlignedFloats {
  public:
   /// Resizes the buffer; its content becomes unspecified.
-  float* sized(std::size_t count) {
+  float* resize(std::size_t count) {
     lines_.resize(count / kPatchStep + 1);
     return lines_.front().values;
   }
   float* zeros(std::size_t count) {
-    float* values = sized(count);
+    float* values = resize(count);
     std::fill_n(values, count, 0.0F);
     return values;
   }
@@ -88,9 +88,9 @@ void CrowdBlender::find_regions() {
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
   std::vector<double> sums(field_count(), 0.0);
   for (const LevelShares& at : level_shares(recipe, region)) {
-    // For a head that is both target and source, or lends to adjacent bands, add up the weights
-    // before multiplying by the functions: weights that cancel then give exactly zero, so that a
-    // target blended with itself is unchanged.
+    // A head may be both target and source, or lend to adjacent bands. Add its weights before
+    // multiplying by the functions, so that weights that cancel give exactly zero and a target
+    // blended with itself does not change.
     std::vector<double> shares(levels_.size(), 0.0);
     for (const SourceWeight& part : at.shares) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
@@ -106,7 +106,7 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   return {sums.begin(), sums.end()};
 }
 
-/// Faces that are blended together, with the coefficients of all heads' fields in each.
+/// Faces that are blended together, with the coefficients of all heads' fields for each face.
 class CrowdBlender::Crowd {
  public:
   Crowd(const CrowdBlender& blender, std::span<const Recipe* const> recipes,
@@ -118,12 +118,12 @@ class CrowdBlender::Crowd {
       coefficients_[i] = blender.coefficients(*recipes[i % recipes.size()], i / recipes.size());
     });
     used_.resize(regions);
-    used_by_some_.assign(regions, Used(blender.field_count()));
+    used_by_any_face_.assign(regions, NonzeroFlags(blender.field_count()));
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       const std::size_t region = i / recipes.size(), face = i % recipes.size();
       if (face % kColumns == 0) used_[region].emplace_back(blender.field_count());
       for (std::size_t f = 0; f < blender.field_count(); ++f) {
-        if (coefficients_[i][f] != 0) used_[region].back()[f] = used_by_some_[region][f] = 1;
+        if (coefficients_[i][f] != 0) used_[region].back()[f] = used_by_any_face_[region][f] = 1;
       }
     }
     for (const Recipe* recipe : recipes) {
@@ -142,22 +142,23 @@ class CrowdBlender::Crowd {
   }
   /// Whether the field has a non-zero coefficient in any face.
   bool uses(std::size_t region, std::size_t field) const {
-    return used_by_some_[region][field] != 0;
+    return used_by_any_face_[region][field] != 0;
   }
-  /// Heads that are the target, or in the mixture, of any of the faces.
+  /// The heads that at least one face has as target or in its mixture.
   const std::set<Index>& targets() const { return targets_; }
 
  private:
   std::span<const Recipe* const> recipes_;
   std::span<Positions> results_;
-  using Used = std::vector<std::uint8_t>;  ///< for each field: whether its coefficient is non-zero
+  using NonzeroFlags =
+      std::vector<std::uint8_t>;  ///< for each field: whether its coefficient is non-zero
   std::vector<std::vector<float>> coefficients_;  ///< #regions by #faces
-  std::vector<std::vector<Used>> used_;           ///< #regions by #faces/kColumns
-  std::vector<Used> used_by_some_;                ///< #regions
+  std::vector<std::vector<NonzeroFlags>> used_;   ///< #regions by #faces/kColumns
+  std::vector<NonzeroFlags> used_by_any_face_;    ///< #regions
   std::set<Index> targets_;
 };
 
-/// Blends all faces at one patch after another. Each thread needs its own instance.
+/// Blends all faces patch by patch. Each thread needs its own instance.
 class CrowdBlender::PatchBlender {
  public:
   /// \param blender, crowd  must outlive this object.
@@ -170,14 +171,14 @@ class CrowdBlender::PatchBlender {
     regions_ = blender_.regions_at(patch);
     find_runs();
     fetch_targets();
-    added_ = added_values_.zeros(crowd_.size() * kPatchValues);
-    at_skeleton_ = skeleton_values_.sized(kColumns * patch_.values());
+    vertex_sums_ = added_values_.zeros(crowd_.size() * kPatchValues);
+    skeleton_sums_ = skeleton_values_.resize(kColumns * patch_.values());
     if (patch_.skeleton > 0) {
       find_fields();
       if (crowd_.size() == 1) {
-        add_to_one();
+        add_to_single_face();
       } else {
-        add_to_all();
+        add_to_all_faces();
       }
     }
     write();
@@ -193,10 +194,10 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Used for a single face, where unpacking the quantized values would take longer than it saves:
-  /// multiplies the quantized values directly, for several regions at once. The quantization steps
-  /// are multiplied into the coefficients.
-  void add_to_one() {
+  /// Adds the products to a single face. Multiplies the quantized values directly, for several
+  /// regions at once, because unpacking would take longer than it saves. The coefficients include
+  /// the quantization steps.
+  void add_to_single_face() {
     for (std::size_t first = 0; first < regions_.size(); first += kColumns) {
       const auto regions = regions_.subspan(first, std::min(kColumns, regions_.size() - first));
       used_.clear();
@@ -205,30 +206,30 @@ class CrowdBlender::PatchBlender {
         if (std::ranges::any_of(regions, uses)) used_.push_back(row);
       }
       if (used_.empty()) continue;
-      in_steps_.resize(regions.size() * fields_.size());
+      scaled_coefficients_.resize(regions.size() * fields_.size());
       for (std::size_t k = 0; k < regions.size(); ++k) {
         const float* coefficients = crowd_.coefficients(regions[k], 0);
-        float* in_steps = in_steps_.data() + k * fields_.size();
-        columns_[k] = in_steps;
-        products_[k] = at_skeleton_ + k * patch_.values();
+        float* scaled = scaled_coefficients_.data() + k * fields_.size();
+        columns_[k] = scaled;
+        products_[k] = skeleton_sums_ + k * patch_.values();
         for (const std::uint32_t row : used_) {
-          in_steps[row] = coefficients[fields_[row]] * patch_.steps[row];
+          scaled[row] = coefficients[fields_[row]] * patch_.steps[row];
         }
       }
       multiply(ProductRows<std::int16_t>{patch_.numbers, patch_.values(), patch_.values(), used_},
                std::span(columns_).first(regions.size()),
                std::span(products_).first(regions.size()));
       for (std::size_t k = 0; k < regions.size(); ++k) {
-        spread_alpha(regions[k]);
-        add_at_vertices(at_skeleton_ + k * patch_.values(), 0, 1);
+        copy_alpha(regions[k]);
+        add_at_vertices(skeleton_sums_ + k * patch_.values(), 0, 1);
       }
     }
   }
 
-  /// Used for several faces: unpacks the fields once and multiplies them by the coefficients of
-  /// kColumns faces at a time.
-  void add_to_all() {
-    float* unpacked = unpacked_values_.sized(blender_.field_count() * patch_.values());
+  /// Adds the products to several faces. Unpacks the fields once, and multiplies them by the
+  /// coefficients of kColumns faces at a time.
+  void add_to_all_faces() {
+    float* unpacked = unpacked_values_.resize(blender_.field_count() * patch_.values());
     for (std::size_t row = 0; row < fields_.size(); ++row) {
       const auto uses = [&](std::uint32_t k) { return crowd_.uses(k, fields_[row]); };
       if (std::ranges::none_of(regions_, uses)) continue;
@@ -236,7 +237,7 @@ class CrowdBlender::PatchBlender {
              unpacked + fields_[row] * patch_.values());
     }
     for (const std::uint32_t region : regions_) {
-      spread_alpha(region);
+      copy_alpha(region);
       for (std::size_t first = 0; first < crowd_.size(); first += kColumns) {
         used_.clear();
         for (const std::uint32_t field : fields_) {
@@ -246,17 +247,17 @@ class CrowdBlender::PatchBlender {
         const std::size_t count = std::min(kColumns, crowd_.size() - first);
         for (std::size_t face = 0; face < count; ++face) {
           columns_[face] = crowd_.coefficients(region, first + face);
-          products_[face] = at_skeleton_ + face * patch_.values();
+          products_[face] = skeleton_sums_ + face * patch_.values();
         }
         multiply(ProductRows<float>{unpacked, patch_.values(), patch_.values(), used_},
                  std::span(columns_).first(count), std::span(products_).first(count));
-        add_at_vertices(at_skeleton_, first, count);
+        add_at_vertices(skeleton_sums_, first, count);
       }
     }
   }
 
   /// Copies α of a region at the patch's vertices to alpha_.
-  void spread_alpha(std::uint32_t region) {
+  void copy_alpha(std::uint32_t region) {
     for (std::size_t i = 0; i < patch_.vertices.size(); ++i) {
       alpha_[i] = static_cast<float>(blender_.regions_.alpha(patch_.vertices[i], region));
     }
@@ -266,7 +267,7 @@ class CrowdBlender::PatchBlender {
   /// adds them to the faces (Eq. 7).
   /// \param at_skeleton  `count` by values(): x of all skeleton vertices, then y, then z.
   void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
-    float* added = added_ + first_face * kPatchValues;
+    float* added = vertex_sums_ + first_face * kPatchValues;
     const auto coordinate = [&](std::size_t i) {  // i-th coordinate of all faces, face by face
       return at_skeleton + i / kCoordinates * patch_.values() + i % kCoordinates * patch_.skeleton;
     };
@@ -332,7 +333,7 @@ class CrowdBlender::PatchBlender {
           }
         }
       }
-      write_sums(runs_, base->data(), added_ + face * kPatchValues, result.data());
+      write_sums(runs_, base->data(), vertex_sums_ + face * kPatchValues, result.data());
     }
   }
 
@@ -341,11 +342,11 @@ class CrowdBlender::PatchBlender {
   FieldPatch patch_;
   std::span<const std::uint32_t> regions_;
   std::vector<std::uint32_t> fields_, used_;
-  std::vector<float> in_steps_;  ///< coefficients times quantization steps
+  std::vector<float> scaled_coefficients_;  ///< coefficients times quantization steps
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
-  float* at_skeleton_ = nullptr;  ///< kColumns by values(): sums at the skeleton
-  float* added_ = nullptr;        ///< #faces by 3 by kPatchVertices: sums at the vertices
+  float* skeleton_sums_ = nullptr;  ///< kColumns by values(): sums at the skeleton
+  float* vertex_sums_ = nullptr;    ///< #faces by 3 by kPatchVertices: sums at the vertices
   std::array<const float*, kColumns> columns_{};
   std::array<float*, kColumns> products_{};
   std::array<std::uint32_t, kPatchVertices> all_of_skeleton_{};

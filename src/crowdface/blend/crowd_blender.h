@@ -16,21 +16,21 @@ namespace crowdface {
 ///
 ///     A = B + Σ_k α_k Σ_h Σ_p [ Σ_L s_kLh φ_hp(L) ] c_hp
 ///
-/// The weights s_kLh come from level_shares; with one band s_kh = τ_h − e_k ω̂_kh at level L_k. The
-/// formula follows from Eq. 7 by C − S̃_L C = −Σ_p φ_p c_p(C).
+/// The weights s_kLh come from level_shares; with one band, the weight at level L_k is s_kh = τ_h −
+/// e_k ω̂_kh. The formula follows from Eq. 7 by C − S̃_L C = −Σ_p φ_p c_p(C).
 ///
-/// For M faces and each region of a patch this is two matrix products. The first multiplies the
-/// fields of all heads at the patch's skeleton by a matrix of M columns of coefficients. The second
-/// multiplies the skeleton's interpolation weights by that result. All M faces share the cost of
-/// reading the fields.
+/// For M faces, each region of a patch takes two matrix products. The first product multiplies the
+/// fields of all heads at the patch's skeleton by a matrix with M columns of coefficients. The
+/// second product multiplies the skeleton's interpolation weights by the result of the first. All M
+/// faces share the cost of reading the fields.
 ///
-/// A face is bit-identical whichever faces are blended with it, on any number of threads and with
-/// any instruction set. A face whose coefficients are all zero (the target blended with itself) is
-/// bit-identical to its target. All const methods may run concurrently.
+/// The bits of a face do not depend on the faces that are blended with it, the number of threads or
+/// the instruction set. A face whose coefficients are all zero (the target blended with itself) is
+/// bit-identical to the target. All const methods may run concurrently.
 class CrowdBlender {
  public:
   /// \param faces           must outlive this object.
-  /// \param levels          one for each head.
+  /// \param levels          #heads: the fitted levels of each head.
   /// \param patches         the fields of all heads, compressed.
   /// \param regions         α, #V by #regions, rows summing to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
@@ -38,14 +38,14 @@ class CrowdBlender {
                const RegionWeights& regions);
 
   /// Blends the faces of the recipes, #V by 3 each, in the unit of the heads.
-  /// \param results  one for each recipe; their memory is reused.
+  /// \param results  receives the positions for each recipe. The function reuses their memory.
   /// \throws BrokenPrecondition if a recipe does not fit the heads or the regions.
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions blend(const Recipe& recipe) const;
 
-  /// Changes a face that was blended from one recipe into the face of another recipe. The result is
-  /// bit-identical to `blend`. Recomputes only the patches that a changed region covers, or all
-  /// patches if the target changed.
+  /// Changes a face that was blended from the recipe `before` into the face of the recipe `after`.
+  /// The result is bit-identical to `blend(after)`. Recomputes only the patches that a changed
+  /// region covers, or all patches if the target changed.
   /// \param face  #V by 3, the result of `blend` for `before`.
   void change(const Recipe& before, const Recipe& after, Positions& face) const;
 
@@ -59,7 +59,7 @@ class CrowdBlender {
     return std::span(patch_regions_)
         .subspan(first_region_[patch], first_region_[patch + 1] - first_region_[patch]);
   }
-  /// The coefficients of all heads' fields in one region of a face: Σ_L s_kLh φ_hp(L).
+  /// Returns the coefficients Σ_L s_kLh φ_hp(L) of all heads' fields in one region of a face.
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
   /// Blends the patches for which wanted(patch) is true.
   template <class Wanted>

@@ -41,7 +41,8 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
   return hn::LoadU(lanes, values);
 }
 
-/// Computes kVectors vectors of each product, from element `begin` on, with all sums in registers.
+/// Computes kVectors vectors of each product, starting at element `begin`. All sums stay in
+/// registers.
 /// \param alpha  null: stores the products; otherwise adds alpha·products to `products`.
 template <std::size_t kOfColumns, std::size_t kVectors, class Number>
 HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* const* columns,

@@ -7,11 +7,11 @@
 
 namespace crowdface {
 
-/// Number of columns per call of a matrix product. The sums of six columns and two vectors of
+/// Largest number of columns in a matrix product. The sums for six columns and two vectors of
 /// values just fit into the vector registers.
 inline constexpr std::size_t kColumns = 6;
 
-/// values[i] = numbers[i]·step.
+/// Converts quantized numbers to values: values[i] = numbers[i]·step.
 /// \param count  a multiple of kPatchStep.
 void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values);
 
@@ -26,7 +26,7 @@ struct ProductRows {
 
 /// products[c][i] = Σ_r columns[c][r]·values[r·stride + i] over the used rows, by fused
 /// multiply-add.
-/// \param columns, products  1 to kColumns.
+/// \param columns, products  equally many, 1 to kColumns.
 void multiply(const ProductRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 void multiply(const ProductRows<std::int16_t>& rows, std::span<const float* const> columns,
@@ -42,10 +42,10 @@ struct VertexRun {
   std::uint32_t count = 0;
 };
 
-/// results = base + added at the vertices of the runs. Uses streaming stores, which bypass the
-/// caches: a crowd's faces are far larger than the caches, and a cached store would first read the
-/// line it overwrites. Before another thread may read the results, the writing thread must call
-/// finish_writing().
+/// Writes results = base + added at the vertices of the runs. Uses streaming stores, which bypass
+/// the caches. A crowd's faces are far larger than the caches, and a cached store would first read
+/// the line that it overwrites. Before another thread may read the results, the writing thread must
+/// call finish_writing().
 /// \param base, results  #V by 3; may be the same array.
 /// \param added          3 by kPatchVertices: x of all vertices of the runs, then y, then z.
 void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,

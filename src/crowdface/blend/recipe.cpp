@@ -17,7 +17,8 @@ void divide_by_sum(std::vector<SourceWeight>& weights, double extra = 0) {
   for (SourceWeight& source : weights) source.weight /= sum;
 }
 
-/// Keeps the `count` largest weights, by ascending head; of equal weights, the first.
+/// Keeps the `count` largest weights, in the order of the heads. Of equal weights, the first are
+/// kept.
 void keep_largest(std::vector<SourceWeight>& weights, std::size_t count) {
   if (weights.size() <= count) return;
   std::stable_sort(weights.begin(), weights.end(),

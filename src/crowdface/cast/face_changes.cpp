@@ -98,7 +98,7 @@ class Changing {
   void apply(const AppliedChange& applied) {
     const FaceChange& change = applied.change;
     min_distance_mm_ = applied.min_distance_mm;
-    changed_.traits = with_own(changed_.traits, change.traits);
+    changed_.traits = merge_limits(changed_.traits, change.traits);
     if (applied.variant_of) {
       changed_.variant_of = applied.variant_of;
       change_into(search(vary(change), CrowdSoFar(judge_.space().dimensions())));
@@ -202,10 +202,10 @@ class Changing {
     CastingOptions limited;
     std::optional<TraitRules> rules;
     if (!changed_.traits.empty() && !changed_.variant_of) {
-      limited.sampling.traits = with_own(casting_.sampling.traits, changed_.traits);
+      limited.sampling.traits = merge_limits(casting_.sampling.traits, changed_.traits);
       limited.groups = casting_.groups;
       for (Group& group : limited.groups) {
-        group.sampling.traits = with_own(group.sampling.traits, changed_.traits);
+        group.sampling.traits = merge_limits(group.sampling.traits, changed_.traits);
       }
       judge.limit_traits(&rules.emplace(judge.traits()->measurer(), limited));
     } else if (changed_.variant_of) {

@@ -89,7 +89,7 @@ Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Pro
   if (w == 0) return property(heads);
   require(heads.image != nullptr, "a mirrored face, and no mirror images of heads");
   if (w == 1) return property(*heads.image);
-  return between_mirrored(property(heads), property(*heads.image), w);
+  return blend_with_image(property(heads), property(*heads.image), w);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TraitLimits TraitRules::limits_of(const FacePlan& face) const {
     if (family == casting_.families.end()) return {};
     const SamplingOptions& common =
         family->group ? casting_.groups[*family->group].sampling : casting_.sampling;
-    return with_own(common.traits, family->traits);
+    return merge_limits(common.traits, family->traits);
   }
   if (face.group) {
     const auto group = std::ranges::find(casting_.groups, *face.group, &Group::name);

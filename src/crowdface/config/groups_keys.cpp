@@ -137,7 +137,7 @@ const Keys<Group>& group_keys() {
         [=](const YamlNode& node, Group& group, ConfigDraft& draft) {
           TraitLimits& all = group.sampling.traits;
           if (const auto own_limits = limits.read(node, draft)) {
-            all = with_own(all, *own_limits);
+            all = merge_limits(all, *own_limits);
           }
         },
         [=](const Group& group, const WriteContext& context) {

@@ -31,7 +31,8 @@ CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index 
         find_cached<PatchLists>(cache, entry_key, kPatchArrays,
                                 [&](PatchLists& lists, const CacheEntry& entry) {
                                   lists.owner = kept.mapped = entry.file();
-                                  auto patches = FieldPatches::of(lists, vertex_count, ranks);
+                                  auto patches =
+                                      FieldPatches::from_lists(lists, vertex_count, ranks);
                                   if (!patches) return false;
                                   kept.patches = *std::move(patches);
                                   return true;

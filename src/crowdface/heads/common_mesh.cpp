@@ -103,9 +103,9 @@ std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& h
     positions = Positions(positions(copies, kAllColumns));
   }
   const Positions& there = first.file.positions;
-  auto vertices = same_graph(expected, there, found, positions);
+  auto vertices = match_graphs(expected, there, found, positions);
   for (std::uint32_t around = 0; around < 2 && !vertices; ++around) {
-    vertices = same_graph(triangulated(expected, around), there, found, positions);
+    vertices = match_graphs(triangulated(expected, around), there, found, positions);
   }
   if (!vertices || !has_same_uvs(*first.mesh, found, head.mesh->uvs, *vertices)) {
     return std::nullopt;

@@ -20,7 +20,7 @@ namespace crowdface {
 namespace {
 
 LevelError in_mm(LevelError error, double mm) {
-  return {error.most * mm, error.root_mean_square * mm};
+  return {error.max * mm, error.root_mean_square * mm};
 }
 
 /// The mean head, with some parts enlarged or reduced: edge collapse keeps more triangles in
@@ -74,7 +74,7 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
     moves.clear();
     for (const OwnShape& shape : set.of_head[h]) moves.push_back(displacements_of(shape));
     const LevelError on_head = error_on(inputs.faces.heads[h].positions, moves);
-    error.most = std::max(error.most, on_head.most);
+    error.max = std::max(error.max, on_head.max);
     squares += on_head.root_mean_square * on_head.root_mean_square;
   }
   error.root_mean_square = std::sqrt(squares / static_cast<double>(set.of_head.size()));
@@ -143,9 +143,9 @@ constexpr auto kLevelArrays = [](auto& arrays, auto& measured) {
   arrays("corner uvs", level.topology.corner_uvs);
   arrays("faces", level.faces);
   arrays("uvs", level.uvs);
-  arrays("most of heads", measured.heads.most);
+  arrays("most of heads", measured.heads.max);
   arrays("rms of heads", measured.heads.root_mean_square);
-  arrays("most of shapes", measured.shapes.most);
+  arrays("most of shapes", measured.shapes.max);
   arrays("rms of shapes", measured.shapes.root_mean_square);
 };
 
@@ -158,7 +158,7 @@ bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
     level.topology.face_offsets.push_back(3 * t);  // the initial 0 is already there
   }
   const auto is_error = [](const LevelError& error) {
-    return error.most >= 0 && error.root_mean_square >= 0;
+    return error.max >= 0 && error.root_mean_square >= 0;
   };
   return is_sound(level, whole) && is_error(measured.heads) && is_error(measured.shapes);
 }
@@ -189,9 +189,9 @@ std::string describe_levels(const Inputs& inputs) {
     std::string line = concat("LOD", l + 1, ": ", level.topology.face_count(), " triangles, ",
                               level.vertices.size(), " vertices; distance to the heads' surface ",
                               format_fixed(heads.root_mean_square, 2), " mm (rms), ",
-                              format_fixed(heads.most, 2), " mm at most");
+                              format_fixed(heads.max, 2), " mm at most");
     if (!inputs.shapes.shapes.empty()) {
-      line += concat("; in shapes ", format_fixed(shapes.most, 2), " mm at most");
+      line += concat("; in shapes ", format_fixed(shapes.max, 2), " mm at most");
     }
     lines.push_back(std::move(line));
   }

@@ -44,7 +44,7 @@ std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& 
                                             const std::string& key) {
   if (inputs.mirror != nullptr) return inputs.mirror;
   FoundMirror found = find_mirror(config, inputs);
-  if (found.share() < kMinShare) {
+  if (found.partner_fraction() < kMinShare) {
     throw InvalidInput(concat(config.file.string(), ": ", key, ": the heads are not symmetric ",
                               "enough: expected ", 100 * kMinShare, " % of the vertices to have ",
                               "a mirror image, found ", describe_mirror(config, found)));
@@ -55,10 +55,10 @@ std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& 
 std::string describe_mirror(const Config& config, const FoundMirror& mirror) {
   const double mm = mm_per(config.faces.units);
   const auto all = static_cast<Index>(mirror.map.corners.size());
-  std::string text =
-      concat(mirror.vertices + mirror.on_surface, " of ", all, " vertices with a mirror image");
-  if (mirror.on_surface > 0) {
-    text += concat(", ", mirror.on_surface, " of them on the surface between vertices");
+  std::string text = concat(mirror.vertices + mirror.surface_partners, " of ", all,
+                            " vertices with a mirror image");
+  if (mirror.surface_partners > 0) {
+    text += concat(", ", mirror.surface_partners, " of them on the surface between vertices");
   }
   return concat(text, "; the mean head is ", format_fixed(mm * mirror.rms, 2),
                 " mm from its mirror image (rms), ", format_fixed(mm * mirror.largest, 2),

@@ -72,7 +72,7 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
 
 /// Keeps a shape still at the ring in which all faces end.
 void hold_ring(const Inputs& inputs, Displacements& moves) {
-  if (inputs.neck) inputs.neck->seam.hold(moves);
+  if (inputs.neck) inputs.neck->seam.fix_rim(moves);
 }
 
 /// Loads the template's shapes; skips shapes that the template lacks.

@@ -15,7 +15,7 @@ namespace crowdface {
 void check_masks(const std::vector<std::string>& files, Problems& problems) {
   for (const std::string& file : files) {
     const MaskSource mask(file);
-    if (mask.tiled()) continue;
+    if (mask.is_tiled()) continue;
     try {
       if (holds_vertex_weights(file)) {
         read_vertex_weights(file);
@@ -47,7 +47,7 @@ std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs) 
       tiles.empty() || (tiles.size() == 1 && *tiles.begin() == std::pair(0.0, 0.0));
   std::vector<std::string> warnings;
   for (const std::string& mask : config.regions.mask) {
-    if (is_in_first_tile || MaskSource(mask).tiled() || holds_vertex_weights(mask)) continue;
+    if (is_in_first_tile || MaskSource(mask).is_tiled() || holds_vertex_weights(mask)) continue;
     const std::string where = tiles.size() > 1
                                   ? concat("the skin's texture has ", tiles.size(), " tiles")
                                   : "the skin's texture coordinates lie outside the first tile";

@@ -116,7 +116,7 @@ PartOverrides overrides_of(const Config& config, const Inputs& inputs, Problems&
         if (!overrides.classes[c]) overrides.classes[c] = PartClass::kRigid;
       }
     }
-    if (!together.empty()) overrides.together.push_back(std::move(together));
+    if (!together.empty()) overrides.joined_components.push_back(std::move(together));
   }
   return overrides;
 }

@@ -68,7 +68,7 @@ std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs)
       .add(limits.image_pixels)
       .add(limits.image_bytes);
   for (const std::string& mask : config.regions.mask) {
-    if (MaskSource(mask).tiled() || !is_file(mask)) return std::nullopt;
+    if (MaskSource(mask).is_tiled() || !is_file(mask)) return std::nullopt;
     key.add(fs::path(mask).filename().string()).add(hash_file(mask).digest);
   }
   return key.digest();
@@ -107,12 +107,12 @@ bool are_neighbours(const Neighbours& found, std::size_t vertices) {
 constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {
   arrays("corners", found.map.corners);
   arrays("shares", found.map.shares);
-  arrays("without", found.map.without);
-  arrays("added", found.map.kept);
+  arrays("without", found.map.unpaired);
+  arrays("added", found.map.unpaired_offsets);
   arrays("normal", found.map.plane.normal);
   arrays("offset", found.map.plane.offset);
   arrays("at vertices", found.vertices);
-  arrays("on surface", found.on_surface);
+  arrays("on surface", found.surface_partners);
   arrays("rms", found.rms);
   arrays("largest", found.largest);
 };
@@ -122,8 +122,8 @@ bool is_mirror(const FoundMirror& found, std::size_t vertices) {
   const auto is_place = [&](const Triangle& triangle) { return all_below(triangle, vertices); };
   return map.corners.size() == vertices && std::ranges::all_of(map.corners, is_place) &&
          map.shares.size() == vertices && std::ranges::all_of(map.shares, are_shares) &&
-         all_below(map.without, vertices) &&
-         map.kept.rows() == static_cast<Index>(map.without.size());
+         all_below(map.unpaired, vertices) &&
+         map.unpaired_offsets.rows() == static_cast<Index>(map.unpaired.size());
 }
 
 }  // namespace

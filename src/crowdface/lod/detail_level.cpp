@@ -46,11 +46,11 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
 
 }  // namespace
 
-Positions DetailLevel::of(const Positions& whole) const {
+Positions DetailLevel::restrict_rows(const Positions& whole) const {
   return whole(vertices, kAllColumns);
 }
 
-Displacements DetailLevel::of(const Displacements& whole) const {
+Displacements DetailLevel::restrict_rows(const Displacements& whole) const {
   Displacements some;
   std::vector<std::uint32_t> rows;
   auto next = whole.vertices.begin();

@@ -25,7 +25,7 @@ double distance_to(const Positions& rows, const Triangle& triangle, const Eigen:
 }
 
 /// Walks along the surface from a vertex towards `point`: each step searches the faces around the
-/// nearest vertex so far. Returns the smallest distance.
+/// nearest vertex so far. Returns the smallest distance of the visited faces from `point`.
 double walk(const DetailLevel& level, const VertexFaces& around, const Positions& rows,
             std::uint32_t start, const Eigen::Vector3d& point) {
   constexpr int kMaxSteps = 16;
@@ -52,7 +52,7 @@ LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const D
     if (dropped[v]) map.vertices.push_back(v);
   }
   if (level.vertices.empty()) return map;
-  const Positions rows = level.of(typical);
+  const Positions rows = level.restrict_rows(typical);
   std::vector<std::uint32_t> all(level.vertices.size());
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(rows, all);
@@ -82,7 +82,7 @@ LevelError level_error(const DetailLevel& level, const LevelMap& map,
   LevelError error;
   double squares = 0;
   for (const Positions* mesh : meshes) {
-    const Positions rows = level.of(*mesh);
+    const Positions rows = level.restrict_rows(*mesh);
     const auto point = [&](std::size_t i) { return row3(*mesh, map.vertices[i]); };
     parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
       distances[i] = distance_to(rows, map.triangles[i], point(i));
@@ -95,7 +95,7 @@ LevelError level_error(const DetailLevel& level, const LevelMap& map,
           std::min(distances[i], walk(level, around, rows, map.triangles[i][0], point(i)));
     });
     squares += mean_square() / static_cast<double>(meshes.size());
-    for (const double distance : distances) error.most = std::max(error.most, distance);
+    for (const double distance : distances) error.max = std::max(error.max, distance);
   }
   error.root_mean_square = std::sqrt(squares);
   return error;

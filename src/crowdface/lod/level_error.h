@@ -10,12 +10,12 @@
 
 namespace crowdface {
 
-/// For each vertex of the whole mesh that a level lacks: the nearest triangle of the level on one
-/// head, found by walking along the surface.
+/// Maps each vertex of the whole mesh that a level lacks to the nearest triangle of the level. A
+/// walk along the surface of one head finds this triangle.
 struct LevelMap {
-  /// Vertices of the whole mesh that faces use and the level lacks, ascending.
+  /// The vertices of the whole mesh that faces use but the level lacks, ascending.
   std::vector<std::uint32_t> vertices;
-  /// #vertices: for each, a triangle, given by indices of the level's vertices
+  /// #vertices: the nearest triangle, as indices of the level's vertices
   std::vector<Triangle> triangles;
 };
 /// Finds the triangles of a LevelMap.

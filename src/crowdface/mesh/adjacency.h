@@ -17,14 +17,15 @@ struct Adjacency : CompressedRows<std::uint32_t> {
   Index vertex_count() const { return static_cast<Index>(group_count()); }
 };
 
-/// An edge with three or more polygons is kept and is not a boundary edge. A polygon that names a
-/// vertex twice adds no edge from the vertex to itself.
+/// Finds the edge-neighbours of every vertex. An edge with three or more polygons counts as an
+/// edge, but not as a boundary edge. A polygon that names a vertex twice adds no edge from the
+/// vertex to itself.
 Adjacency build_adjacency(const Topology& topology);
 
 /// The connected component of each vertex; edges connect vertices. Components are numbered in the
 /// order of their first vertices. An isolated vertex is its own component.
 struct Components {
-  std::vector<std::uint32_t> of_vertex;  ///< #V
+  std::vector<std::uint32_t> of_vertex;  ///< #V: the component of each vertex
   std::vector<std::uint32_t> sizes;      ///< number of vertices in each component
   Index count() const { return static_cast<Index>(sizes.size()); }
   /// The component with the most vertices: the skin.

@@ -8,28 +8,29 @@
 
 namespace crowdface {
 
-/// Disjoint sets of numbered items (union-find). At first each item is its own group.
+/// Disjoint sets of numbered items (union-find). At first each set holds one item.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t things) : parent_(things) {
+  explicit DisjointSets(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
-  /// The smallest item in the group to which `thing` belongs.
-  std::uint32_t root(std::uint32_t thing) {
-    while (parent_[thing] != thing) {
-      thing = parent_[thing] = parent_[parent_[thing]];  // path halving
+  /// The smallest item in the set of `item`.
+  std::uint32_t root(std::uint32_t item) {
+    while (parent_[item] != item) {
+      item = parent_[item] = parent_[parent_[item]];  // path halving
     }
-    return thing;
+    return item;
   }
+  /// Unites the sets of items a and b.
   void join(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  /// Makes an item its own group again. Call this for every item of a group; otherwise the
-  /// remaining items refer to a wrong root.
-  void release(std::uint32_t thing) { parent_[thing] = thing; }
+  /// Makes a set of one item again. Call this for every item of the old set; otherwise the other
+  /// items refer to a wrong root.
+  void release(std::uint32_t item) { parent_[item] = item; }
 
  private:
   std::vector<std::uint32_t> parent_;

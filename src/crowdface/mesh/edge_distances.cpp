@@ -31,24 +31,24 @@ void EdgeDistances::begin(std::span<const std::uint32_t> sources) {
   }
   reached_.clear();
   touched_.clear();
-  open_.clear();
+  queue_.clear();
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const std::uint32_t v = sources[s];
-    if (distances_[v] == 0) continue;  // if a vertex occurs twice, its first occurrence counts
+    if (distances_[v] == 0) continue;  // of a source that occurs twice, the first occurrence counts
     distances_[v] = 0;
     sources_[v] = static_cast<std::uint32_t>(s);
     touched_.push_back(v);
-    open_.emplace_back(0.0, sources_[v], v);
+    queue_.emplace_back(0.0, sources_[v], v);
   }
-  std::make_heap(open_.begin(), open_.end(), std::greater<>());
+  std::make_heap(queue_.begin(), queue_.end(), std::greater<>());
 }
 
 template <class MayLead, class Settled>
-void EdgeDistances::spread(const MayLead& may_lead, const Settled& settled) {
-  while (!open_.empty()) {
-    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
-    const auto [distance, source, vertex] = open_.back();
-    open_.pop_back();
+void EdgeDistances::settle(const MayLead& may_lead, const Settled& settled) {
+  while (!queue_.empty()) {
+    std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
+    const auto [distance, source, vertex] = queue_.back();
+    queue_.pop_back();
     if (settled_[vertex]) continue;
     settled_[vertex] = true;
     reached_.push_back(vertex);
@@ -66,15 +66,15 @@ void EdgeDistances::spread(const MayLead& may_lead, const Settled& settled) {
       if (distances_[next] == kInfinity) touched_.push_back(next);
       distances_[next] = there;
       sources_[next] = source;
-      open_.emplace_back(there, source, next);
-      std::push_heap(open_.begin(), open_.end(), std::greater<>());
+      queue_.emplace_back(there, source, next);
+      std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
     }
   }
 }
 
 void EdgeDistances::search(std::span<const std::uint32_t> sources, double limit) {
   begin(sources);
-  spread([&](double distance, std::uint32_t) { return distance <= limit; },
+  settle([&](double distance, std::uint32_t) { return distance <= limit; },
          [](std::uint32_t) { return false; });
 }
 
@@ -82,8 +82,8 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
                                double limit) {
   begin(std::span(&source, 1));
   if (goals.empty()) return;
-  // A ball around the goals. A vertex whose distance from the ball exceeds the rest of the limit
-  // cannot reach any goal.
+  // Compute a ball that contains all goals. A vertex whose distance from the ball exceeds the
+  // remaining length cannot reach any goal.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const std::uint32_t goal : goals) middle += row3(positions_, goal);
   middle /= static_cast<double>(goals.size());
@@ -94,7 +94,7 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
   constexpr double kRounding = 1e-9;
   const double farthest = (limit + radius) * (1 + kRounding);
   std::size_t left = goals.size();
-  spread(
+  settle(
       [&](double distance, std::uint32_t vertex) {
         return distance <= limit &&
                distance + (row3(positions_, vertex) - middle).norm() <= farthest;

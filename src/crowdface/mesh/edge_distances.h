@@ -24,16 +24,16 @@ class EdgeDistances {
   void search(std::span<const std::uint32_t> sources,
               double limit = std::numeric_limits<double>::infinity());
 
-  /// Finds the distances from one source to the goals only. Skips each vertex that cannot lie on a
-  /// path to a goal of length at most `limit`, and stops when all goals are reached.
+  /// Finds the distances from one source to the goals only. Skips each vertex through which no path
+  /// of length `limit` or less can lead to a goal. Stops when all goals are reached.
   void search_for(std::uint32_t source, std::span<const std::uint32_t> goals, double limit);
 
   /// Distance from the nearest source to a vertex; infinite if the search did not reach the vertex.
   double distance(std::uint32_t vertex) const {
     return settled_[vertex] ? distances_[vertex] : std::numeric_limits<double>::infinity();
   }
-  /// Index of the nearest source in the list of sources; the first one if several are equally near.
-  /// kNoIndex if the search did not reach the vertex.
+  /// Index of the nearest source in the list of sources. If several sources are equally near, the
+  /// first of them. kNoIndex if the search did not reach the vertex.
   std::uint32_t source(std::uint32_t vertex) const {
     return settled_[vertex] ? sources_[vertex] : kNoIndex;
   }
@@ -41,22 +41,22 @@ class EdgeDistances {
   const std::vector<std::uint32_t>& reached() const { return reached_; }
 
  private:
-  using Open = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
+  using QueueEntry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
 
   void begin(std::span<const std::uint32_t> sources);
-  /// Settles vertices in the order of their distances until no vertex is open or `settled` returns
+  /// Settles vertices in the order of their distances until the queue is empty or `settled` returns
   /// true.
   /// \param may_lead  called with a distance and a vertex; returns whether the search continues
   ///                  from this vertex.
   template <class MayLead, class Settled>
-  void spread(const MayLead& may_lead, const Settled& settled);
+  void settle(const MayLead& may_lead, const Settled& settled);
 
   const Adjacency& adjacency_;
   const Positions& positions_;
   std::vector<double> distances_;  ///< smallest distance found so far; final once settled
   std::vector<std::uint32_t> sources_, reached_, touched_;
   std::vector<bool> settled_;
-  std::vector<Open> open_;  ///< a heap, the nearest vertex first
+  std::vector<QueueEntry> queue_;  ///< a heap; the nearest vertex comes first
 };
 
 /// Index in `sources` of the nearest source of each vertex along the edges, #V; kNoIndex if no

@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// #V: which vertices lie on an edge that has a polygon on one side only. Vertices without a
-/// polygon count as border vertices.
+/// #V: whether each vertex lies on an edge that has a polygon on one side only. A vertex without a
+/// polygon counts as a border vertex.
 std::vector<bool> border_vertices(const Topology& topology) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::vector<bool> is_border(static_cast<std::size_t>(topology.vertex_count), true);

@@ -8,14 +8,14 @@
 
 namespace crowdface {
 
-/// The vertices of a mesh after its seams are closed.
+/// The vertices of a mesh after its seams are closed: copies of a vertex become one joined vertex.
 struct JoinedBorders {
-  std::vector<std::uint32_t> joined;  ///< #V: the joined vertex of each vertex
-  std::vector<std::uint32_t> first;   ///< the first vertex of each joined vertex, ascending
+  std::vector<std::uint32_t> joined;  ///< #V: index of the joined vertex that each vertex becomes
+  std::vector<std::uint32_t> first;   ///< #joined: the first copy of each joined vertex, ascending
 };
 
-/// Joins vertices that have the same position and lie on border edges, as the copies do that an
-/// export makes at seams. Inner vertices that touch, such as those of closed lips, stay apart.
+/// Joins vertices that have the same position and lie on border edges. Exporters make such copies
+/// at seams. Inner vertices that touch, such as the vertices of closed lips, stay separate.
 /// \param pieces  #V: only vertices with the same value are joined; empty: all vertices
 JoinedBorders joined_borders(const Topology& topology, const Positions& positions,
                              const std::vector<std::uint32_t>& pieces = {});

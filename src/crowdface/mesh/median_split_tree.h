@@ -8,11 +8,11 @@
 
 namespace crowdface {
 
-/// The structure of a bounding volume hierarchy. Each inner node splits its points at the median of
-/// the axis along which they extend farthest. The users of the tree store the boxes of its nodes.
-/// All hierarchies of crowdface have this structure, except the one for rendering, which uses
-/// Embree: the last bits of Embree's results depend on the processor, and plans and meshes must not
-/// depend on it.
+/// The tree of a bounding volume hierarchy, without the boxes. Each inner node splits its points at
+/// the median of the axis along which they extend farthest. The users of the tree store the boxes
+/// of its nodes. All hierarchies of crowdface use this tree, except that rendering uses Embree. The
+/// last bits of Embree's results depend on the processor; plans and meshes must not depend on the
+/// processor.
 struct MedianSplitTree {
   struct Node {
     std::uint32_t begin, end;  ///< range in `order`; begin is a multiple of the leaf size

@@ -26,13 +26,13 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
     }
     image.row(v) = map.plane.image(place).transpose();
   });
-  for (std::size_t i = 0; i < map.without.size(); ++i) {
-    image.row(map.without[i]) += map.kept.row(static_cast<Index>(i));
+  for (std::size_t i = 0; i < map.unpaired.size(); ++i) {
+    image.row(map.unpaired[i]) += map.unpaired_offsets.row(static_cast<Index>(i));
   }
   return image;
 }
 
-Positions between_mirrored(const Positions& positions, const Positions& image, double w) {
+Positions blend_with_image(const Positions& positions, const Positions& image, double w) {
   Positions result(positions.rows(), 3);
   // Interpolates from the nearer end, so that both ends are reproduced bitwise.
   const bool near_image = w > 0.5;

@@ -15,6 +15,7 @@ struct MirrorPlane {
   Eigen::Vector3d normal = {1, 0, 0};  ///< unit normal n
   double offset = 0;                   ///< distance d from the origin along n
 
+  /// The mirror image of a point.
   Eigen::Vector3d image(const Eigen::Vector3d& point) const;
 };
 
@@ -26,21 +27,23 @@ struct MirrorMap {
   std::vector<Triangle> corners;  ///< #V: the triangle that holds the mirror point of each vertex
   std::vector<std::array<double, 3>>
       shares;  ///< #V: barycentric coordinates of the mirror point; {1, 0, 0} if it is a vertex
-  std::vector<std::uint32_t> without;  ///< vertices without a mirror point, ascending
-  /// #without by 3: offsets added to the mirror images at these vertices, so that the mean head
-  /// keeps its shape there.
-  Positions kept;
+  std::vector<std::uint32_t> unpaired;  ///< vertices without a mirror point, ascending
+  /// #unpaired by 3: offsets that are added to the mirror images of the unpaired vertices, so that
+  /// the mean head keeps its shape there.
+  Positions unpaired_offsets;
 
+  /// Whether the mirror point of vertex v is a vertex.
   bool is_vertex(std::uint32_t v) const { return shares[v][0] == 1; }
 };
 
-/// M(A), #V by 3: the mirrored head. Each vertex gets the image of its mirror point in A. If all
-/// mirror points are vertices and the plane is a coordinate plane, M(M(A)) is bitwise equal to A.
+/// M(A), #V by 3: the mirrored head. Each vertex moves to the mirror image of its mirror point in
+/// A. If all mirror points are vertices and the plane is a coordinate plane, M(M(A)) is bitwise
+/// equal to A.
 Positions mirrored(const MirrorMap& map, const Positions& positions);
 
 /// Returns (1 − w)·A + w·M(A) for given A and M(A). The result is bitwise equal to A for w = 0, to
 /// M(A) for w = 1, and to A where A and M(A) are equal.
-Positions between_mirrored(const Positions& positions, const Positions& image, double w);
+Positions blend_with_image(const Positions& positions, const Positions& image, double w);
 
 /// Weight of the mirror image in a head whose differences between left and right are scaled by the
 /// factor a = `asymmetry`: A' = (1 + a)/2·A + (1 − a)/2·M(A). If `mirrored` is set, A and M(A)

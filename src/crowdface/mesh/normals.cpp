@@ -49,17 +49,17 @@ NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> 
       })) {}
 
 Positions NormalFans::normals(const Topology& topology, const Positions& positions,
-                              const Eigen::RowVector3d& nowhere) const {
-  return normals(face_area_vectors(topology, positions), nowhere);
+                              const Eigen::RowVector3d& fallback) const {
+  return normals(face_area_vectors(topology, positions), fallback);
 }
 
-Positions NormalFans::normals(const Positions& areas, const Eigen::RowVector3d& nowhere) const {
+Positions NormalFans::normals(const Positions& areas, const Eigen::RowVector3d& fallback) const {
   Positions normals(rows(), 3);
   parallel_for_each(rows(), kRowsPerBlock, [&](Index row) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (const std::uint32_t face : around(row)) sum += areas.row(face);
+    for (const std::uint32_t face : polygons_at(row)) sum += areas.row(face);
     const double length = std::sqrt(sum(0) * sum(0) + sum(1) * sum(1) + sum(2) * sum(2));
-    normals.row(row) = length > 0 ? Eigen::RowVector3d(sum / length) : nowhere;
+    normals.row(row) = length > 0 ? Eigen::RowVector3d(sum / length) : fallback;
   });
   return normals;
 }

@@ -9,37 +9,39 @@
 namespace crowdface {
 
 /// The polygons that meet at each normal (at a vertex, or at a `vn` of a file), computed once for
-/// all meshes of a topology. Each normal can then be summed independently, in parallel, and always
-/// in the same order.
+/// all meshes of a topology. With this list, threads sum the normals independently, and each sum
+/// always has the same order.
 class NormalFans {
  public:
   /// One normal for each vertex.
   explicit NormalFans(const Topology& topology);
-  /// \param corner_rows  #C: the row of normals to which each corner belongs, < rows, or kNoIndex.
+  /// \param corner_rows  #C: the row of the normal that each corner uses, or kNoIndex.
+  /// \param rows         number of normals.
   NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows, Index rows);
 
-  /// Unit normals, #rows by 3: each is the sum of the normals of the polygons around the row, in
-  /// ascending order and weighted by area (Newell's method, so quads need not be flat).
+  /// Unit normals, #rows by 3. Each is the normalised sum of the normals of the polygons that meet
+  /// at this row, in ascending order and weighted by area (Newell's method, so quads need not be
+  /// flat).
   /// \param topology  the topology from which the fans were made.
-  /// \param nowhere   the normal of a row whose sum vanishes.
+  /// \param fallback  the normal of a row whose sum vanishes.
   Positions normals(const Topology& topology, const Positions& positions,
-                    const Eigen::RowVector3d& nowhere) const;
+                    const Eigen::RowVector3d& fallback) const;
   /// Computes the same normals from the result of face_area_vectors.
-  Positions normals(const Positions& areas, const Eigen::RowVector3d& nowhere) const;
+  Positions normals(const Positions& areas, const Eigen::RowVector3d& fallback) const;
 
   Index rows() const { return static_cast<Index>(faces_.group_count()); }
-  /// The polygons around one row, ascending.
-  std::span<const std::uint32_t> around(Index row) const { return faces_.of(row); }
+  /// The polygons that meet at one normal, ascending.
+  std::span<const std::uint32_t> polygons_at(Index row) const { return faces_.of(row); }
   std::size_t memory_bytes() const {
     return (faces_.offsets.size() + faces_.items.size()) * sizeof(std::uint32_t);
   }
 
  private:
-  CompressedRows<std::uint32_t> faces_;  ///< polygons around each row, ascending
+  CompressedRows<std::uint32_t> faces_;  ///< polygons that meet at each normal, ascending
 };
 
 /// Unit normals of the vertices, #V by 3, as NormalFans computes them; (0, 0, 1) where the sum
-/// vanishes. If you need the normals of many meshes of one topology, keep the NormalFans.
+/// vanishes. For many meshes of one topology, make the NormalFans once and use the second function.
 Positions vertex_normals(const Topology& topology, const Positions& positions);
 Positions vertex_normals(const NormalFans& fans, const Topology& topology,
                          const Positions& positions);

@@ -6,8 +6,8 @@
 
 namespace crowdface {
 
-/// A point in a polygon: corner 0, plus s times the edge from corner 0 to corner `fan`, plus t
-/// times the edge from corner 0 to corner `fan` + 1.
+/// A point in a polygon: corner 0, plus s times the vector from corner 0 to corner `fan`, plus t
+/// times the vector from corner 0 to corner `fan` + 1.
 struct PolygonSample {
   std::size_t fan = 1;
   double s = 0, t = 0;  ///< not negative; s + t is at most 1

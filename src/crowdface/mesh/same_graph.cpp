@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRounds = 12;                  ///< rounds of colour refinement
 constexpr std::size_t kMaxCandidates = 256;  ///< start corners that are tried for each component
-/// Limit of all traversal steps, as a multiple of the number of corners.
+/// Limit of the total number of traversal steps, as a multiple of the number of corners.
 constexpr std::size_t kMaxSteps = 64;
 
 std::uint64_t mixed(std::uint64_t x) {
@@ -25,7 +25,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ x >> 31U;
 }
 
-/// A mesh whose corners can be traversed.
+/// A mesh with the neighbour of each corner, for the traversal from polygon to polygon.
 class Graph {
  public:
   explicit Graph(const Topology& topology)
@@ -127,8 +127,8 @@ class Matcher {
   /// Matched vertices of a and b.
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-  /// One start corner for each set of polygons that edges connect, at a vertex of the rarest
-  /// colour. Larger sets come first.
+  /// One start corner for each edge-connected set of polygons. The corner's vertex has the rarest
+  /// colour of the set. Larger sets come first.
   std::vector<std::uint32_t> seeds() const {
     const Topology& topology = a_.topology();
     DisjointSets groups(static_cast<std::size_t>(topology.face_count()));
@@ -157,7 +157,7 @@ class Matcher {
   /// have the same colour as the seed's vertex, and keeps the match with the smallest distance.
   /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
-    // Set if another component shares the vertex.
+    // Known if a component that has been matched shares the vertex.
     const std::uint32_t known = to_b_[a_.vertex(seed)];
     double best = std::numeric_limits<double>::infinity();
     std::optional<Pairs> nearest;
@@ -216,7 +216,7 @@ class Matcher {
         if (fits && e != kNoIndex) open.emplace_back(e, g);
       }
     }
-    // Undo all marks, because match_from compares several results before it applies one.
+    // Undo all marks, because match_from compares the results of several traversals.
     for (const std::uint32_t f : faces) seen_[f] = false;
     for (const auto& [v, w] : pairs) {
       to_b_[v] = kNoIndex;
@@ -243,7 +243,7 @@ class Matcher {
     placed_ = fit_similarity(from, to, ScaleFit::kRigid).apply(at_b_);
   }
 
-  /// Matches the vertices without a polygon in their order.
+  /// Matches the vertices without a polygon, in the order of their numbers.
   bool match_loose() {
     std::uint32_t w = 0;
     for (std::uint32_t& in_b : to_b_) {
@@ -270,10 +270,10 @@ class Matcher {
 
 }  // namespace
 
-std::optional<std::vector<std::uint32_t>> same_graph(const Topology& expected,
-                                                     const Positions& expected_positions,
-                                                     const Topology& found,
-                                                     const Positions& found_positions) {
+std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,
+                                                       const Positions& expected_positions,
+                                                       const Topology& found,
+                                                       const Positions& found_positions) {
   if (expected.vertex_count != found.vertex_count || expected.face_count() != found.face_count() ||
       expected.corner_count() != found.corner_count()) {
     return std::nullopt;

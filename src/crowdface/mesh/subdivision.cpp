@@ -8,16 +8,16 @@
 namespace crowdface {
 namespace {
 
-/// The edges between corners of polygons: each edge once, in ascending order of its ends.
+/// The edges of all polygons, each edge once, sorted by their ends.
 struct Edges {
   std::vector<std::pair<std::uint32_t, std::uint32_t>>
       ends;  ///< #E: ends of each edge, first < second
   /// #C: the edge from each corner to the next corner of its polygon.
-  std::vector<std::uint32_t> of_corner;
+  std::vector<std::uint32_t> corner_edges;
   std::vector<std::uint32_t> faces;  ///< #E: number of polygons at each edge
 };
 
-/// \param indices  #C: vertices or texture coordinates.
+/// \param indices  #C: the vertex or the texture coordinate of each corner.
 Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& indices) {
   struct Side {
     std::uint32_t first, second, corner;
@@ -35,13 +35,13 @@ Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& ind
     return std::tie(a.first, a.second, a.corner) < std::tie(b.first, b.second, b.corner);
   });
   Edges edges;
-  edges.of_corner.resize(indices.size());
+  edges.corner_edges.resize(indices.size());
   for (const Side& side : sides) {
     if (edges.ends.empty() || edges.ends.back() != std::pair(side.first, side.second)) {
       edges.ends.emplace_back(side.first, side.second);
       edges.faces.push_back(0);
     }
-    edges.of_corner[side.corner] = static_cast<std::uint32_t>(edges.ends.size() - 1);
+    edges.corner_edges[side.corner] = static_cast<std::uint32_t>(edges.ends.size() - 1);
     ++edges.faces.back();
   }
   return edges;
@@ -58,9 +58,9 @@ std::vector<std::uint32_t> split_corners(const Topology& topology,
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto [begin, end] = topology.corners(f);
     for (auto c = begin; c < end; ++c) {
-      const auto before = edges.of_corner[c == begin ? end - 1 : c - 1];
+      const auto before = edges.corner_edges[c == begin ? end - 1 : c - 1];
       out.push_back(indices[c]);
-      out.push_back(first_edge + edges.of_corner[c]);
+      out.push_back(first_edge + edges.corner_edges[c]);
       out.push_back(first_face + static_cast<std::uint32_t>(f));
       out.push_back(first_edge + before);
     }
@@ -126,7 +126,7 @@ Positions edge_points(const Mesh& mesh, const Edges& edges, const Positions& fac
   Positions of_faces = Positions::Zero(count, 3), points(count, 3);
   for (Index f = 0; f < mesh.topology.face_count(); ++f) {
     const auto [begin, end] = mesh.topology.corners(f);
-    for (auto c = begin; c < end; ++c) of_faces.row(edges.of_corner[c]) += faces.row(f);
+    for (auto c = begin; c < end; ++c) of_faces.row(edges.corner_edges[c]) += faces.row(f);
   }
   for (Index e = 0; e < count; ++e) {
     const auto [a, b] = edges.ends[static_cast<std::size_t>(e)];

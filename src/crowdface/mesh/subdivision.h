@@ -15,8 +15,8 @@ namespace crowdface {
 /// meshes"; boundary edges as in Hoppe et al. 1994, "Piecewise smooth surface reconstruction".
 Mesh subdivide(const Mesh& mesh);
 
-/// Returns the number of rounds, 0 to 8, for which the ratio of the number of vertices to
-/// `wanted_vertices` is closest to 1.
+/// Returns the number of subdivision rounds, 0 to 8, that brings the number of vertices closest to
+/// `wanted_vertices` (ratio closest to 1).
 int subdivision_rounds(const Topology& topology, Index wanted_vertices);
 
 }  // namespace crowdface

@@ -79,7 +79,7 @@ struct HeadSet {
   std::vector<Head> heads;
 };
 
-/// Renumbers the indices in use without gaps, in ascending order.
+/// Renumbers the indices that occur from 0 without gaps, in ascending order.
 /// \param indices  each < count; replaced by the new numbers.
 /// \return the old number of each new number.
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);
@@ -87,9 +87,9 @@ std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index coun
 /// The mean of all heads, #V by 3.
 Positions mean_head(const HeadSet& faces);
 
-/// Describes the first difference between two topologies in one sentence ("face 12: expected
-/// vertices 1 2 3 4, found 1 2 4 3"). Counts polygons and vertices from 1, as OBJ does. Returns an
-/// empty text if the topologies are equal.
+/// Describes the first difference between two topologies in words ("face 12: expected vertices 1 2
+/// 3 4, found 1 2 4 3"). Counts polygons and vertices from 1, as OBJ does. Returns an empty text if
+/// the topologies are equal.
 std::string first_difference(const Topology& expected, const Topology& found);
 
 }  // namespace crowdface

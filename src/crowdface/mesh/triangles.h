@@ -13,7 +13,7 @@ namespace crowdface {
 /// Indices of three vertices.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Cuts all polygons into triangles, each from its first corner.
+/// Cuts all polygons into fans of triangles around their first corners.
 std::vector<Triangle> triangles_of(const Topology& topology);
 /// Cuts the polygons of one component into triangles.
 std::vector<Triangle> triangles_of(const Topology& topology, const Components& components,
@@ -22,7 +22,7 @@ std::vector<Triangle> triangles_of(const Topology& topology, const Components& c
 /// A topology whose polygons are the given triangles.
 Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count);
 
-/// A vector along the triangle's normal whose length is twice the triangle's area.
+/// The vector along the normal of a triangle whose length is twice the area.
 Eigen::Vector3d area_vector(const Positions& positions, const Triangle& triangle);
 
 /// Barycentric coordinates of the point of a triangle that is nearest to p (Ericson 2005,
@@ -30,9 +30,9 @@ Eigen::Vector3d area_vector(const Positions& positions, const Triangle& triangle
 std::array<double, 3> nearest_in_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Eigen::Vector3d& c, const Eigen::Vector3d& p);
 
-/// Unit normals of the vertices, #V by 3: each is the sum of the normals of the triangles around
-/// the vertex, weighted by area. Zero if the sum vanishes and at vertices without a triangle,
-/// whereas `vertex_normals` of a Topology returns (0, 0, 1).
+/// Unit normals of the vertices, #V by 3. Each is the normalised sum of the normals of the
+/// triangles at the vertex, weighted by area. Zero if the sum vanishes and at vertices without a
+/// triangle, whereas `vertex_normals` of a Topology returns (0, 0, 1).
 Positions vertex_normals_or_zero(const std::vector<Triangle>& triangles,
                                  const Positions& positions);
 

@@ -8,6 +8,7 @@
 
 namespace crowdface {
 
+/// The unit vector along a signed coordinate axis.
 inline Eigen::Vector3d unit_vector(Axis axis) {
   return axis.sign * Eigen::Vector3d::Unit(axis.index);
 }

@@ -35,15 +35,16 @@ double outward_share(const Topology& topology, const Positions& positions, const
 }  // namespace
 
 float winding(const Topology& topology, const Positions& positions) {
-  constexpr double kClearly = 0.05;
+  constexpr double kMinInwardShare = 0.05;
   const Positions areas = face_area_vectors(topology, positions);
-  return outward_share(topology, positions, areas, positions.colwise().mean()) < -kClearly ? -1.0F
-                                                                                           : 1.0F;
+  return outward_share(topology, positions, areas, positions.colwise().mean()) < -kMinInwardShare
+             ? -1.0F
+             : 1.0F;
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  // for comparison: 1 for a sphere, about 0.3 for an open mask of a face
-  constexpr double kClearly = 0.2;
+  // the share of a sphere is 1, and of an open mask of a face about 0.3
+  constexpr double kMinInwardShare = 0.2;
   constexpr double kFlat = 0.8;  // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
   const Positions areas = face_area_vectors(topology, positions);
   Eigen::RowVector3d middle(0, 0, 0);
@@ -55,7 +56,7 @@ bool is_inside_out(const Topology& topology, const Positions& positions) {
     weight += area;
   }
   if (!(areas.colwise().sum().norm() < kFlat * weight)) return false;
-  return outward_share(topology, positions, areas, middle / weight) < -kClearly;
+  return outward_share(topology, positions, areas, middle / weight) < -kMinInwardShare;
 }
 
 void turn_faces(Topology& topology) {

@@ -5,17 +5,16 @@
 
 namespace crowdface {
 
-/// Returns −1 if the surface as a whole is wound inside out, as a mirrored surface is: its polygons
-/// face the mean of the vertices. Returns +1 otherwise.
+/// Returns −1 if the polygons of the surface mainly face the mean of the vertices, as on a mirrored
+/// surface. Returns +1 otherwise.
 float winding(const Topology& topology, const Positions& positions);
 
 /// Reverses the orientation of all polygons: each keeps its first corner, and its other corners
 /// change to reverse order.
 void turn_faces(Topology& topology);
 
-/// Whether the polygons of a mesh clearly face inwards. The function measures from the
-/// area-weighted centre, so that small parts next to a large open surface have little effect on the
-/// result.
+/// Whether the polygons of a mesh clearly face inwards. Directions are relative to the
+/// area-weighted centre, so that small parts next to a large open surface have little effect.
 bool is_inside_out(const Topology& topology, const Positions& positions);
 
 }  // namespace crowdface

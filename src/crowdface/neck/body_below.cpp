@@ -45,7 +45,8 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   }
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  // At the root of a part: the sum of the heights of its polygons above their edges of the loop.
+  // #F: at the root of each part, the sum of the heights of the part's polygons above the edges of
+  // the loop.
   std::vector<double> above(faces, 0.0);
   visit_edges(topology, [&](std::uint32_t f, const Edge& edge) { edges.emplace_back(edge, f); });
   std::ranges::sort(edges);
@@ -56,7 +57,7 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
     }
   }
   std::size_t along = 0;
-  std::set<std::uint32_t> sides;  // the parts along the loop
+  std::set<std::uint32_t> sides;  // parts with polygons along the loop
   for (const auto& [edge, f] : edges) {
     const auto at = loop.find(edge);
     if (at == loop.end()) continue;

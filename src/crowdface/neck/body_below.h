@@ -7,10 +7,10 @@
 
 namespace crowdface {
 
-/// Finds the polygons of a body below a closed loop of edges: those that are connected with the
-/// loop from below, and separate parts whose middle is lower than the middle of the loop.
+/// Finds the polygons of a body below a closed loop of edges: the polygons connected with the loop
+/// from below, and separate parts whose middle is lower than the middle of the loop.
 /// \param up  unit vector
-/// \return  #F; all true if the loop is an open rim.
+/// \return  #F: whether each polygon is below; all true if the loop is an open rim.
 /// \throws InvalidInput if the loop does not separate the polygons along it.
 std::vector<bool> polygons_below(const Topology& topology, const Positions& positions,
                                  const Rim& rim, const Eigen::Vector3d& up);

@@ -22,7 +22,7 @@ Positions turned(const Positions& points, const Eigen::Matrix3d& rotation) {
   return result;
 }
 
-/// The median of each coordinate: a few turned heads hardly move it.
+/// The median of each coordinate, on which a few turned heads have little effect.
 Positions median(const std::vector<Positions>& heads) {
   Positions result(heads.front().rows(), 3);
   std::vector<double> values(heads.size());
@@ -37,7 +37,8 @@ Positions median(const std::vector<Positions>& heads) {
 
 RigidMotion head_motion(const Positions& from, const Positions& to) {
   constexpr int kRounds = 10;
-  constexpr double kLeast = 0.1;  // of the mean distance; limits the weight of close points
+  // smallest distance in weights, as a fraction of the mean distance
+  constexpr double kMinDistance = 0.1;
   std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
   std::iota(all.begin(), all.end(), 0U);
   std::vector<double> weights(all.size(), 1.0);
@@ -50,7 +51,7 @@ RigidMotion head_motion(const Positions& from, const Positions& to) {
       weights[i] = (motion.apply(row3(from, i)) - row3(to, i)).norm();
       sum += weights[i];
     }
-    const double least = kLeast * sum / static_cast<double>(all.size());
+    const double least = kMinDistance * sum / static_cast<double>(all.size());
     if (!(least > 0)) break;
     for (double& weight : weights) weight = 1 / std::max(weight, least);
   }
@@ -58,8 +59,8 @@ RigidMotion head_motion(const Positions& from, const Positions& to) {
 }
 
 Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across) {
-  // The forms of 24 MakeHuman, 24 synthetic and 16 ICT heads explain 4.3 degrees about the axis
-  // through the ears and 0.8 degrees about others.
+  // Among 24 MakeHuman, 24 synthetic and 16 ICT heads, differences in shape explain 4.3 degrees
+  // about the axis through the ears and 0.8 degrees about other axes.
   constexpr double kInclined = 0.10481555856608242;    // 2 tan(6°/2)
   constexpr double kAsymmetric = 0.03491012985643517;  // 2 tan(2°/2)
   const Eigen::Vector3d turn = turn_vector(rotation);
@@ -74,7 +75,7 @@ std::vector<Eigen::Matrix3d> rotations_to_median(const std::vector<Positions>& h
                                                  const Eigen::Vector3d& across) {
   constexpr int kRounds = 10;  // the median moves as heads turn
   std::vector<Eigen::Matrix3d> rotations(heads.size(), Eigen::Matrix3d::Identity());
-  if (heads.size() < 3) return rotations;  // of two heads, either may be the turned one
+  if (heads.size() < 3) return rotations;  // with two heads, either one may be turned
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Positions> placed;
     for (std::size_t h = 0; h < heads.size(); ++h) {

@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Largest differences between rims that belong together. Heads of different people differ less;
-// rims in another unit, pose or position differ more.
+// Largest differences between matching rims. The rims of different people differ less; rims in
+// different units, poses or positions differ more.
 constexpr double kMaxScale = 1.3;
 constexpr double kMaxTurnDegrees = 12;
 constexpr double kRoundingMm = 0.01;
@@ -52,9 +52,10 @@ double root_mean_square(const Positions& rows) {
   return std::sqrt(square_sum(rows) / static_cast<double>(rows.rows()));
 }
 
-/// The best motion without scale from `from` to `to`, and the remaining distance.
+/// The size of the best rigid motion between two rims, and the distance that remains after this
+/// motion.
 struct RigidFit {
-  double degrees = 0, left = 0;  ///< angle of the motion; remaining rms distance
+  double degrees = 0, left = 0;  ///< rotation angle; rms distance after the motion
 };
 
 RigidFit rigid_fit(const Positions& from, const Positions& to) {
@@ -62,7 +63,7 @@ RigidFit rigid_fit(const Positions& from, const Positions& to) {
   return {motion.angle_degrees(), root_mean_square(to - motion.apply(from))};
 }
 
-/// `rim` with the start `shift`, traversed forwards or backwards.
+/// The vertices of `rim` from index `shift` on, forwards or backwards.
 Rim shifted(const Rim& rim, std::size_t shift, bool forwards) {
   Rim result;
   for (std::size_t i = 0; i < rim.size(); ++i) {
@@ -72,7 +73,7 @@ Rim shifted(const Rim& rim, std::size_t shift, bool forwards) {
   return result;
 }
 
-/// Root mean square of the distances from each point to the nearest of the other points.
+/// Root mean square of the distances from each of `points` to the nearest of `others`.
 double nearest_rms(const Positions& points, const Positions& others) {
   double sum = 0;
   for (Index i = 0; i < points.rows(); ++i) {
@@ -92,12 +93,12 @@ std::string mm_text(double mm) {
 /// The vertices of a body's rim in one order, and how well they fit the heads' rim.
 struct OrderedRim {
   Rim order;
-  double square_sum = 0;  ///< of the distances without a motion
+  double square_sum = 0;  ///< sum of squared distances without a motion
   RigidFit fit;
 };
 
 /// Returns why two matched rims do not belong together; empty if they do.
-/// \param fit  in the order of the match
+/// \param fit  the rigid fit of the rims, in the order of the match
 std::string fault_of(const Positions& head, const Positions& body, const RigidFit& fit,
                      double reach_mm) {
   const Positions from = centred(head), to = centred(body);
@@ -124,7 +125,7 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
 }
 
 /// The order that fits best after a rotation.
-/// \param orders  of both directions, one direction after the other
+/// \param orders  all orders of one direction, then all orders of the other direction
 const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
   // A rim with equal left and right sides also fits upside down, in the other direction.
   constexpr double kAlike = 1.2;
@@ -138,7 +139,7 @@ const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t
   return alike && other->fit.degrees < best->fit.degrees ? *other : *best;
 }
 
-/// The lengths and distances of the nearest rims. \param rims  nearest first
+/// Text with the lengths and distances of the nearest rims. \param rims nearest first
 std::string list_of(const std::vector<RimMatch>& rims) {
   constexpr std::size_t kNamed = 6;
   std::vector<std::string> named;
@@ -177,8 +178,8 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
 
 RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm,
                     RimOrder order) {
-  // The rim of a rotated head fits in its true order after a rotation much better than in the
-  // nearest order.
+  // If the head is rotated, the true order fits much better after a rotation than the order with
+  // the smallest distances.
   constexpr double kMuchBetter = 0.85;
   std::vector<OrderedRim> orders;
   const bool is_free = order == RimOrder::kFree;

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// The heads' neck: the lowest of the long open rims.
+/// The rim at the heads' neck: the lowest of the long open rims.
 /// \param up  unit vector
 /// \param mm  length of a unit of the positions
 /// \throws InvalidInput if there is no open rim, or if two long rims are equally low.
@@ -24,23 +24,23 @@ enum class RimOrder {
 
 /// The match of a body's rim with the heads' rim.
 struct RimMatch {
-  Rim rim;            ///< the body's vertex for each vertex of the heads' rim
-  double off_mm = 0;  ///< distance between the centroids
+  Rim rim;            ///< the matching vertex of the body for each vertex of the heads' rim
+  double off_mm = 0;  ///< distance between the centroids of both rims, in mm
   std::string fault;  ///< why the rims do not match; empty if they do
 };
 
-/// Matches the vertices of two rims of equal length: tries every start in both directions and takes
-/// the order with the smallest sum of squared distances, or another order if that sum is much
-/// smaller after a rotation.
+/// Matches the vertices of two rims of equal length. Tries every start in both directions, and
+/// takes the order with the smallest sum of squared distances. Takes another order if its sum after
+/// a rotation is much smaller.
 /// \param head     the heads' rim, #rim by 3, in mm, in order
 /// \param body     positions of the whole body, in mm
-/// \param reach_mm largest distance of the rims: the falloff
+/// \param reach_mm largest distance between the rims; callers pass the falloff
 RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm,
                     RimOrder order = RimOrder::kFree);
 
 /// Finds the rim of a body that matches the heads' rim.
-/// \throws InvalidInput with the number of vertices and the offsets that were found if no rim
-///         matches, or if several do.
+/// \throws InvalidInput if no rim matches or if several match. The message lists the vertex counts
+///         and offsets of the nearest rims.
 Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
                  double reach_mm, RimOrder order = RimOrder::kFree);
 

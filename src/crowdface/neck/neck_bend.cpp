@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-/// The triangles of all polygons that touch a moved vertex or a neighbour of one. The Laplacians of
-/// the moved vertices and their neighbours depend on no other triangles.
+/// The triangles of all polygons with a corner that is a moved vertex or a neighbour of a moved
+/// vertex. The Laplacians of the moved vertices and their neighbours depend on no other triangles.
 std::vector<Triangle> triangles_around(const Topology& topology, const Adjacency& adjacency,
                                        std::span<const std::uint32_t> moved) {
   std::vector<bool> touched(static_cast<std::size_t>(topology.vertex_count), false);
@@ -46,7 +46,8 @@ NeckBend::NeckBend(const Topology& topology, const Adjacency& adjacency, const P
   distances.search(rim, falloff);
   std::vector<std::uint32_t> moved = distances.reached();
   std::vector<Triangle> triangles = triangles_around(topology, adjacency, moved);
-  // Local numbers: first the moved vertices in ascending order, then the rim, then the fixed ones.
+  // Local numbers: first the moved vertices in ascending order, then the rim, then the fixed
+  // vertices.
   constexpr std::uint32_t kUnnumbered = kNoIndex;
   std::vector<std::uint32_t> number(static_cast<std::size_t>(positions.rows()), kUnnumbered);
   std::vector<std::uint32_t> local;

@@ -11,10 +11,10 @@
 
 namespace crowdface {
 
-/// Smooth displacements of the skin above a rim. They are given at the rim, and zero with zero
-/// slope at the distance `falloff` along the surface. Between, they have the least bending energy
-/// (the biharmonic equation, discretised with the cotangent Laplacian). One factorisation serves
-/// all displacements.
+/// Smooth displacements of the skin above a rim. The caller gives the displacements of the rim. At
+/// the distance `falloff` along the surface, the displacements are zero with zero slope. In this
+/// band they minimise the bending energy (the biharmonic equation, discretised with the cotangent
+/// Laplacian). One factorisation serves all displacements.
 class NeckBend {
  public:
   /// \param falloff  in the unit of the positions, measured along edges of `positions`
@@ -23,9 +23,10 @@ class NeckBend {
   ~NeckBend();
   NeckBend(NeckBend&&) noexcept;
 
-  /// The vertices that a displacement of the rim moves, without the rim, ascending.
+  /// The vertices above the rim that a displacement of the rim moves, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
-  /// Displacements of `vertices()`. \param rim_moves  #rim by 3
+  /// Returns the displacements of `vertices()`. \param rim_moves #rim by 3: displacements of the
+  /// rim
   Positions bend(const Positions& rim_moves) const;
 
  private:

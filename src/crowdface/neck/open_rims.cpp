@@ -12,7 +12,8 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The edges with exactly one polygon, each in the direction of that polygon.
 std::vector<Edge> open_edges(const Topology& topology, const Adjacency& adjacency) {
-  std::map<Edge, std::vector<Edge>> edges;  // polygon edges by their two ends in ascending order
+  // directed polygon edges, grouped by the undirected edge
+  std::map<Edge, std::vector<Edge>> edges;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = topology.face(f);
     for (std::size_t c = 0; c < face.size(); ++c) {

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// A closed loop of edges: its vertices in order, each once.
+/// A closed loop of edges: the vertices in the order of the loop, each once.
 using Rim = std::vector<std::uint32_t>;
 
 /// The open rims of a mesh: closed loops of edges that have exactly one polygon, ordered by their

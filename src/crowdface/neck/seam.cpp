@@ -11,7 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// Adds displacements of vertices, ascending, to `sum`; vertices that `sum` lacks are skipped.
+/// Adds the displacements in `rows` of these vertices (ascending) to `sum`. Skips vertices that
+/// `sum` lacks.
 void add_rows(const std::vector<std::uint32_t>& vertices, const Positions& rows,
               Displacements& sum) {
   auto at = sum.vertices.begin();
@@ -30,8 +31,8 @@ void set_rows(const Rim& rim, const Positions& rows, Positions& mesh) {
 /// Bends the neck of a mesh and gives the rim these positions.
 void bend_to(const Seam& seam, const Positions& goal, Positions& mesh) {
   const Positions moves = goal - mesh(seam.rim, kAllColumns);
-  // Distance below which a rim counts as already in place: blending heads that all end in the ring
-  // leaves only rounding errors.
+  // Distance below which a rim counts as already in place. If all heads end in the same ring, their
+  // blend differs from it only by rounding errors.
   constexpr double kRounding = 1e-9;
   if (moves.cwiseAbs().maxCoeff() > kRounding * goal.cwiseAbs().maxCoeff()) {
     const std::vector<std::uint32_t>& bent = seam.neck.vertices();
@@ -52,7 +53,7 @@ void Seam::bend_like(const Positions& other, Positions& mesh) const {
   bend_to(*this, other(rim, kAllColumns), mesh);
 }
 
-void Seam::hold(Displacements& moves) const {
+void Seam::fix_rim(Displacements& moves) const {
   Positions at_rim = Positions::Zero(positions.rows(), 3);
   for (std::size_t i = 0; i < rim.size(); ++i) {
     const auto found = std::ranges::lower_bound(moves.vertices, rim[i]);

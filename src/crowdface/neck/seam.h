@@ -17,9 +17,10 @@ struct Seam {
   void fit(Positions& mesh) const;
   /// Bends the neck of a mesh so that the rim has the positions that it has in `other`.
   void bend_like(const Positions& other, Positions& mesh) const;
-  /// Changes a shape's displacements smoothly so that they are zero at the rim.
-  void hold(Displacements& moves) const;
-  /// Sets the normals of the rim to the seam's. \param of_mesh  #V by 3; may be empty
+  /// Changes the displacements of a shape smoothly so that the rim does not move.
+  void fix_rim(Displacements& moves) const;
+  /// Sets the normals at the rim to the seam's normals. \param of_mesh #V by 3: normals of a mesh;
+  /// may be empty
   void set_normals(Positions& of_mesh) const;
 };
 

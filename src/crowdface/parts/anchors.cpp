@@ -39,7 +39,7 @@ Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Posit
         nearest_around(topology, faces, positions, skin.nearest(point).vertex, point);
     const auto [entry, is_new] =
         known.emplace(place.corners, static_cast<std::uint32_t>(sites_.size()));
-    site_of_.push_back(entry->second);
+    site_indices_.push_back(entry->second);
     shares_.push_back(place.shares);
     if (!is_new) continue;
     const std::vector<std::uint32_t> ring = ring_of(topology, faces, place.corners);
@@ -58,7 +58,8 @@ Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Posit
 }
 
 Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) const {
-  // Relative to the first corner, so that rounding does not depend on where the head is.
+  // Positions are relative to the first corner, so that rounding does not depend on the head's
+  // position.
   const Eigen::Vector3d first = row3(positions, sites_[site][0]);
   Eigen::Vector3d along = Eigen::Vector3d::Zero(), across = along;
   for (const RingVertex& ring : rings_.of(site)) {
@@ -71,44 +72,44 @@ Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) c
 }
 
 Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const {
-  return point_on(positions, sites_[site_of_[i]], shares_[i]);
+  return point_on(positions, sites_[site_indices_[i]], shares_[i]);
 }
 
-bool Anchors::unmoved(std::size_t site, const Positions& before, const Positions& after) const {
+bool Anchors::is_unmoved(std::size_t site, const Positions& before, const Positions& after) const {
   return std::ranges::all_of(rings_.of(site), [&](const RingVertex& ring) {
     return before.row(ring.vertex) == after.row(ring.vertex);
   });
 }
 
-std::vector<Eigen::Vector3d> Anchors::places(const Positions& head) const {
+std::vector<Eigen::Vector3d> Anchors::offsets(const Positions& head) const {
   std::vector<Frame> frames;
   for (std::size_t s = 0; s < sites_.size(); ++s) frames.push_back(frame_at(s, head));
   std::vector<Eigen::Vector3d> result;
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const Eigen::Vector3d offset = head.row(bound_[i]).transpose() - origin(i, head);
-    const Frame& frame = frames[site_of_[i]];
+    const Frame& frame = frames[site_indices_[i]];
     result.emplace_back(offset.dot(frame[0]), offset.dot(frame[1]), offset.dot(frame[2]));
   }
   return result;
 }
 
-void Anchors::put(const Positions& target, std::span<const Eigen::Vector3d> places,
-                  Positions& result) const {
+void Anchors::place_vertices(const Positions& target, std::span<const Eigen::Vector3d> offsets,
+                             Positions& result) const {
   std::vector<Frame> frames;
   std::vector<bool> still;
   for (std::size_t s = 0; s < sites_.size(); ++s) {
-    still.push_back(unmoved(s, target, result));
+    still.push_back(is_unmoved(s, target, result));
     frames.push_back(still.back() ? Frame{} : frame_at(s, result));
   }
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const std::uint32_t v = bound_[i];
-    if (still[site_of_[i]]) {
+    if (still[site_indices_[i]]) {
       result.row(v) = target.row(v);
       continue;
     }
-    const Frame& frame = frames[site_of_[i]];
+    const Frame& frame = frames[site_indices_[i]];
     const Eigen::Vector3d offset =
-        places[i].x() * frame[0] + places[i].y() * frame[1] + places[i].z() * frame[2];
+        offsets[i].x() * frame[0] + offsets[i].y() * frame[1] + offsets[i].z() * frame[2];
     result.row(v) = (origin(i, result) + offset).transpose();
   }
 }
@@ -128,7 +129,7 @@ Ties::Ties(const Positions& positions, const std::vector<std::span<const std::ui
       ties_.push_back({v, part, share});
       sum += share;
     }
-    // Normalise, so that a vertex between two parts follows both.
+    // Normalise the weights, so that a vertex between two parts follows both parts.
     for (std::size_t i = first; i < ties_.size(); ++i) ties_[i].share /= std::max(1.0, sum);
   }
 }

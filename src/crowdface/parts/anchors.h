@@ -15,26 +15,26 @@
 namespace crowdface {
 
 /// Attaches the vertices of bound parts to the skin. Each vertex is anchored to a point on the
-/// nearest triangle of the skin. Its offset from this point is expressed in a frame that rotates
-/// with the skin around the triangle. Two axes of the frame are weighted sums of the surrounding
-/// vertices (with fixed weights), made orthonormal.
+/// nearest triangle of the skin. The vertex keeps its offset from this point in a frame that
+/// rotates with the skin around the triangle. Two axes of the frame are orthonormalised weighted
+/// sums of the surrounding vertices, with fixed weights.
 class Anchors {
  public:
   Anchors() = default;
   /// \param positions  The head on which the nearest skin is found.
-  /// \param skin       The skin's vertices at these positions.
+  /// \param skin       Grid of the skin's vertices at these positions.
   /// \param bound      Vertices to bind, ascending.
   Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
           const PointGrid& skin, std::vector<std::uint32_t> bound);
 
-  const std::vector<std::uint32_t>& bound() const { return bound_; }
+  const std::vector<std::uint32_t>& bound_vertices() const { return bound_; }
 
   /// Returns the vertices' offsets in their frames on a head, #bound.
-  std::vector<Eigen::Vector3d> places(const Positions& head) const;
-  /// Moves the bound vertices of `result` to the offsets that `places` returned for the target.
+  std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
+  /// Moves the bound vertices of `result` to the offsets that `offsets` returned for the target.
   /// Where the surrounding skin has not moved, a vertex gets exactly the target's position.
-  void put(const Positions& target, std::span<const Eigen::Vector3d> places,
-           Positions& result) const;
+  void place_vertices(const Positions& target, std::span<const Eigen::Vector3d> offsets,
+                      Positions& result) const;
 
  private:
   using Frame = std::array<Eigen::Vector3d, 3>;  ///< orthonormal axes
@@ -45,11 +45,11 @@ class Anchors {
 
   Frame frame_at(std::size_t site, const Positions& positions) const;
   Eigen::Vector3d origin(std::size_t i, const Positions& positions) const;
-  bool unmoved(std::size_t site, const Positions& before, const Positions& after) const;
+  bool is_unmoved(std::size_t site, const Positions& before, const Positions& after) const;
 
   std::vector<std::uint32_t> bound_;           ///< ascending
-  std::vector<std::uint32_t> site_of_;         ///< #bound: index into `sites_`
-  std::vector<std::array<double, 3>> shares_;  ///< #bound, barycentric
+  std::vector<std::uint32_t> site_indices_;    ///< #bound: index into `sites_`
+  std::vector<std::array<double, 3>> shares_;  ///< #bound: barycentric coordinates of each anchor
   std::vector<Triangle> sites_;                ///< triangles of the skin
   CompressedRows<RingVertex> rings_;           ///< #sites: the skin around each triangle
 };
@@ -61,8 +61,8 @@ class Ties {
   /// \param positions  The head on which distances are measured.
   /// \param rigid      Vertices of each rigid part.
   /// \param bound      Vertices that may be tied.
-  /// \param reach      Distance at which a tie ends: vertices farther from a part than this are
-  ///                   free; vertices at the part follow it completely.
+  /// \param reach      Distance from a part at which ties end. Vertices at the part follow the part
+  ///                   completely; vertices farther than `reach` are free.
   Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
        std::span<const std::uint32_t> bound, double reach);
 
@@ -78,7 +78,7 @@ class Ties {
     std::uint32_t vertex, part;
     double share;  ///< weight of the part's motion; the weights of a vertex sum to at most one
   };
-  std::vector<Tie> ties_;  ///< ties of one vertex are consecutive
+  std::vector<Tie> ties_;  ///< the ties of each vertex are consecutive
 };
 
 }  // namespace crowdface

@@ -8,9 +8,9 @@
 namespace crowdface {
 namespace {
 
-/// Returns where a ray from the centre intersects the surface, by Newton steps on the tangent
-/// planes at the nearest points. In a hole of the surface, the result lies on the plane next to the
-/// hole.
+/// Returns the distance at which a ray from the centre intersects the surface, by Newton steps on
+/// the tangent planes at the nearest points. In a hole, the tangent plane next to the hole replaces
+/// the surface.
 double radius_along(const Topology& topology, const VertexFaces& faces, const Positions& head,
                     const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, double radius,
                     std::uint32_t& nearest) {
@@ -56,7 +56,7 @@ BallMap::BallMap(const Topology& topology, const VertexFaces& faces, const Posit
           radius_along(topology, faces, head, centre, direction, radius, nearest));
     }
   }
-  farthest_ = static_cast<double>(*std::ranges::max_element(radii_));
+  max_radius_ = static_cast<double>(*std::ranges::max_element(radii_));
 }
 
 BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
@@ -70,7 +70,8 @@ BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
   const double y = std::clamp((q + kWidth) * kPerWidth, 0.0, kLast);
   const auto i = static_cast<std::size_t>(x), j = static_cast<std::size_t>(y);
   const double u = x - static_cast<double>(i), v = y - static_cast<double>(j);
-  const double a = at(i, j), b = at(i + 1, j), c = at(i, j + 1), d = at(i + 1, j + 1);
+  const double a = radius_at_node(i, j), b = radius_at_node(i + 1, j), c = radius_at_node(i, j + 1),
+               d = radius_at_node(i + 1, j + 1);
   const double radius = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
   const double by_p = ((1 - v) * (b - a) + v * (d - c)) * kPerWidth;
   const double by_q = ((1 - u) * (c - a) + u * (d - b)) * kPerWidth;

@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// The radius of an eyeball, cornea included, in all directions around its front. The radii are
-/// stored on a grid over the stereographic plane, so that measuring the gap to a lid is a table
-/// look-up instead of a search.
+/// The radius of an eyeball, cornea included, in all directions around its front. A grid over the
+/// stereographic plane stores the radii, so that a table look-up gives the gap to a lid without a
+/// search.
 class BallMap {
  public:
   BallMap() = default;
@@ -26,15 +26,15 @@ class BallMap {
     double gap = 0;          ///< signed distance from the surface; negative: inside
     Eigen::Vector3d normal;  ///< outward unit normal
   };
-  /// Returns the gap between the surface and a point, to first order.
+  /// Returns the approximate gap between the surface and a point (exact to first order).
   ///
-  /// \param from  Position of the point relative to the centre.
+  /// \param from  Vector from the eyeball's centre to the point.
   Gap gap_at(const Eigen::Vector3d& from) const;
 
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
   /// Returns the largest radius in any direction.
-  double farthest() const { return farthest_; }
+  double max_radius() const { return max_radius_; }
 
  private:
   /// Number of nodes along one side of the grid. Nodes are half a millimetre apart at an eyeball's
@@ -43,11 +43,11 @@ class BallMap {
   /// Half width of the grid in the stereographic plane; reaches 16° behind the equator.
   static constexpr double kWidth = 1.32;
 
-  float at(std::size_t x, std::size_t y) const { return radii_[y * kNodes + x]; }
+  float radius_at_node(std::size_t x, std::size_t y) const { return radii_[y * kNodes + x]; }
 
   HeadAxes axes_;
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
-  double radius_ = 0, farthest_ = 0;
+  double radius_ = 0, max_radius_ = 0;
   std::vector<float> radii_;  ///< kNodes by kNodes; x, along the side axis, varies fastest
 };
 

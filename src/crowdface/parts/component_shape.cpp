@@ -16,7 +16,7 @@
 namespace crowdface {
 namespace {
 
-/// Number of a component's vertices whose distance from the skin is measured.
+/// Largest number of a component's vertices whose distance from the skin is measured.
 constexpr std::size_t kMaxProbes = 512;
 
 /// Solves the symmetric 4 by 4 system A x = b by elimination with pivoting; returns zero if A is
@@ -64,7 +64,8 @@ void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& ve
   shape.radius = std::sqrt(std::max(0.0, x[3] + centre.squaredNorm()));
 }
 
-/// Includes face centres, because the corners of any box lie on a sphere.
+/// Measures the distances of vertices and face centres from the sphere. Vertices alone do not
+/// suffice: the corners of any box lie on a sphere.
 void measure_roughness(const Topology& topology, const Components& components,
                        const Positions& positions, std::vector<ComponentShape>& shapes) {
   std::vector<double> sums(shapes.size(), 0.0);
@@ -109,7 +110,7 @@ std::vector<std::vector<std::uint32_t>> members_of(const Components& components)
   return members;
 }
 
-std::uint32_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t vertex) {
+std::uint32_t index_in_list(std::span<const std::uint32_t> ascending, std::uint32_t vertex) {
   const auto at = std::ranges::lower_bound(ascending, vertex);
   if (at == ascending.end() || *at != vertex) return kNoIndex;
   return static_cast<std::uint32_t>(at - ascending.begin());
@@ -156,7 +157,7 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
     area[c] += face_area_vector(topology, f, positions).norm() / 2;
   }
   // Treat an edge between two boundary vertices as open. This is wrong for a few edges across
-  // narrow strips, which are open enough anyway.
+  // narrow strips, but the openness of strips is large anyway.
   for (Index i = 0; i < topology.vertex_count; ++i) {
     if (!adjacency.boundary[static_cast<std::size_t>(i)]) continue;
     for (const std::uint32_t n : adjacency.of(i)) {

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Upper limit of measured distances from the skin, as a fraction of the skin's extent. A larger
-/// distance is reported as this limit.
+/// Limit of the measured distances from the skin, as a fraction of the skin's extent. The limit
+/// replaces larger distances.
 constexpr double kFarFromSkin = 0.05;
 
 /// Geometric properties of a connected component that distinguish skin, eyes and lashes.
@@ -22,8 +22,9 @@ struct ComponentShape {
   Index faces = 0;
   double extent = 0;     ///< diagonal of the bounding box
   double thickness = 0;  ///< shortest side of the bounding box
-  /// Perimeter² / (4π · area), with the perimeter of open edges: 0 for a closed surface, ½ for a
-  /// hemisphere, 1 for a disc, more for a strip. Independent of the number of vertices.
+  /// Perimeter² / (4π · area), where the perimeter is the total length of open edges. 0 for a
+  /// closed surface, ½ for a hemisphere, 1 for a disc, more for a strip; independent of the number
+  /// of vertices.
   double openness = 0;
   /// 90th percentile of the vertices' distances from the skin, at most kFarFromSkin.
   double skin_distance = 0;
@@ -45,18 +46,17 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
 std::vector<std::vector<std::uint32_t>> members_of(const Components& components);
 
 /// Returns the index of a vertex in an ascending list, or kNoIndex if it is not in the list.
-std::uint32_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t vertex);
+std::uint32_t index_in_list(std::span<const std::uint32_t> ascending, std::uint32_t vertex);
 
-// Returns the bounding box of some vertices. This function and the following ones need at least one
-// vertex.
+/// Returns the bounding box of some vertices, at least one.
 Eigen::AlignedBox3d bounding_box(const Positions& positions,
                                  std::span<const std::uint32_t> vertices);
-/// Returns the mean position of the vertices.
+/// Returns the mean position of some vertices, at least one.
 Eigen::Vector3d centre_of(const Positions& positions, std::span<const std::uint32_t> vertices);
-/// Returns the root mean square distance of the vertices from a point.
+/// Returns the root mean square distance of some vertices, at least one, from a point.
 double radius_about(const Eigen::Vector3d& middle, const Positions& positions,
                     std::span<const std::uint32_t> vertices);
-/// Returns the diagonal of the vertices' bounding box.
+/// Returns the diagonal of the bounding box of some vertices, at least one.
 double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices);
 
 }  // namespace crowdface

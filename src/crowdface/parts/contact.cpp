@@ -14,27 +14,28 @@
 namespace crowdface {
 namespace {
 
-/// Parts with more vertices are subsampled evenly.
+/// Largest number of vertices of a part that are used; a part with more vertices is subsampled
+/// evenly.
 constexpr std::size_t kMaxVertices = 2500;
 /// kClusterPairs: largest number of pairs in a cluster. kMoreSlack: factor by which height
 /// differences within a cluster may be larger in a face than in the heads.
 constexpr std::size_t kClusterPairs = 16;
 constexpr double kMoreSlack = 1.5;
-/// Fractions of the reach (about 4 mm). kNear: a vertex whose approximate height is below this is
-/// measured exactly. kFree: a vertex above this height counts as outside.
+/// Fractions of the reach (about 4 mm). kNear: largest approximate height of vertices whose exact
+/// height is measured. kFree: smallest height of vertices that count as outside the skin.
 constexpr double kNear = 0.5, kFree = -0.005;
-/// Fractions of the reach. kFar: later steps ignore vertices farther away than this. kDone:
-/// violation that is tolerated in the end.
+/// Fractions of the reach. kFar: later steps ignore vertices that are farther away from the skin.
+/// kDone: largest violation in the result.
 constexpr double kFar = 0.15, kDone = 0.002;
 /// Costs of a rotation (kHoldTurn) and of a change of size (kHoldSize), relative to a translation
 /// that moves the vertices by the same distance.
 constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
-/// Penalties for violations, as multiples of the reach: kNewPenalty for vertices that are outside
-/// in all heads, which have priority, and kDeepPenalty for all others.
+/// Penalties for violations, as multiples of the reach. kNewPenalty: for vertices that are outside
+/// in all heads; these have priority. kDeepPenalty: for all other vertices.
 constexpr double kNewPenalty = 1000, kDeepPenalty = 1;
 
-/// Unknowns of a step, all of them lengths.
+/// Unknowns of an optimisation step of a part. All of them are lengths.
 enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepSlack, kUnknowns };
 
 }  // namespace
@@ -56,20 +57,21 @@ Contact::Contact(const Topology& topology, const VertexFaces& faces, const Posit
     sum += height(pairs_.size() - 1, point, positions).height > 0 ? 1 : -1;
   }
   // Most vertices are outside the skin; roots of teeth may be inside.
-  side_ = sum < 0 ? -1 : 1;
+  normal_sign_ = sum < 0 ? -1 : 1;
   find_starts(positions, skin, heads);
   find_clusters(positions, heads);
   parallel_for_each(pairs_.size(), 64, [&](std::size_t i) {
     for (const Head& head : heads) {
       const Eigen::Vector3d point = row3(head.positions, pairs_[i].vertex);
-      pairs_[i].least = std::min(pairs_[i].least, height(i, point, head.positions).height);
+      pairs_[i].min_height =
+          std::min(pairs_[i].min_height, height(i, point, head.positions).height);
     }
   });
 }
 
 void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                           const std::vector<Head>& heads) {
-  // Starts nearer to each other than this distance lead to the same point of the skin.
+  // Starts that are nearer to each other than this distance lead to the same point of the skin.
   const double apart = 0.3 * reach_;
   // Find the skin nearest to each pair in every head.
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());
@@ -131,7 +133,7 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
     open.emplace_back(middle, end);
     open.emplace_back(begin, middle);
   }
-  // Bound the height differences within a cluster by those in the heads.
+  // Bound the height differences within each cluster by the differences in the heads.
   for (Cluster& cluster : clusters_) {
     for (const Head& head : heads) {
       const auto rough = [&](std::size_t i) {
@@ -149,7 +151,7 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
 double Contact::approximate_height(const Pair& pair, const Eigen::Vector3d& point,
                                    const Positions& skin) const {
   const Eigen::Vector3d place = point_on(skin, pair.corners, pair.shares);
-  return side_ * area_vector(skin, pair.corners).normalized().dot(point - place);
+  return normal_sign_ * area_vector(skin, pair.corners).normalized().dot(point - place);
 }
 
 Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions& skin) const {
@@ -166,7 +168,7 @@ Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions&
     }
     normal += place.shares[k] * at_corner.normalized();
   }
-  return side_ * normal.normalized();
+  return normal_sign_ * normal.normalized();
 }
 
 Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
@@ -187,8 +189,8 @@ Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
   return {side * place.distance, side / place.distance * from};
 }
 
-RigidMotion Contact::clear(const Positions& target, const RigidMotion& motion,
-                           const Positions& after, double margin) const {
+RigidMotion Contact::keep_out_of_skin(const Positions& target, const RigidMotion& motion,
+                                      const Positions& after, double margin) const {
   constexpr int kSteps = 4;
   RigidMotion cleared = motion;
   const auto rough = [&](const Pair& pair) {
@@ -227,8 +229,9 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
     near[kept++] = i;
     const Eigen::Vector3d from = point - middle;
     const Eigen::Vector3d arm = from.cross(now.outward) / radius;
-    const bool never = pair.least > kFree * reach_;
-    const double least = never ? std::clamp(pair.least, 0.2 * margin, margin) : pair.least;
+    const bool never = pair.min_height > kFree * reach_;
+    const double least =
+        never ? std::clamp(pair.min_height, 0.2 * margin, margin) : pair.min_height;
     missing = missing || now.height < least - kDone * reach_;
     QuadraticProgram::Vector a = {now.outward.x(),
                                   now.outward.y(),

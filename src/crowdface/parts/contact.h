@@ -14,7 +14,7 @@
 namespace crowdface {
 
 /// Keeps a rigid part, such as the teeth, out of the skin in front of it, such as lips and cheeks.
-/// Stores pairs of a vertex of the part and a triangle of the skin.
+/// Stores pairs that consist of a vertex of the part and a triangle of the skin.
 class Contact {
  public:
   Contact() = default;
@@ -36,16 +36,17 @@ class Contact {
   };
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// Returns a motion as near as possible to the given one, after which no vertex is deeper inside
-  /// the skin than in the head where this vertex is deepest, and no vertex is inside the skin that
-  /// is outside it in all heads. The part is translated, rotated and scaled slightly.
+  /// Returns the nearest motion to `motion` that keeps the part out of the skin. After this motion,
+  /// no vertex is deeper inside the skin than in the head where this vertex is deepest. A vertex
+  /// that is outside the skin in all heads stays outside. The correction is a small translation,
+  /// rotation and scaling.
   ///
   /// \param target  The head with the part before the motion.
   /// \param motion  Motion of the surrounding skin.
   /// \param after   The face with the moved skin.
   /// \param margin  Clearance to keep where all heads have a clearance.
-  RigidMotion clear(const Positions& target, const RigidMotion& motion, const Positions& after,
-                    double margin) const;
+  RigidMotion keep_out_of_skin(const Positions& target, const RigidMotion& motion,
+                               const Positions& after, double margin) const;
 
   std::size_t size() const { return pairs_.size(); }
 
@@ -56,13 +57,13 @@ class Contact {
     std::uint32_t vertex;
     Triangle corners;
     std::array<double, 3> shares;
-    /// Vertices at which the search for the nearest skin starts: one on each lip if both lips are
+    /// Vertices at which the search for the nearest skin starts; on both lips if both lips are
     /// near.
     Starts starts;
-    double least;  ///< smallest height of the pair in all heads
+    double min_height;  ///< smallest height of the pair in all heads
   };
-  /// Pairs that are close together. The pair in the middle represents all pairs: the height of any
-  /// pair is at least that of the middle pair minus `slack`.
+  /// Pairs that are close together. The middle pair represents all pairs of the cluster: no pair
+  /// has a height below the height of the middle pair minus `slack`.
   struct Cluster {
     std::size_t begin, end;  ///< range of `pairs_`
     double slack;
@@ -74,7 +75,7 @@ class Contact {
   double approximate_height(const Pair& pair, const Eigen::Vector3d& point,
                             const Positions& skin) const;
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
-  /// Improves `motion` by one step.
+  /// Improves `motion` by one step of the optimisation.
   ///
   /// \param near  Indices of pairs to check; the function removes pairs that are far from the skin.
   /// \return      false if no pair violates a limit.
@@ -84,8 +85,8 @@ class Contact {
   const Topology* topology_ = nullptr;
   const VertexFaces* faces_ = nullptr;
   double reach_ = 0;
-  double side_ = 1;    ///< −1: the skin's normals point away from the part
-  double radius_ = 0;  ///< root mean square distance of the part's vertices from its middle
+  double normal_sign_ = 1;  ///< −1 if the skin's normals point away from the part, else 1
+  double radius_ = 0;       ///< root mean square distance of the part's vertices from its middle
   /// middle of the part on the head where the pairs were found
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::vector<Pair> pairs_;  ///< ordered by cluster

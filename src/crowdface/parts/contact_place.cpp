@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// Pairs within kCourse spacings of a place determine the direction of the group there; pairs
+/// Pairs within kCourse spacings of a place determine the local direction of the group. Pairs
 /// within kUp spacings determine the place's `up`.
 constexpr double kCourse = 4, kUp = 1.5;
 
@@ -39,8 +39,8 @@ bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b
   return a == b || contains(adjacency.of(a), b);
 }
 
-/// Returns whether two edges can be consecutive in a cut, that is, belong to one face: they share
-/// an end and their other ends are neighbours, or they are opposite sides of a quad.
+/// Returns whether two edges belong to one face and so can be consecutive in a cut. The edges share
+/// an end and the other ends are neighbours, or the edges are opposite sides of a quad.
 bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoint& q) {
   const auto joined = [&](std::uint32_t qa, std::uint32_t qb) {
     return are_neighbours(adjacency, p.a, qa) && are_neighbours(adjacency, p.b, qb);
@@ -58,7 +58,7 @@ double ContactPlace::gap(const Positions& positions) const {
   return lowest - highest;
 }
 
-std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing) {
+std::vector<ContactPlace> spread_places(const FacingGroup& group, double spacing) {
   std::vector<double> nearest(group.size(), std::numeric_limits<double>::max());
   std::vector<ContactPlace> places;
   // the pair farthest from all places so far
@@ -81,7 +81,7 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
                   double reach, ContactPlace& place) {
   const auto off_cut = [&](std::uint32_t v) {
-    return (row3(mean, v) - place.middle).dot(place.along);
+    return (row3(mean, v) - place.middle).dot(place.plane_normal);
   };
   for (const std::uint32_t a : vertices) {
     const double at = off_cut(a);
@@ -100,9 +100,9 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
 }
 
 Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
-    : points_(place.low), up_(place.up), deep_(place.deep()) {
+    : points_(place.low), up_(place.up), inward_(place.inward()) {
   points_.insert(points_.end(), place.high.begin(), place.high.end());
-  const auto add_pieces = [&](std::size_t begin, std::size_t end, std::vector<Piece>& pieces) {
+  const auto add_pieces = [&](std::size_t begin, std::size_t end, std::vector<Segment>& pieces) {
     for (std::size_t i = begin; i < end; ++i) {
       bool alone = true;
       for (std::size_t j = begin; j < end; ++j) {
@@ -117,8 +117,8 @@ Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
   add_pieces(place.low.size(), points_.size(), high_);
 }
 
-std::vector<double> Clearance::along(const Eigen::Vector3d& direction,
-                                     const Positions& positions) const {
+std::vector<double> Clearance::coordinates(const Eigen::Vector3d& direction,
+                                           const Positions& positions) const {
   std::vector<double> heights;
   heights.reserve(points_.size());
   for (const EdgePoint& point : points_) {
@@ -127,30 +127,30 @@ std::vector<double> Clearance::along(const Eigen::Vector3d& direction,
   return heights;
 }
 
-std::vector<Clearance::Opposite> Clearance::opposites(std::span<const double> depths) const {
-  const auto shares_at = [&](const Piece& piece, double depth) {
+std::vector<Clearance::OppositePoints> Clearance::opposites(std::span<const double> depths) const {
+  const auto shares_at = [&](const Segment& piece, double depth) {
     const double span = depths[piece[1]] - depths[piece[0]];
     const double of_second =
         span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
     return std::array{1 - of_second, of_second};
   };
-  const auto depth_range = [&](const Piece& piece) {
+  const auto depth_range = [&](const Segment& piece) {
     return std::array{std::min(depths[piece[0]], depths[piece[1]]),
                       std::max(depths[piece[0]], depths[piece[1]])};
   };
   std::vector<std::array<double, 2>> ranges_of_high;
-  for (const Piece& high : high_) ranges_of_high.push_back(depth_range(high));
-  std::vector<Opposite> opposites;
-  Opposite nearest{};
+  for (const Segment& high : high_) ranges_of_high.push_back(depth_range(high));
+  std::vector<OppositePoints> opposites;
+  OppositePoints nearest{};
   double least = std::numeric_limits<double>::max();
-  for (const Piece& low : low_) {
+  for (const Segment& low : low_) {
     const auto [low_from, low_to] = depth_range(low);
     for (std::size_t h = 0; h < high_.size(); ++h) {
-      const Piece& high = high_[h];
+      const Segment& high = high_[h];
       const auto [high_from, high_to] = ranges_of_high[h];
       const double from = std::max(low_from, high_from), to = std::min(low_to, high_to);
       const auto at = [&](double depth) {
-        return Opposite{low, high, shares_at(low, depth), shares_at(high, depth)};
+        return OppositePoints{low, high, shares_at(low, depth), shares_at(high, depth)};
       };
       if (from <= to) {
         opposites.push_back(at(from));
@@ -165,9 +165,9 @@ std::vector<Clearance::Opposite> Clearance::opposites(std::span<const double> de
   return opposites;
 }
 
-double Clearance::gap(std::span<const Opposite> opposites, std::span<const double> heights) {
+double Clearance::gap(std::span<const OppositePoints> opposites, std::span<const double> heights) {
   double least = std::numeric_limits<double>::max();
-  for (const Opposite& opposite : opposites) least = std::min(least, opposite.gap(heights));
+  for (const OppositePoints& opposite : opposites) least = std::min(least, opposite.gap(heights));
   return least;
 }
 

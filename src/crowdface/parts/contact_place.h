@@ -21,28 +21,29 @@ struct EdgePoint {
   double share;  ///< weight of b; the weight of a is 1 − share
 };
 
-/// A place at which the gap between two facing sides is measured: two short profiles, one on each
-/// side, cut by a plane on the mean head, and the direction from one side to the other.
+/// A place at which the gap between two facing sides is measured. A plane cuts a short profile of
+/// each side on the mean head.
 struct ContactPlace {
-  /// position on the mean head; unit vector from the low side to the high side
+  /// `middle`: position on the mean head. `up`: unit vector from the low side to the high side.
   Eigen::Vector3d middle, up;
-  Eigen::Vector3d along;  ///< unit normal of the cutting plane
+  Eigen::Vector3d plane_normal;  ///< unit normal of the cutting plane
   std::vector<EdgePoint> low, high;
 
   /// Returns the height of the lowest point of the high profile above the highest point of the low
   /// profile; negative if they overlap.
   double gap(const Positions& positions) const;
-  /// Returns the unit vector into the contact, perpendicular to `up` in the cutting plane.
-  Eigen::Vector3d deep() const { return along.cross(up); }
+  /// Returns the unit vector into the contact: in the cutting plane, perpendicular to `up`.
+  Eigen::Vector3d inward() const { return plane_normal.cross(up); }
 };
 
-/// Returns places spread evenly over a group, with profiles that are still empty.
+/// Returns places spread evenly over a group. The profiles of the places are empty; `cut_profiles`
+/// fills them.
 ///
 /// \param spacing  Minimum distance between two places; every pair of the group is within this
 ///                 distance of some place.
-std::vector<ContactPlace> places_among(const FacingGroup& group, double spacing);
+std::vector<ContactPlace> spread_places(const FacingGroup& group, double spacing);
 
-/// Cuts the profiles of a place. Either profile may be empty.
+/// Cuts the two profiles of a place; one or both may stay empty.
 ///
 /// \param vertices  Vertices around the group.
 /// \param side      #V: positive on the high side, negative on the low side.
@@ -51,24 +52,24 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
                   double reach, ContactPlace& place);
 
-/// Returns the coordinate of an edge point along a direction.
+/// Returns the coordinate of an edge point along the direction `up`.
 inline double height_of(const EdgePoint& point, const Eigen::Vector3d& up,
                         const Positions& positions) {
   return (1 - point.share) * row3(positions, point.a).dot(up) +
          point.share * row3(positions, point.b).dot(up);
 }
 
-/// Measures the smallest gap between the two profiles of a place, where one is above the other. If
-/// the inner rim of the upper lip hangs behind the lower lip, the lowest point of the rim is
-/// hidden; the gap is then measured at the visible slit in front.
+/// Measures the smallest gap between the two profiles of a place, at depths where both profiles
+/// have points. If the inner rim of the upper lip hangs behind the lower lip, the lowest point of
+/// the rim is hidden, and the gap is that of the visible slit in front.
 class Clearance {
  public:
   Clearance(const ContactPlace& place, const Adjacency& adjacency);
 
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two points.
-  struct Opposite {
-    /// point indices; low points come before high points
+  struct OppositePoints {
+    /// indices of points; the points of the low profile come before the points of the high profile
     std::array<std::uint32_t, 2> low, high;
     std::array<double, 2> low_shares, high_shares;  ///< interpolation weights, with sum one
 
@@ -78,29 +79,35 @@ class Clearance {
              low_shares[0] * heights[low[0]] - low_shares[1] * heights[low[1]];
     }
   };
-  /// Returns the depths at which a segment of one profile begins or ends above a segment of the
-  /// other. Segments are straight, so the gap is smallest at one of these depths. If no segments
-  /// overlap in depth, returns the pair of points that is nearest in depth.
+  /// Returns the pairs of opposite points at the depths where a segment of one profile begins or
+  /// ends above a segment of the other profile. Segments are straight, so the gap is smallest at
+  /// one of these depths. If no segments overlap in depth, returns the two points that are nearest
+  /// in depth.
   ///
   /// \param depths  Depths of all points.
-  std::vector<Opposite> opposites(std::span<const double> depths) const;
-  /// Return the coordinates of all points, those of the low profile first: along the place's `up`,
-  /// and along its `deep()`.
-  std::vector<double> heights(const Positions& positions) const { return along(up_, positions); }
-  std::vector<double> depths(const Positions& positions) const { return along(deep_, positions); }
-  /// Returns the smallest gap of the given opposites; negative if the profiles intersect.
-  static double gap(std::span<const Opposite> opposites, std::span<const double> heights);
+  std::vector<OppositePoints> opposites(std::span<const double> depths) const;
+  /// Return the coordinates of all points along the place's `up` and `inward()`, the points of the
+  /// low profile first.
+  std::vector<double> heights(const Positions& positions) const {
+    return coordinates(up_, positions);
+  }
+  std::vector<double> depths(const Positions& positions) const {
+    return coordinates(inward_, positions);
+  }
+  /// Returns the smallest gap of the given pairs of points; negative if the profiles intersect.
+  static double gap(std::span<const OppositePoints> opposites, std::span<const double> heights);
   double gap(const Positions& positions) const;
 
  private:
   /// A segment between two neighbouring points, or a single point without neighbours.
-  using Piece = std::array<std::uint32_t, 2>;
+  using Segment = std::array<std::uint32_t, 2>;
 
-  std::vector<double> along(const Eigen::Vector3d& direction, const Positions& positions) const;
+  std::vector<double> coordinates(const Eigen::Vector3d& direction,
+                                  const Positions& positions) const;
 
   std::vector<EdgePoint> points_;  ///< points of the low profile, then of the high profile
-  std::vector<Piece> low_, high_;
-  Eigen::Vector3d up_, deep_;
+  std::vector<Segment> low_, high_;
+  Eigen::Vector3d up_, inward_;
 };
 
 }  // namespace crowdface

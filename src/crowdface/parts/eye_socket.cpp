@@ -18,29 +18,29 @@ constexpr double kLidReach = 0.3;
 // smallest cosine between a rim vertex's direction and the front
 constexpr double kMinFront = 0.35;
 constexpr std::size_t kDirections = 60;
-/// More lid vertices than this are subsampled evenly.
+/// Largest number of lid vertices that are used; more vertices are subsampled evenly.
 constexpr std::size_t kMaxLids = 2500;
 
-/// kMeans: weight of a lid's mean gap relative to the mean square of the rim's gaps. kMeanOff:
-/// tolerance of the mean gap as a fraction of the radius (0.05 mm).
+/// kMeans: weight of the mean gap of a lid, relative to the mean square of the gaps at the rim.
+/// kMeanOff: tolerance of the mean gap, as a fraction of the radius (0.05 mm).
 constexpr double kMeans = 20, kMeanOff = 0.004;
 /// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the gaps.
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
 /// Largest decrease and increase of the eyeball's size.
 constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
-/// Fractions of the radius. kMargin: clearance to keep where no head has a lid inside the eyeball
-/// (0.025 mm). kFreeOfLids: depth that still counts as outside (0.04 mm).
+/// Fractions of the radius. kMargin: clearance that is kept where no head has a lid inside the
+/// eyeball (0.025 mm). kFreeOfLids: smallest gap that counts as outside (−0.04 mm).
 constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
-/// Fractions of the radius. The remaining motion cannot reach lids that are farther away than
-/// kFarFirst in the first step, or than kFarLater in later steps.
+/// Fractions of the radius. Lids farther away than this need no check, because the remaining motion
+/// is smaller: kFarFirst in the first step, kFarLater in later steps.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
 /// Penalties for violations, as multiples of the radius. Lids that are outside in all heads have
-/// priority, then the mean gaps, then the largest depths.
+/// the highest penalty, then the mean gaps, then the largest depths.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
-/// Unknowns of a step, all of them lengths.
+/// Unknowns of an optimisation step of an eyeball. All of them are lengths.
 enum BallUnknown : std::size_t {
   kBallShift = 0,
   kBallSize = 3,
@@ -50,7 +50,8 @@ enum BallUnknown : std::size_t {
   kBallUnknowns
 };
 
-/// Returns the sector, of kDirections equal ones, that contains a direction in the plane.
+/// Returns the index of the sector that contains a direction in the plane. There are kDirections
+/// equal sectors.
 std::size_t sector(double x, double y) {
   constexpr double kTurn = 6.283185307179586, kRound = 1e9;
   const double turn = std::round((std::atan2(y, x) / kTurn + 0.5) * kRound) / kRound;
@@ -81,7 +82,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
     Innermost& best = innermost[sector(from.dot(side), from.dot(axes.up))];
     if (cosine > best.cosine) best = {v, cosine};
   }
-  // The rim is complete; the other lids are subsampled.
+  // Keep all rim vertices, and subsample the other lid vertices.
   Lids lids;
   std::vector<std::uint32_t> rim;
   for (const Innermost& best : innermost) {
@@ -103,9 +104,9 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
     : lids_(std::move(lids)),
       maps_(std::move(maps)),
       smallest_gaps_(lids_.vertices.size(), 1e300),
-      rim_of_(lids_.vertices.size(), kNoIndex) {
+      rim_indices_(lids_.vertices.size(), kNoIndex) {
   for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
-    rim_of_[lids_.rim[r]] = static_cast<std::uint32_t>(r);
+    rim_indices_[lids_.rim[r]] = static_cast<std::uint32_t>(r);
   }
   for (std::size_t h = 0; h < heads.size(); ++h) {
     std::vector<double>& gaps = gaps_.emplace_back(lids_.rim.size());
@@ -113,26 +114,26 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
       const Eigen::Vector3d point = heads[h].positions.row(lids_.vertices[i]).transpose();
       const double gap = maps_[h].gap_at(point - maps_[h].centre()).gap;
       smallest_gaps_[i] = std::min(smallest_gaps_[i], gap);
-      if (rim_of_[i] != kNoIndex) gaps[rim_of_[i]] = gap;
+      if (rim_indices_[i] != kNoIndex) gaps[rim_indices_[i]] = gap;
     }
   }
 }
 
 RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
                            const Positions& after) const {
-  return steps(target, motion, motion, Size::kFree, after);
+  return iterate_steps(target, motion, motion, Size::kFree, after);
 }
 
-RigidMotion EyeSocket::fit_of_size(std::size_t target, const RigidMotion& motion,
-                                   const RigidMotion& fitted, const Positions& after) const {
-  return steps(target, motion, fitted, Size::kKept, after);
+RigidMotion EyeSocket::fit_translation(std::size_t target, const RigidMotion& motion,
+                                       const RigidMotion& fitted, const Positions& after) const {
+  return iterate_steps(target, motion, fitted, Size::kKept, after);
 }
 
-RigidMotion EyeSocket::steps(std::size_t target, const RigidMotion& motion, RigidMotion fitted,
-                             Size size, const Positions& after) const {
+RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& motion,
+                                     RigidMotion fitted, Size size, const Positions& after) const {
   constexpr int kSteps = 4;
   if (lids_.rim.empty()) return fitted;
-  std::vector<Lid> lids;
+  std::vector<LidPoint> lids;
   lids.reserve(lids_.vertices.size());
   for (std::uint32_t i = 0; i < lids_.vertices.size(); ++i) {
     lids.push_back({after.row(lids_.vertices[i]).transpose(), i});
@@ -148,12 +149,12 @@ RigidMotion EyeSocket::steps(std::size_t target, const RigidMotion& motion, Rigi
 }
 
 RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                            double far, Size size, std::vector<Lid>& lids) const {
+                            double far, Size size, std::vector<LidPoint>& lids) const {
   const BallMap& map = maps_[target];
   const double radius = motion.scale * map.radius();
-  // A gap is measured along the normal, so it is a little smaller than the distance from the
-  // surface along the ray.
-  const double outside = motion.scale * map.farthest() + 1.5 * far * radius;
+  // A gap is a distance along the normal, so it is a little smaller than the distance along the ray
+  // from the centre.
+  const double outside = motion.scale * map.max_radius() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
   const Eigen::Vector3d shifted = centre - start.apply(map.centre());
   const double grown = (motion.scale / start.scale - 1) * radius;
@@ -166,8 +167,8 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
 
   std::size_t kept = 0;
   // Each lid vertex gives a constraint. Each rim vertex also has a wanted gap.
-  for (const Lid& lid : lids) {
-    const std::uint32_t r = rim_of_[lid.number];
+  for (const LidPoint& lid : lids) {
+    const std::uint32_t r = rim_indices_[lid.number];
     const Eigen::Vector3d from = lid.point - centre;
     if (r == kNoIndex && from.squaredNorm() > outside * outside) continue;
     BallMap::Gap gap = map.gap_at(motion.undo(lid.point) - map.centre());

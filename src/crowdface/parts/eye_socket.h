@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// The skin close to the front of an eyeball: the lids and their lining. The rim is a subset: in
-/// each of several directions around the axis, the vertex nearest to the axis.
+/// The skin close to the front of an eyeball: the lids and their lining. The rim is the subset that
+/// contains, in each of several directions around the eye's axis, the vertex nearest to the axis.
 struct Lids {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<std::uint32_t> rim;       ///< indices into `vertices`, ascending
@@ -29,8 +29,7 @@ struct Lids {
 Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen::Vector3d& centre,
                double radius, const HeadAxes& axes, std::span<const std::uint32_t> skin);
 
-/// The position of an eyeball behind its lids in each head. Fits the eyeball in the same position
-/// behind the lids of a face.
+/// Fits an eyeball behind the lids of a face, in the same position as in the heads.
 class EyeSocket {
  public:
   EyeSocket() = default;
@@ -43,37 +42,39 @@ class EyeSocket {
   const std::vector<double>& gaps(std::size_t head) const { return gaps_[head]; }
 
   /// Fits the eyeball of `target` behind the lids of a face. Translates the eyeball and scales it
-  /// slightly, so that its mean gap to each lid equals the target's, and the gaps at the rim are as
-  /// near to the target's as possible. No lid vertex is deeper inside the eyeball than in the head
-  /// where it is deepest, and no lid vertex is inside that is outside in all heads.
+  /// slightly, so that the mean gap to each lid equals the gap on the target, and the gaps at the
+  /// rim are as near as possible to the target's gaps. No lid vertex is deeper inside the eyeball
+  /// than in the head where this vertex is deepest. A lid vertex that is outside in all heads stays
+  /// outside.
   ///
   /// \param motion  Motion of the skin around the eye.
   /// \param after   The face with the moved skin.
   RigidMotion fit(std::size_t target, const RigidMotion& motion, const Positions& after) const;
-  /// Fits the eyeball by translation only.
+  /// Fits an eyeball of given size by translation only.
   ///
   /// \param fitted  Result of `fit`, scaled to the wanted size.
-  RigidMotion fit_of_size(std::size_t target, const RigidMotion& motion, const RigidMotion& fitted,
-                          const Positions& after) const;
+  RigidMotion fit_translation(std::size_t target, const RigidMotion& motion,
+                              const RigidMotion& fitted, const Positions& after) const;
   Eigen::Vector3d centre(std::size_t target) const { return maps_[target].centre(); }
 
  private:
   enum class Size { kFree, kKept };
-  struct Lid {
+  struct LidPoint {
     Eigen::Vector3d point;
     std::uint32_t number;
   };
-  /// \param far  Removes lids farther away than this fraction of the radius from `lids`.
+  /// \param far  The function removes lid points that are farther away than this fraction of the
+  ///             radius.
   RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                   double far, Size size, std::vector<Lid>& lids) const;
-  RigidMotion steps(std::size_t target, const RigidMotion& start, RigidMotion fitted, Size size,
-                    const Positions& after) const;
+                   double far, Size size, std::vector<LidPoint>& lids) const;
+  RigidMotion iterate_steps(std::size_t target, const RigidMotion& start, RigidMotion fitted,
+                            Size size, const Positions& after) const;
 
   Lids lids_;
-  std::vector<BallMap> maps_;              ///< #heads
-  std::vector<std::vector<double>> gaps_;  ///< #heads by #rim
-  std::vector<double> smallest_gaps_;      ///< #lids: smallest gap in all heads
-  std::vector<std::uint32_t> rim_of_;      ///< #lids: index in the rim, or kNoIndex
+  std::vector<BallMap> maps_;               ///< #heads
+  std::vector<std::vector<double>> gaps_;   ///< #heads by #rim
+  std::vector<double> smallest_gaps_;       ///< #lids: smallest gap in all heads
+  std::vector<std::uint32_t> rim_indices_;  ///< #lids: index in the rim, or kNoIndex
 };
 
 }  // namespace crowdface

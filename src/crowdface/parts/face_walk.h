@@ -22,26 +22,26 @@ struct MirroredPair {
 };
 
 /// Walks over two sides of a mesh simultaneously to find mirror partners. The constructor allocates
-/// the work arrays. One object must not be used by several threads at once.
+/// the work arrays, so each thread needs its own object.
 class MirroredWalk {
  public:
   /// \param topology  Must outlive this object.
-  /// \param around    Must outlive this object.
-  MirroredWalk(const Topology& topology, const VertexFaces& around);
+  /// \param vertex_faces  Must outlive this object.
+  MirroredWalk(const Topology& topology, const VertexFaces& vertex_faces);
 
   /// Walks from face to face on both sides simultaneously, with opposite winding on the second
-  /// side, as long as corresponding faces have equally many corners and each vertex always gets the
-  /// same partner.
+  /// side. The walk succeeds if corresponding faces have equally many corners and each vertex
+  /// always gets the same partner.
   ///
   /// \param edge     An edge of a face on the first side.
-  /// \param other    Its mirror image on the second side: from the partner of edge.to to the
-  ///                 partner of edge.from.
-  /// \param goes_on  Called once for each new pair. If it returns false, the walk ends without
-  ///                 result.
+  /// \param other    The mirror image of `edge` on the second side: from the partner of edge.to to
+  ///                 the partner of edge.from.
+  /// \param may_continue  Called once for each new pair. If the function returns false, the walk
+  ///                      ends without result.
   /// \return         All pairs found, or nothing if the two sides do not match.
-  std::optional<std::vector<MirroredPair>> from(
+  std::optional<std::vector<MirroredPair>> walk_from(
       DirectedEdge edge, DirectedEdge other,
-      const std::function<bool(const MirroredPair&)>& goes_on);
+      const std::function<bool(const MirroredPair&)>& may_continue);
 
  private:
   /// An edge of a face: the face, and the corner where the edge begins.
@@ -54,20 +54,22 @@ class MirroredWalk {
   };
 
   std::optional<FaceEdge> face_along(DirectedEdge edge) const;
-  bool reach(DirectedEdge here, DirectedEdge there);
-  bool pair(MirroredPair pair);
-  bool pair_corners(const FacePair& faces, const std::function<bool(const MirroredPair&)>& goes_on);
-  bool go(DirectedEdge edge, DirectedEdge other,
-          const std::function<bool(const MirroredPair&)>& goes_on);
-  void forget();
+  bool visit_faces(DirectedEdge here, DirectedEdge there);
+  bool add_pair(MirroredPair pair);
+  bool pair_corners(const FacePair& faces,
+                    const std::function<bool(const MirroredPair&)>& may_continue);
+  bool walk(DirectedEdge edge, DirectedEdge other,
+            const std::function<bool(const MirroredPair&)>& may_continue);
+  void reset();
 
   const Topology& topology_;
-  const VertexFaces& around_;
+  const VertexFaces& vertex_faces_;
   // State of the current walk:
-  /// #V; kNoIndex for vertices without partner
-  std::vector<std::uint32_t> partner_of_, vertex_of_;
-  std::vector<bool> met_;        ///< #F of the first side
-  std::vector<FacePair> faces_;  ///< in the order they are found
+  /// #V: partner of each vertex, and vertex of each partner; kNoIndex if there is none
+  std::vector<std::uint32_t> partners_, vertices_of_partners_;
+  /// #F: whether the walk has visited the face on the first side
+  std::vector<bool> is_visited_;
+  std::vector<FacePair> faces_;  ///< visited faces, in the order of visits
   std::vector<MirroredPair> pairs_;
 };
 

@@ -25,9 +25,10 @@ namespace {
 // Lengths are fractions of the skin's extent, about 43 cm.
 constexpr double kReach = 0.008;    // largest distance of skin that nearly touches
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
-// largest overlap: lips that touch intersect a little on the mean head; lids are thicker
+// largest overlap of facing skin. Touching lips overlap a little on the mean head, less than the
+// thickness of a lid
 constexpr double kOverlap = 0.0005;
-constexpr double kAside = 0.0035;  // smallest gap used in the test of kSideways
+constexpr double kAside = 0.0035;  // smallest gap that the test of kSideways assumes
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
 // largest distance between the midpoints of one group's pairs; larger in a coarse mesh
 constexpr double kTogether = 0.015;
@@ -38,7 +39,7 @@ constexpr double kEdgesTogether = 2.5;  // the limit kTogether in a coarse mesh,
 constexpr double kSideways = 0.75;      // largest sideways offset, as a fraction of the gap
 constexpr Index kBlock = 1024, kSearches = 16;
 
-/// Returns the first vertex in each cell of a grid, ascending.
+/// Returns one vertex in each cell of a grid, the one with the lowest index; ascending.
 std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const std::uint32_t> skin,
                                    double width) {
   using Cell = std::array<double, 3>;
@@ -80,12 +81,12 @@ struct Candidate {
   Eigen::Vector3d across;
 };
 
-/// Returns the candidates for the vertex that a vertex faces, nearest first.
+/// Returns the vertices that may face a given vertex, nearest first.
 std::vector<Candidate> opposite(const Positions& positions, const Positions& normals, double side,
                                 const PointGrid& grid, std::uint32_t v, double extent) {
   const Eigen::Vector3d here = positions.row(v).transpose(), normal = normals.row(v).transpose();
   std::vector<Candidate> found;
-  for (const std::uint32_t w : grid.about(here, kReach * extent)) {
+  for (const std::uint32_t w : grid.vertices_near(here, kReach * extent)) {
     const Eigen::Vector3d other = normals.row(w).transpose();
     if (normal.dot(other) > kOpposed) continue;
     const Eigen::Vector3d from = positions.row(w).transpose() - here;
@@ -103,7 +104,7 @@ std::vector<Candidate> opposite(const Positions& positions, const Positions& nor
   return found;
 }
 
-/// Orients all pairs of a group the same way.
+/// Swaps pairs of a group so that the low vertices of all pairs lie on the same side.
 void agree_on_sides(FacingGroup& group) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FacingPair& pair : group) spread += pair.up * pair.up.transpose();
@@ -115,7 +116,7 @@ void agree_on_sides(FacingGroup& group) {
   }
 }
 
-/// Returns the mean length of the edges at the pairs' low vertices.
+/// Returns the mean length of the edges at the low vertices of the pairs.
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {
@@ -167,7 +168,7 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
 
   std::vector<std::optional<FacingPair>> found(some.size());
   const auto count = static_cast<Index>(some.size());
-  // Few blocks, because each search for distances allocates arrays for the whole mesh.
+  // Use few blocks, because each block allocates arrays for the whole mesh.
   parallel_blocks(count, std::max(kBlock, count / kSearches), [&](Index begin, Index end) {
     EdgeDistances along(adjacency, positions);
     std::vector<std::uint32_t> goals;

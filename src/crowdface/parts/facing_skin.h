@@ -17,13 +17,13 @@ struct FacingPair {
   Eigen::Vector3d up;               ///< unit vector from the low side to the high side
 };
 
-/// Pairs near each other. The low vertices of all pairs lie on one side of the gap.
+/// Pairs that are near each other. The low vertices of all pairs lie on the same side of the gap.
 using FacingGroup = std::vector<FacingPair>;
 
 /// Finds where skin nearly touches skin. The two vertices of a pair are nearer to each other than
-/// about a hundredth of the skin's extent, have opposite normals, have air between them instead of
-/// flesh, and are at least three times as far apart along the surface. A closed mouth gives one
-/// group; nostrils and open eyes give none.
+/// about a hundredth of the skin's extent, have opposite normals, and have air, not flesh, between
+/// them. Along the surface, they are at least three times as far apart as in space. A closed mouth
+/// gives one group; nostrils and open eyes give none.
 ///
 /// \param positions  #V by 3; preferably the mean head.
 /// \param skin       The skin's vertices, ascending; at least one. A dense skin is subsampled

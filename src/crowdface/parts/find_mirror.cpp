@@ -21,29 +21,30 @@ namespace {
 /// A coordinate plane is preferred if its error is at most this factor times the smallest error.
 constexpr double kAsGood = 1.05;
 constexpr std::size_t kSeeds = 24;  ///< number of walks tried for two components
-/// A sphere has many symmetries. A walk with an error below this fraction of the component's extent
-/// is accepted at once.
-constexpr double kSure = 0.01;
+/// A walk with an error below this fraction of the component's extent is accepted without further
+/// walks, because a sphere has many symmetries.
+constexpr double kAcceptedError = 0.01;
 // Lengths are fractions of the skin's extent, about 43 cm.
 // largest distance of a partner from the vertex's mirror image
 constexpr double kMatchReach = 0.01;
-/// Largest root mean square error of a walk. The larger limit counts: kWalkShare of the component's
-/// extent, or kWalkReach of the skin's extent.
+/// The largest root mean square error of a walk is the maximum of two limits: kWalkShare of the
+/// component's extent, and kWalkReach of the skin's extent.
 constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
 // largest difference between the bounding boxes of two matched components
 constexpr double kBoxReach = 0.03;
-/// Largest distance of a partner matched by nearness, as a fraction of the edge length there.
+/// Largest distance of a partner that is matched by nearness, as a fraction of the local edge
+/// length.
 constexpr double kNearness = 0.05;
 
-constexpr double kMore = 1 + 1e-9;  ///< tolerance for rounded sums
+constexpr double kMore = 1 + 1e-9;  ///< tolerance for rounding in sums
 
 using Vertices = std::vector<std::uint32_t>;
 
 using Box = Eigen::AlignedBox3d;
 
-/// Matches each component with the one at its mirror image; kNoIndex if there is none. First
-/// matches components with equally many vertices mutually, the nearest pairs first, so that each
-/// layer of lashes finds its counterpart. The remaining components get the nearest component.
+/// Matches each component with the component at its mirror image; kNoIndex if there is none. First
+/// pairs components with equally many vertices, the nearest pairs first, so that each layer of
+/// lashes finds its counterpart. Each remaining component gets the nearest component.
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;
@@ -88,7 +89,7 @@ class PlaceFinder {
   PlaceFinder(const Topology& topology, const VertexFaces& around, const Positions& mean,
               const MirrorPlane& plane, double extent)
       : topology_(topology),
-        around_(around),
+        vertex_faces_(around),
         mean_(mean),
         plane_(plane),
         extent_(extent),
@@ -104,7 +105,7 @@ class PlaceFinder {
       double distance;
       std::uint32_t vertex, partner;
     };
-    // Seeds are the vertices whose mirror images are nearest to another vertex.
+    // Collect seeds: the vertices whose mirror images are nearest to another vertex.
     std::vector<Seed> seeds;
     for (const std::uint32_t v : evenly_spaced_items(here, 20 * kSeeds)) {
       const auto near = grid.nearest(image(v));
@@ -117,7 +118,7 @@ class PlaceFinder {
     double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
     for (const Seed& seed : seeds) {
       // Try a walk from each edge that leaves the seed.
-      for (const std::uint32_t f : around_.of(seed.vertex)) {
+      for (const std::uint32_t f : vertex_faces_.of(seed.vertex)) {
         const auto face = topology_.face(f);
         const auto corner = std::ranges::find(face, seed.vertex);
         const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
@@ -125,7 +126,7 @@ class PlaceFinder {
         // A walk that is worse than the best so far ends early.
         const double most = kMore * best_rms * best_rms * static_cast<double>(here.size());
         double squares = 0;
-        auto pairs = walk_.from(
+        auto pairs = walk_.walk_from(
             {seed.vertex, to}, {partner_of_to, seed.partner}, [&](const MirroredPair& pair) {
               const Eigen::Vector3d off = image(pair.vertex) - row3(mean_, pair.partner);
               squares += off.squaredNorm();
@@ -136,13 +137,13 @@ class PlaceFinder {
         if (rms > best_rms) continue;
         best_rms = rms;
         best = std::move(pairs);
-        if (rms <= kSure * extent) return best;
+        if (rms <= kAcceptedError * extent) return best;
       }
     }
     return best;
   }
 
-  /// Matches each vertex separately, by distance.
+  /// Matches each vertex separately with the point nearest to its mirror image.
   void by_nearness(const Vertices& here, const Vertices& there, FoundMirror& found) const {
     const PointGrid grid_there(mean_, there), grid_here(mean_, here);
     const double reach = kMatchReach * extent_;
@@ -153,29 +154,29 @@ class PlaceFinder {
       const auto near = grid_there.nearest(point);
       const bool agreed = near.distance <= kNearness * edge_length(near.vertex) &&
                           grid_here.nearest(image(near.vertex)).vertex == v;
-      if (agreed || around_.of(near.vertex).empty()) {
-        put(found.map, v, near.vertex);
+      if (agreed || vertex_faces_.of(near.vertex).empty()) {
+        set_partner(found.map, v, near.vertex);
         distances[i] = near.distance;
         return;
       }
-      const SurfacePoint place = nearest_from(topology_, around_, mean_, near.vertex, point);
+      const SurfacePoint place = nearest_from(topology_, vertex_faces_, mean_, near.vertex, point);
       found.map.corners[v] = place.corners;
       found.map.shares[v] = place.shares;
-      if (place.shares[0] == 1) no_partner(found.map, v);
+      if (place.shares[0] == 1) mark_unpaired(found.map, v);
       distances[i] = place.distance;
     });
     for (std::size_t i = 0; i < here.size(); ++i) {
-      if (distances[i] > reach) found.map.without.push_back(here[i]);
+      if (distances[i] > reach) found.map.unpaired.push_back(here[i]);
     }
   }
 
-  static void put(MirrorMap& map, std::uint32_t vertex, std::uint32_t partner) {
+  static void set_partner(MirrorMap& map, std::uint32_t vertex, std::uint32_t partner) {
     map.corners[vertex] = {partner, partner, partner};
     map.shares[vertex] = {1, 0, 0};
   }
   /// Marks a vertex as having no mutual partner: its mirror point stays at the same vertex, but
   /// MirrorMap::is_vertex becomes false.
-  static void no_partner(MirrorMap& map, std::uint32_t vertex) {
+  static void mark_unpaired(MirrorMap& map, std::uint32_t vertex) {
     std::swap(map.corners[vertex][0], map.corners[vertex][1]);
     map.shares[vertex] = {0, 1, 0};
   }
@@ -185,7 +186,7 @@ class PlaceFinder {
 
   double edge_length(std::uint32_t vertex) const {
     double sum = 0, count = 0;
-    for (const std::uint32_t f : around_.of(vertex)) {
+    for (const std::uint32_t f : vertex_faces_.of(vertex)) {
       const auto face = topology_.face(f);
       for (std::size_t c = 0; c < face.size(); ++c) {
         sum += (row3(mean_, face[c]) - row3(mean_, face[(c + 1) % face.size()])).norm();
@@ -196,7 +197,7 @@ class PlaceFinder {
   }
 
   const Topology& topology_;
-  const VertexFaces& around_;
+  const VertexFaces& vertex_faces_;
   const Positions& mean_;
   const MirrorPlane& plane_;
   double extent_;
@@ -216,8 +217,8 @@ double mean_square(const MirrorMap& map, const Positions& mean, double* largest 
   return squares / static_cast<double>(mean.rows());
 }
 
-/// Returns the plane that the partners determine, or the coordinate plane if that is nearly as
-/// good.
+/// Returns the plane that the pairs of partners determine, or the coordinate plane if it is nearly
+/// as good.
 MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positions& mean,
                               const Eigen::Vector3d& side) {
   PlaneFit fit;
@@ -234,25 +235,25 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
   return as_good ? map.plane : fitted;
 }
 
-/// Corrects vertices without partner, so that mirroring keeps the mean head's shape there. If the
-/// partner is only a little too far away, the correction is only the excess distance, so that there
-/// is no step.
+/// Computes offsets for vertices without partner, so that mirroring keeps the mean head's shape
+/// there. The offset grows continuously from zero with the distance beyond `reach`, so that the
+/// surface has no step.
 void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
-  map.kept.resize(static_cast<Index>(map.without.size()), 3);
-  for (std::size_t i = 0; i < map.without.size(); ++i) {
-    const auto v = static_cast<Index>(map.without[i]);
+  map.unpaired_offsets.resize(static_cast<Index>(map.unpaired.size()), 3);
+  for (std::size_t i = 0; i < map.unpaired.size(); ++i) {
+    const auto v = static_cast<Index>(map.unpaired[i]);
     const Eigen::Vector3d off = row3(mean, v) - row3(image, v);
     const double length = off.norm();
     const double share = length > reach ? 1 - reach / length : 0;
-    map.kept.row(static_cast<Index>(i)) = (share * off).transpose();
+    map.unpaired_offsets.row(static_cast<Index>(i)) = (share * off).transpose();
   }
 }
 
 }  // namespace
 
-double FoundMirror::share() const {
-  return static_cast<double>(vertices + on_surface) / static_cast<double>(map.corners.size());
+double FoundMirror::partner_fraction() const {
+  return static_cast<double>(vertices + surface_partners) / static_cast<double>(map.corners.size());
 }
 
 FoundMirror find_mirror(const Topology& topology, const Components& components,
@@ -266,7 +267,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   map.shares.resize(components.of_vertex.size());
   const Box box = bounding_box(mean, skin);
   const double extent = box.sizes().maxCoeff();
-  // Find the plane on the skin.
+  // Find the mirror plane of the skin.
   map.plane = find_mirror_plane(topology, around, mean, skin,
                                 {side, side.dot(0.5 * (box.min() + box.max()))});
   {
@@ -276,33 +277,33 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
     for (std::size_t c = 0; c < of_component.size(); ++c) {
       const Vertices& here = of_component[c];
       if (partners[c] == kNoIndex) {
-        for (const std::uint32_t v : here) PlaceFinder::put(map, v, v);
-        map.without.insert(map.without.end(), here.begin(), here.end());
+        for (const std::uint32_t v : here) PlaceFinder::set_partner(map, v, v);
+        map.unpaired.insert(map.unpaired.end(), here.begin(), here.end());
         continue;
       }
       const Vertices& there = of_component[partners[c]];
       if (const auto pairs = finder.by_faces(here, there)) {
-        for (const auto [vertex, partner] : *pairs) PlaceFinder::put(map, vertex, partner);
+        for (const auto [vertex, partner] : *pairs) PlaceFinder::set_partner(map, vertex, partner);
       } else {
         finder.by_nearness(here, there, found);
       }
     }
   }
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
-    // Vertices are partners only if this is mutual.
+    // Keep only mutual partners.
     const std::uint32_t partner = map.corners[v][0];
     const bool agreed = map.is_vertex(partner) && map.corners[partner][0] == v;
-    if (map.is_vertex(v) && !agreed) PlaceFinder::no_partner(map, v);
+    if (map.is_vertex(v) && !agreed) PlaceFinder::mark_unpaired(map, v);
   }
-  std::ranges::sort(map.without);
-  map.kept.setZero(static_cast<Index>(map.without.size()), 3);
-  // Improve the plane with the partners.
+  std::ranges::sort(map.unpaired);
+  map.unpaired_offsets.setZero(static_cast<Index>(map.unpaired.size()), 3);
+  // Improve the plane with the pairs of partners.
   map.plane = plane_of_partners(map, skin, mean, side);
   keep_form(mean, kMatchReach * extent, map);
   found.rms = std::sqrt(mean_square(map, mean, &found.largest));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
-    if (std::ranges::binary_search(map.without, v)) continue;
-    ++(map.is_vertex(v) ? found.vertices : found.on_surface);
+    if (std::ranges::binary_search(map.unpaired, v)) continue;
+    ++(map.is_vertex(v) ? found.vertices : found.surface_partners);
   }
   return found;
 }

@@ -9,16 +9,16 @@ namespace crowdface {
 /// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  /// number of vertices in mutual pairs: the partner is a vertex whose own partner is this vertex
+  /// number of vertices in mutual pairs: each vertex of a pair is the partner of the other
   Index vertices = 0;
-  /// number of vertices whose partner is a point on the surface; the remaining vertices have none
-  Index on_surface = 0;
-  /// Distance of the mean head from its mirror image, in its unit: root mean square and maximum
-  /// over all vertices.
+  /// number of vertices whose partner is a point on the surface; all other vertices have no partner
+  Index surface_partners = 0;
+  /// Distance of the mean head from its mirror image, in the unit of the heads: root mean square
+  /// and maximum over all vertices.
   double rms = 0, largest = 0;
 
   /// Returns the fraction of vertices that have a partner.
-  double share() const;
+  double partner_fraction() const;
 };
 
 /// Finds the symmetry plane of the mean head and the partner of each vertex. A coordinate plane is
@@ -26,8 +26,8 @@ struct FoundMirror {
 ///
 /// Components are matched by position: the left eye with the right one. If two matched components
 /// have mirrored faces, a walk over the faces gives the partners, however asymmetric the mean head
-/// is. Otherwise, two vertices are partners if each is nearest to the other's mirror image and
-/// close to it. All other vertices get the nearest point on the surface.
+/// is. Otherwise, two vertices are partners if each is the nearest vertex to the mirror image of
+/// the other, and close to this image. All other vertices get the nearest point on the surface.
 ///
 /// \param mean  #V by 3.
 /// \param side  Unit vector along the axis from the head's right to its left, in either direction.

@@ -16,10 +16,10 @@ using Vertices = std::vector<std::uint32_t>;
 
 class PlaneSearch {
  public:
-  PlaneSearch(const Topology& topology, const VertexFaces& around, const Positions& mean,
+  PlaneSearch(const Topology& topology, const VertexFaces& vertex_faces, const Positions& mean,
               const Vertices& skin, const MirrorPlane& start)
       : topology_(topology),
-        around_(around),
+        around_(vertex_faces),
         mean_(mean),
         start_(start),
         grid_(mean, skin),
@@ -46,7 +46,8 @@ class PlaneSearch {
   }
 
  private:
-  /// One step: fits the plane to vertices and the surface points nearest to their mirror images.
+  /// One step of the iteration: fits the plane to vertices and to the surface points nearest to the
+  /// mirror images of these vertices.
   ///
   /// \param place_of  Returns the surface point nearest to a mirror image.
   template <class PlaceOf>
@@ -86,23 +87,23 @@ class PlaneSearch {
 
 void PlaneFit::add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner) {
   const Eigen::Vector3d joining = point - partner;
-  along_ += joining * joining.transpose();
-  middles_ += 0.5 * (point + partner);
+  scatter_ += joining * joining.transpose();
+  midpoint_sum_ += 0.5 * (point + partner);
   ++count_;
 }
 
 MirrorPlane PlaneFit::plane(const Eigen::Vector3d& side) const {
   MirrorPlane plane;
-  plane.normal = symmetric_eigen(along_).vectors.col(0).normalized();
+  plane.normal = symmetric_eigen(scatter_).vectors.col(0).normalized();
   if (plane.normal.dot(side) < 0) plane.normal = -plane.normal;
-  plane.offset = plane.normal.dot(middles_ / count_);
+  plane.offset = plane.normal.dot(midpoint_sum_ / count_);
   return plane;
 }
 
-MirrorPlane find_mirror_plane(const Topology& topology, const VertexFaces& around,
+MirrorPlane find_mirror_plane(const Topology& topology, const VertexFaces& vertex_faces,
                               const Positions& mean, const std::vector<std::uint32_t>& skin,
                               const MirrorPlane& start) {
-  return PlaneSearch(topology, around, mean, skin, start).find();
+  return PlaneSearch(topology, vertex_faces, mean, skin, start).find();
 }
 
 }  // namespace crowdface

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Fits a mirror plane to pairs of points and their partners: the normal is the principal direction
-/// of the differences, and the plane contains the mean midpoint.
+/// Fits a mirror plane to points and their partners. The normal is the principal direction of the
+/// differences between point and partner; the plane contains the mean midpoint.
 class PlaneFit {
  public:
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner);
@@ -22,21 +22,21 @@ class PlaneFit {
   double count() const { return count_; }
 
  private:
-  Eigen::Matrix3d along_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d middles_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d midpoint_sum_ = Eigen::Vector3d::Zero();
   double count_ = 0;
 };
 
 /// Finds the plane in which a surface is most nearly symmetric, by iterative closest points (Besl &
 /// McKay 1992) with a reflection. The iteration runs twice: from the given plane, and from the
-/// plane found by matching nearest vertices, which is exact for a symmetric mesh. Returns the best
-/// plane of all steps.
+/// plane that matching of nearest vertices gives. The latter plane is exact for a symmetric mesh.
+/// Returns the best plane of all steps.
 ///
 /// \param mean   #V by 3.
 /// \param skin   The surface's vertices; at least one.
 /// \param start  First guess. Its normal is a unit vector along the axis from the head's right to
 ///               its left, in either direction.
-MirrorPlane find_mirror_plane(const Topology& topology, const VertexFaces& around,
+MirrorPlane find_mirror_plane(const Topology& topology, const VertexFaces& vertex_faces,
                               const Positions& mean, const std::vector<std::uint32_t>& skin,
                               const MirrorPlane& start);
 

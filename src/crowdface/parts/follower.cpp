@@ -18,15 +18,15 @@ namespace {
 /// Reach of the socket of a rigid part. kEyeReach: for an eyeball, as a fraction of its radius
 /// (about 12 mm). kSocketReach: for other parts, as a fraction of the skin's extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
-/// Number of a part's vertices used to find its socket.
+/// Largest number of a part's vertices that determine its socket.
 constexpr std::size_t kMaxRough = 4000;
-/// kContactReach: distance from the skin within which a part is kept out of the skin.
-/// kContactMargin: smallest clearance to keep. Fractions of the skin's extent.
+/// Fractions of the skin's extent. kContactReach: largest distance at which skin and part are
+/// tested for contact. kContactMargin: smallest clearance that is kept.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
-/// Gums nearer to a tooth than this follow it, as a fraction of the skin's extent.
+/// Largest distance at which gums follow a tooth, as a fraction of the skin's extent.
 constexpr double kTieReach = 0.01;
 
-/// Returns the area of each vertex, #V: its share of the adjacent faces.
+/// Returns #V: the area of each vertex, which is its share of the areas of adjacent faces.
 std::vector<double> vertex_areas(const Topology& topology, const Positions& positions) {
   const Positions vectors = face_area_vectors(topology, positions);
   std::vector<double> areas(static_cast<std::size_t>(topology.vertex_count), 0.0);
@@ -40,15 +40,15 @@ std::vector<double> vertex_areas(const Topology& topology, const Positions& posi
 }
 
 /// Returns whether the vertices have exactly the same positions.
-bool unmoved(const Positions& before, const Positions& after,
-             std::span<const std::uint32_t> vertices) {
+bool have_same_positions(const Positions& before, const Positions& after,
+                         std::span<const std::uint32_t> vertices) {
   return std::ranges::all_of(vertices,
                              [&](std::uint32_t v) { return before.row(v) == after.row(v); });
 }
 
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<double> ones;  ///< #vertices: weights for fits of the part's shape
+  std::vector<double> unit_weights;  ///< #vertices: equal weights, for fits of the part's shape
   Socket socket;
   bool eyeball = false;
   EyeSocket eye;    ///< used for eyeballs
@@ -67,8 +67,8 @@ struct SkinOfMean {
   double extent;                        ///< extent of the largest component
 };
 
-/// Returns the skin around a rigid part. The reach doubles until there is enough skin, because a
-/// part far from the skin follows whatever skin is nearest.
+/// Returns the skin around a rigid part. The reach doubles until there is enough skin, so that a
+/// part far from the skin follows the nearest skin.
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
   // The distance between skin and part needs no higher precision than the spacing of the part's
   // vertices.
@@ -81,11 +81,11 @@ Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
 }
 
 EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMean& skin) {
-  const std::vector<double> ones(part.vertices.size(), 1.0);
+  const std::vector<double> unit_weights(part.vertices.size(), 1.0);
   std::vector<BallMap> maps(skin.faces.heads.size());
   parallel_for_each(maps.size(), [&](std::size_t i) {
     const Positions& head = skin.faces.heads[i].positions;
-    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, ones);
+    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, unit_weights);
     maps[i] = BallMap(skin.faces.topology, skin.around, head, part.surface,
                       motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
   });
@@ -97,7 +97,7 @@ EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMea
 RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& skin) {
   RigidPart bound;
   bound.vertices = part.vertices;
-  bound.ones.assign(part.vertices.size(), 1.0);
+  bound.unit_weights.assign(part.vertices.size(), 1.0);
   bound.eyeball = part.eyeball;
   if (!part.eyeball) {
     bound.socket = socket_of(part, kSocketReach * skin.extent, skin);
@@ -120,8 +120,8 @@ struct PartFollower::State {
   double extent;  ///< extent of the skin
   std::vector<RigidPart> rigid;
   Anchors anchors;
-  std::vector<std::vector<Eigen::Vector3d>> places;  ///< #heads: offsets of the bound vertices
-  Ties ties;                                         ///< ties of bound vertices to teeth
+  std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< #heads: offsets of the bound vertices
+  Ties ties;                                          ///< ties of bound vertices to teeth
 
   /// The motion of the skin around a part, and the motion of the part.
   struct Found {
@@ -173,9 +173,9 @@ PartFollower::PartFollower(const HeadSet& faces, const PartList& parts, const He
   }
   state->ties = Ties(mean, tying, bound, kTieReach * state->extent);
   state->anchors = Anchors(faces.topology, state->around, mean, skin.grid, std::move(bound));
-  state->places.resize(faces.heads.size());
+  state->offsets.resize(faces.heads.size());
   parallel_for_each(faces.heads.size(), [&](std::size_t i) {
-    state->places[i] = state->anchors.places(faces.heads[i].positions);
+    state->offsets[i] = state->anchors.offsets(faces.heads[i].positions);
   });
   state_ = std::move(state);
 }
@@ -187,13 +187,13 @@ PartFollower::State::Found PartFollower::State::find_motion(const RigidPart& par
                                                             const Positions& result) const {
   const Positions& before = faces.heads[target].positions;
   Found found;
-  found.still = unmoved(before, result, part.socket.vertices) &&
-                unmoved(before, result, part.eye.lids().vertices);
+  found.still = have_same_positions(before, result, part.socket.vertices) &&
+                have_same_positions(before, result, part.eye.lids().vertices);
   if (found.still || part.socket.vertices.size() < 3) return found;
   found.skin = fit_rigid_motion(before, result, part.socket.vertices, part.socket.weights);
-  found.part = part.eyeball
-                   ? part.eye.fit(target, found.skin, result)
-                   : part.contact.clear(before, found.skin, result, kContactMargin * extent);
+  found.part = part.eyeball ? part.eye.fit(target, found.skin, result)
+                            : part.contact.keep_out_of_skin(before, found.skin, result,
+                                                            kContactMargin * extent);
   return found;
 }
 
@@ -211,7 +211,7 @@ void PartFollower::State::even_sizes(std::size_t target, const Positions& result
     if (!rigid[p].eyeball) return;
     const Eigen::Vector3d centre = found[p].part.apply(rigid[p].eye.centre(target));
     const double growth = sum / count / found[p].part.scale - 1;
-    found[p].part = rigid[p].eye.fit_of_size(
+    found[p].part = rigid[p].eye.fit_translation(
         target, found[p].skin, nudged(found[p].part, centre, {0, 0, 0}, {0, 0, 0}, growth), result);
   });
 }
@@ -229,8 +229,8 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
     }
     return;
   }
-  // Align the blended shape with the target's part first.
-  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.ones);
+  // Align the blended shape with the part of the target first.
+  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.unit_weights);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();
   }
@@ -251,7 +251,7 @@ void PartFollower::follow(Index target, Positions& result) const {
   for (std::size_t p = 0; p < found.size(); ++p) {
     if (!state_->rigid[p].eyeball) motions.push_back(found[p].part);
   }
-  state_->anchors.put(before, state_->places[t], result);
+  state_->anchors.place_vertices(before, state_->offsets[t], result);
   state_->ties.pull(before, motions, result);
 }
 

@@ -15,11 +15,11 @@ namespace crowdface {
 /// has costs).
 ///
 /// - A rigid part moves by the rotation, translation and uniform scale that best fits the motion of
-/// the skin around it from the target to the face. An eyeball is then shifted and rescaled until
-/// its gaps to the lids equal the target's; other parts are moved out of lips and cheeks.
+///   the skin around it from the target to the face. Then eyeballs are shifted and rescaled until
+///   the gaps to the lids equal the gaps on the target; other parts move out of lips and cheeks.
 /// - A vertex of a bound part keeps its position relative to the nearest skin.
 ///
-/// If the skin around a part has not moved, the part keeps exactly the target's positions.
+/// Where the skin around a part has not moved, the part keeps exactly the positions of the target.
 class PartFollower {
  public:
   /// \param faces  Must outlive this object.

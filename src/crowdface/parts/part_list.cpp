@@ -19,7 +19,8 @@ namespace {
 
 // Lengths are fractions of the skin's extent, the diagonal of its bounding box: about 43 cm for a
 // head with its neck.
-constexpr double kSkinExtent = 0.5;      // a further component of skin is at least this long
+// smallest extent of a component, besides the largest, that is skin
+constexpr double kSkinExtent = 0.5;
 constexpr double kOpen = 0.7;            // openness: a hemisphere has 0.5, a disc 1
 constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
 // largest distance of components that nearly touch, such as teeth
@@ -63,16 +64,15 @@ double box_height(const Box& box) {
   return box.center().y();
 }
 
-/// Returns by how much the overlap of two boxes along an axis exceeds half the length of the
-/// shorter box; negative if it is less.
+/// Returns the overlap of two boxes along an axis, minus half the length of the shorter box.
 double overlap(const Box& a, const Box& b, Index axis) {
   return a.intersection(b).sizes()(axis) - std::min(a.sizes()(axis), b.sizes()(axis)) / 2;
 }
 
-/// Returns how many of some components, sorted by height, are the teeth of the lower jaw: the
-/// components below the widest gap between successive middles. There are two rows only if each row
-/// is flatter than this gap, and if the rows overlap as seen from above but hardly in height.
-/// Otherwise returns 0.
+/// Returns the number of components that are the teeth of the lower jaw. These are the components
+/// below the widest gap between the middles of successive components. Returns 0 if the components
+/// are not two rows: each row must be flatter than the gap, and the rows must overlap seen from
+/// above but hardly in height.
 std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;
@@ -103,7 +103,7 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
   std::iota(self.begin(), self.end(), 0U);
   for (const std::uint32_t c : rigid) {
     centres.row(c) = list.shapes[c].centre.transpose();
-    // a fit to a component without extent may fail
+    // the fit of a sphere may fail for a component without extent
     if (list.shapes[c].centre.allFinite()) found.push_back(c);
   }
   ProximityJoiner tree(centres, std::move(found), self, grouping);
@@ -170,7 +170,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
   DisjointSets grouping(count);
   // Join the components that the user joined.
   std::vector<bool> by_hand(count, false);
-  for (const auto& together : overrides.together) {
+  for (const auto& together : overrides.joined_components) {
     for (const std::uint32_t c : together) {
       by_hand[c] = true;
       grouping.join(together.front(), c);

@@ -21,7 +21,7 @@ enum class PartClass : std::uint8_t {
 /// Components that move together.
 struct Part {
   PartClass part_class = PartClass::kRigid;
-  bool eyeball = false;                   ///< round, and as large as an eye
+  bool eyeball = false;                   ///< whether the part is round and as large as an eye
   std::vector<std::uint32_t> components;  ///< ascending
   std::vector<std::uint32_t> vertices;    ///< vertices of all components, ascending
   std::uint32_t ball = kNoIndex;          ///< only for an eyeball: index of its largest component
@@ -33,13 +33,14 @@ struct Part {
 struct PartList {
   std::vector<ComponentShape> shapes;  ///< #components
   std::vector<PartClass> classes;      ///< #components
-  std::vector<Part> parts;             ///< ordered by first component; the skin is not a part
+  /// ordered by their first components; the skin is not a part
+  std::vector<Part> parts;
 };
 
 /// Classifications set by the user.
 struct PartOverrides {
-  std::vector<std::optional<PartClass>> classes;     ///< #components, or empty
-  std::vector<std::vector<std::uint32_t>> together;  ///< components of each part
+  std::vector<std::optional<PartClass>> classes;              ///< #components, or empty
+  std::vector<std::vector<std::uint32_t>> joined_components;  ///< components of each part
 };
 
 /// Classifies the components of a mesh by their shapes and joins them into parts:
@@ -47,17 +48,18 @@ struct PartOverrides {
 /// - skin: the largest component, components longer than half of its extent, and vertices without
 /// faces;
 /// - bound: open strips and shells near the skin;
-/// - rigid: all other components. Round components as large as an eye are eyeballs; components
-/// whose centre is inside an eyeball belong to it. Other components that nearly touch form one
-/// part, unless they form two rows, one above the other; then the teeth of each jaw are one part.
+/// - rigid: all other components. Round components as large as an eye are eyeballs; a component
+///   whose centre is inside an eyeball belongs to this eyeball. Other components that nearly touch
+///   form one part, unless they form two rows, one above the other; then the teeth of each jaw are
+///   one part.
 ///
 /// \param positions  #V by 3, any unit; preferably the mean head.
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,
                     const Components& components, const Positions& positions,
                     const PartOverrides& overrides = {}, const HeadAxes& axes = {});
 
-/// Returns the components with all skin components joined into the first of them. The other joined
-/// components have size 0.
+/// Returns the components after all skin components are joined into the first skin component. The
+/// sizes of the other skin components become 0.
 Components join_skin(const Components& components, const PartList& parts);
 
 /// Returns the vertices that belong to a face but to no part, ascending.

@@ -11,8 +11,8 @@ enum class PartShape {
 
 /// How a generated face treats lips and other skin that nearly touches skin.
 enum class Contacts {
-  kAuto,  ///< gaps are as wide as in target and sources
-  kNone,  ///< gaps are as the blend gives them (Eq. 7)
+  kAuto,  ///< gaps stay between the gaps of the target and of the sources
+  kNone,  ///< gaps are not corrected after the blend (Eq. 7)
 };
 
 }  // namespace crowdface

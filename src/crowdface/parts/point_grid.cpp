@@ -49,7 +49,7 @@ std::size_t PointGrid::number_of(const Cell& cell) const {
   return static_cast<std::size_t>((cell[2] * cells_[1] + cell[1]) * cells_[0] + cell[0]);
 }
 
-bool PointGrid::in_reach(const Eigen::Vector3d& point, double reach) const {
+bool PointGrid::may_be_in_reach(const Eigen::Vector3d& point, double reach) const {
   double outside = 0;
   for (Index c = 0; c < 3; ++c) {
     const double high = low_(c) + static_cast<double>(cells_[static_cast<std::size_t>(c)]) * width_;
@@ -63,12 +63,13 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   const Cell middle = cell_of(point);
   Nearest best;
   best.distance = reach;
-  if (!in_reach(point, reach)) return best;
+  if (!may_be_in_reach(point, reach)) return best;
   const Index farthest = std::max({cells_[0], cells_[1], cells_[2]});
   // Searches shells of cells around the cell of the point. A cell of shell s is at least s − 1 cell
   // widths away from the point, whether the point is inside or outside the grid.
   const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {
-    for (const std::uint32_t v : between(number_of({low_x, y, z}), number_of({high_x, y, z}))) {
+    for (const std::uint32_t v :
+         vertices_in_cells(number_of({low_x, y, z}), number_of({high_x, y, z}))) {
       const double dx = positions_(v, 0) - point.x();
       const double dy = positions_(v, 1) - point.y();
       const double dz = positions_(v, 2) - point.z();
@@ -103,14 +104,15 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   return best;
 }
 
-std::vector<std::uint32_t> PointGrid::about(const Eigen::Vector3d& point, double reach) const {
+std::vector<std::uint32_t> PointGrid::vertices_near(const Eigen::Vector3d& point,
+                                                    double reach) const {
   std::vector<std::uint32_t> found;
-  if (!in_reach(point, reach)) return found;
+  if (!may_be_in_reach(point, reach)) return found;
   const Eigen::Vector3d all_sides = Eigen::Vector3d::Constant(reach);
   const Cell low = cell_of(point - all_sides), high = cell_of(point + all_sides);
   for (Index z = low[2]; z <= high[2]; ++z) {
     for (Index y = low[1]; y <= high[1]; ++y) {
-      const auto row = between(number_of({low[0], y, z}), number_of({high[0], y, z}));
+      const auto row = vertices_in_cells(number_of({low[0], y, z}), number_of({high[0], y, z}));
       found.insert(found.end(), row.begin(), row.end());
     }
   }

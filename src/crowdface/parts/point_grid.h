@@ -17,19 +17,20 @@ class PointGrid {
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
-  /// Returns false only if no vertex lies within `reach` of the point. May return true although no
-  /// vertex lies within `reach`.
-  bool in_reach(const Eigen::Vector3d& point, double reach) const;
+  /// A fast test: returns false only if no vertex lies within `reach` of the point. May return true
+  /// even so.
+  bool may_be_in_reach(const Eigen::Vector3d& point, double reach) const;
 
   struct Nearest {
     std::uint32_t vertex = kNoIndex;  ///< kNoIndex: no vertex is in reach
     double distance = 0;
   };
-  /// The nearest vertex within `reach` of a point; the lowest index if several are equally near.
+  /// The nearest vertex within `reach` of a point. If several vertices are equally near, the one
+  /// with the lowest index.
   Nearest nearest(const Eigen::Vector3d& point, double reach = 1e300) const;
 
   /// All vertices within `reach` of a point, and possibly some vertices that are farther away.
-  std::vector<std::uint32_t> about(const Eigen::Vector3d& point, double reach) const;
+  std::vector<std::uint32_t> vertices_near(const Eigen::Vector3d& point, double reach) const;
 
  private:
   using Cell = std::array<Index, 3>;
@@ -37,7 +38,7 @@ class PointGrid {
   Cell cell_of(const Eigen::Vector3d& point) const;
   std::size_t number_of(const Cell& cell) const;
   /// The vertices in the consecutive cells `first` to `last`, both included.
-  std::span<const std::uint32_t> between(std::size_t first, std::size_t last) const {
+  std::span<const std::uint32_t> vertices_in_cells(std::size_t first, std::size_t last) const {
     return {by_cell_.of(first).data(), by_cell_.of(last).data() + by_cell_.of(last).size()};
   }
 

@@ -39,8 +39,8 @@ void ProximityJoiner::join_near(const Eigen::Vector3d& place, double reach,
 
 void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, double reach,
                                 std::uint32_t component) {
-  // Uses the same arithmetic as the distance of a point below, so that rounding cannot put a box
-  // farther away than its points.
+  // This uses the same arithmetic as the distances of points below, so that rounding cannot make a
+  // box farther away than its points.
   if (boxes_[n].exteriorDistance(place) > reach) return;
   std::uint32_t& only = only_groups_[n];
   if (only != kNoIndex && groups_.root(only) == groups_.root(component)) return;
@@ -57,7 +57,7 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
 }
 
 /// Returns a component of the group that contains all points of the node, or kNoIndex if the points
-/// belong to several groups. Uses the values stored for the node's children, which may be out of
+/// belong to several groups. Uses the stored values of the node's children, which may be out of
 /// date.
 std::uint32_t ProximityJoiner::only_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];

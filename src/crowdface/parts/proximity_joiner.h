@@ -18,9 +18,9 @@ namespace crowdface {
 /// time grows little faster than the number of points, even if many points coincide.
 class ProximityJoiner {
  public:
-  /// The points, the components and the groups must outlive the tree. Other code may join groups,
-  /// too.
-  /// \param points      rows listed in `rows` must be finite; the others are not read.
+  /// The points, the components and the groups must outlive this object. Other code may also join
+  /// groups.
+  /// \param points      the rows listed in `rows` must be finite; other rows are not read.
   /// \param rows        rows of the points in the tree; may be empty.
   /// \param components  #points: the component of each point.
   ProximityJoiner(const Positions& points, std::vector<std::uint32_t> rows,

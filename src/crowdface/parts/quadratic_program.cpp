@@ -13,8 +13,8 @@ using Vector = QuadraticProgram::Vector;
 using Matrix = std::array<Vector, QuadraticProgram::kMax>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A constraint's normal counts as dependent on the active normals if its squared distance from
-/// their span is below this (unit normals).
+/// A unit normal of a constraint counts as dependent on the active normals if its squared distance
+/// from their span is below this value.
 constexpr double kDependent = 1e-12;
 
 double dot(const Vector& a, const Vector& b, std::size_t n) {
@@ -32,7 +32,7 @@ Vector backward(const Matrix& l, const Vector& b, std::size_t n) {
   return x;
 }
 
-/// The active constraints (those with equality), and the multiplier of each.
+/// The active constraints, which hold with equality, and the multiplier of each.
 struct Active {
   std::array<Vector, QuadraticProgram::kMax> normals = {};
   Vector forces = {};
@@ -62,11 +62,10 @@ struct Active {
   }
 };
 
-/// Moves x onto the constraint a·x ≥ least, dropping active constraints with multipliers that would
-/// become negative.
+/// Moves x until a·x = lower. Drops active constraints whose multipliers would become negative.
 ///
 /// \return  false if x cannot reach the constraint.
-bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t n) {
+bool move_onto(Active& active, const Vector& a, double lower, Vector& x, std::size_t n) {
   double force = 0;
   for (std::size_t guard = 0; guard <= QuadraticProgram::kMax; ++guard) {
     const Vector shares = active.shares_in(a, n);
@@ -84,7 +83,7 @@ bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t
     }
     const double square = dot(step, step, n);
     const bool depends = active.count == n || square <= kDependent;
-    const double whole = depends ? kInfinity : (least - dot(a, x, n)) / square;
+    const double whole = depends ? kInfinity : (lower - dot(a, x, n)) / square;
     if (blocked == kInfinity && whole == kInfinity) return false;
     const double length = blocked < whole ? blocked : whole;
     if (!std::isfinite(length)) return false;  // positions are not finite
@@ -102,7 +101,8 @@ bool reach(Active& active, const Vector& a, double least, Vector& x, std::size_t
   return false;
 }
 
-/// All constraints, transformed to y, stored by column, so that loops over constraints vectorise.
+/// All constraints, expressed in y = Lᵀ x and stored by column, so that loops over constraints
+/// vectorise.
 template <class Bound>
 class Table {
  public:
@@ -110,7 +110,7 @@ class Table {
       : unknowns_(n),
         count_(bounds.size()),
         normals_(n * count_),
-        least_(count_),
+        lower_(count_),
         stretch_(count_) {
     std::vector<double> before(count_, 0.0), after(count_, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
@@ -131,14 +131,14 @@ class Table {
     for (std::size_t b = 0; b < count_; ++b) {
       const double length = after[b] > 0 ? std::sqrt(after[b]) : 1;
       stretch_[b] = before[b] > 0 ? length / std::sqrt(before[b]) : 0;
-      least_[b] = bounds[b].least / length;
+      lower_[b] = bounds[b].lower / length;
       for (std::size_t i = 0; i < n; ++i) normals_[i * count_ + b] /= length;
     }
   }
 
   /// Computes the violation of each constraint, measured along its normal in x.
   void missing(const Vector& y, std::vector<double>& result) const {
-    result = least_;
+    result = lower_;
     for (std::size_t i = 0; i < unknowns_; ++i) {
       const double* column = normals_.data() + i * count_;
       for (std::size_t b = 0; b < count_; ++b) result[b] -= column[b] * y[i];
@@ -150,12 +150,12 @@ class Table {
     for (std::size_t i = 0; i < unknowns_; ++i) result[i] = normals_[i * count_ + bound];
     return result;
   }
-  double least(std::size_t bound) const { return least_[bound]; }
+  double lower(std::size_t bound) const { return lower_[bound]; }
 
  private:
   std::size_t unknowns_, count_;
   std::vector<double> normals_;  ///< #unknowns by #constraints; unit length
-  std::vector<double> least_, stretch_;
+  std::vector<double> lower_, stretch_;
 };
 
 }  // namespace
@@ -172,16 +172,16 @@ void QuadraticProgram::add_target(std::size_t unknown, double wanted, double wei
   linear_[unknown] += weight * wanted;
 }
 
-void QuadraticProgram::add_lower_bound(const Vector& a, double least) {
-  bounds_.push_back({a, least});
+void QuadraticProgram::add_lower_bound(const Vector& a, double lower) {
+  bounds_.push_back({a, lower});
 }
 
-void QuadraticProgram::add_bounds(std::size_t unknown, double least, double most) {
+void QuadraticProgram::add_bounds(std::size_t unknown, double lower, double upper) {
   Vector a{};
   a[unknown] = 1;
-  add_lower_bound(a, least);
+  add_lower_bound(a, lower);
   a[unknown] = -1;
-  add_lower_bound(a, -most);
+  add_lower_bound(a, -upper);
 }
 
 void QuadraticProgram::add_slack(std::size_t unknown, double penalty) {
@@ -212,7 +212,7 @@ QuadraticProgram::Vector QuadraticProgram::solve(double tolerance) const {
       which = b;
     }
     if (which == missing.size()) break;
-    if (!reach(active, table.normal(which), table.least(which), y, n)) break;
+    if (!move_onto(active, table.normal(which), table.lower(which), y, n)) break;
   }
   return backward(l, y, n);
 }

@@ -9,17 +9,17 @@
 
 namespace crowdface {
 
-/// Matrix times vector, in a fixed order of operations: a library may choose an order that depends
-/// on the machine.
+/// Matrix times vector, in a fixed order of operations. A library's order may depend on the
+/// machine.
 inline Eigen::Vector3d apply3(const Eigen::Matrix3d& map, const Eigen::Vector3d& v) {
   return {map(0, 0) * v.x() + map(0, 1) * v.y() + map(0, 2) * v.z(),
           map(1, 0) * v.x() + map(1, 1) * v.y() + map(1, 2) * v.z(),
           map(2, 0) * v.x() + map(2, 1) * v.y() + map(2, 2) * v.z()};
 }
 
-/// x ↦ scale · R (x − from) + to. Computed with plain arithmetic, so that the bits are the same on
-/// every machine. (The factorisation behind `Similarity` in mesh/alignment.h depends on the
-/// library.)
+/// The motion x ↦ scale · R (x − from) + to. Computed with plain arithmetic, so that the bits are
+/// the same on every machine. (The factorisation behind `Similarity` in mesh/alignment.h depends on
+/// the library.)
 struct RigidMotion {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double scale = 1;
@@ -34,19 +34,19 @@ struct RigidMotion {
 
 /// Moves all rows of positions.
 void move_rows(const RigidMotion& motion, Positions& positions);
-/// Returns the motion back.
+/// Returns the inverse motion.
 RigidMotion inverse(const RigidMotion& motion);
 
 /// Returns the axes of a head after a motion.
-inline HeadAxes moved(const HeadAxes& axes, const RigidMotion& by) {
-  return {.front = by.turn(axes.front) / by.scale, .up = by.turn(axes.up) / by.scale};
+inline HeadAxes moved_axes(const HeadAxes& axes, const RigidMotion& motion) {
+  return {.front = motion.turn(axes.front) / motion.scale,
+          .up = motion.turn(axes.up) / motion.scale};
 }
 
 /// Returns the motion followed by a small translation, rotation and scaling about a pivot.
-///
-/// \param pivot   Position after the motion.
+/// \param pivot   The pivot, in its position after `motion`.
 /// \param turn    Rotation axis times angle (small).
-/// \param growth  Change of scale; 0: same size.
+/// \param growth  Relative change of scale; 0 keeps the size.
 RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
                    const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, double growth);
 

@@ -74,8 +74,8 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
   return sides;
 }
 
-/// Smooths `side` by averaging with the neighbours' mean, half and half, as many times as `size`
-/// needs.
+/// Smooths `side` to the size `size`. Each round averages each value with the mean of its
+/// neighbours.
 void round_off(const Adjacency& adjacency, const Positions& mean, double size, Sides& sides) {
   double squares = 0, count = 0;
   for (const std::uint32_t v : sides.vertices) {
@@ -90,7 +90,8 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   constexpr double kMaxSteps = 1e4;
   const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMaxSteps));
 
-  // The skin outside this area belongs to no side: an extra row that stays 0 represents it.
+  // The skin outside this area belongs to no side; an extra row with the value 0 represents this
+  // skin.
   const auto rows = sides.vertices.size();
   std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
   for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
@@ -140,7 +141,7 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
   Sides sides = find_sides(group, adjacency, mean, kSide * extent);
   Contact contact;
   contact.begin = places_.size();
-  for (ContactPlace& place : places_among(group, kPlaceSpacing * extent)) {
+  for (ContactPlace& place : spread_places(group, kPlaceSpacing * extent)) {
     cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, place);
     if (place.low.empty() || place.high.empty()) continue;
     clearances_.emplace_back(place, adjacency);
@@ -174,23 +175,23 @@ void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint3
 }
 
 void SkinContacts::find_motions(Contact& contact) const {
-  contact.motions.resize(contact.end - contact.begin);
+  contact.point_motions.resize(contact.end - contact.begin);
   for (std::size_t p = contact.begin; p < contact.end; ++p) {
-    const Eigen::Vector3d &up = places_[p].up, deep = places_[p].deep();
+    const Eigen::Vector3d &up = places_[p].up, deep = places_[p].inward();
     const auto add_vertex = [&](std::uint32_t v, double share) {
-      const std::uint32_t row = place_in(contact.vertices, v);
+      const std::uint32_t row = index_in_list(contact.vertices, v);
       if (row == kNoIndex) return;
       for (const auto& [place, weight] : contact.shares.of(row)) {
-        Motions& motions = contact.motions[place - contact.begin];
-        motions.heights.back() += share * weight * up.dot(places_[place].up);
-        motions.depths.back() += share * weight * deep.dot(places_[place].up);
+        PointMotions& point_motions = contact.point_motions[place - contact.begin];
+        point_motions.heights.back() += share * weight * up.dot(places_[place].up);
+        point_motions.depths.back() += share * weight * deep.dot(places_[place].up);
       }
     };
     for (const auto* profile : {&places_[p].low, &places_[p].high}) {
       for (const EdgePoint& point : *profile) {
-        for (Motions& motions : contact.motions) {
-          motions.heights.push_back(0);
-          motions.depths.push_back(0);
+        for (PointMotions& point_motions : contact.point_motions) {
+          point_motions.heights.push_back(0);
+          point_motions.depths.push_back(0);
         }
         add_vertex(point.a, 1 - point.share);
         add_vertex(point.b, point.share);
@@ -206,7 +207,7 @@ std::vector<double> SkinContacts::gaps(const Positions& positions) const {
   return gaps;
 }
 
-double SkinContacts::wider(const Positions& positions) const {
+double SkinContacts::max_excess(const Positions& positions) const {
   const std::vector<double> here = gaps(positions);
   double most = 0;
   for (std::size_t p = 0; p < here.size(); ++p) {
@@ -217,7 +218,7 @@ double SkinContacts::wider(const Positions& positions) const {
   return most;
 }
 
-std::vector<std::uint32_t> SkinContacts::moved() const {
+std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
   std::vector<std::uint32_t> vertices;
   for (const Contact& contact : contacts_) {
     vertices.insert(vertices.end(), contact.vertices.begin(), contact.vertices.end());
@@ -225,42 +226,42 @@ std::vector<std::uint32_t> SkinContacts::moved() const {
   return vertices;
 }
 
-/// Solves for the amplitudes of all places, starting from the previous ones. A positive amplitude
-/// is only used if the gap would be too narrow without it, a negative one if the gap would be too
-/// wide, so that neighbours rarely counteract each other. This is a linear complementarity problem,
-/// solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992, chapter 5). The nearest points of
-/// the profiles change during the iteration, so the gap is computed anew each time.
-std::vector<SkinContacts::DepthChange> SkinContacts::ask(const Contact& contact,
-                                                         std::span<const Range> ranges, double most,
-                                                         Profiles& profiles,
-                                                         std::vector<double>& asked) const {
-  std::vector<DepthChange> changes;
+/// Solves for the amplitudes of all places, starting from the previous amplitudes. A place has a
+/// positive amplitude only if its gap would otherwise be too narrow, and a negative amplitude only
+/// if its gap would otherwise be too wide. So neighbours rarely counteract each other. This is a
+/// linear complementarity problem, solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992,
+/// chapter 5). The nearest points of the profiles change during the iteration, so each step
+/// computes the gap again.
+std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_amplitudes(
+    const Contact& contact, std::span<const Range> ranges, double most, Profiles& profiles,
+    std::vector<double>& amplitudes) const {
+  std::vector<AmplitudeChange> changes;
   double largest = std::numeric_limits<double>::max();
   for (int sweep = 0; sweep < kSweeps && largest > tolerance_; ++sweep) {
     largest = 0;
-    for (std::size_t i = 0; i < asked.size(); ++i) {
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
       const Range& range = ranges[contact.begin + i];
-      const double rest = asked[i] - profiles.gap(i);
-      const double wanted = std::clamp(0.0, (range.least + rest) / (1 + kEvenness),
-                                       (range.most + rest) / (1 + kEvenness));
-      const double change = std::clamp(wanted, -most, most) - asked[i];
+      const double rest = amplitudes[i] - profiles.gap(i);
+      const double wanted = std::clamp(0.0, (range.min + rest) / (1 + kEvenness),
+                                       (range.max + rest) / (1 + kEvenness));
+      const double change = std::clamp(wanted, -most, most) - amplitudes[i];
       if (change == 0) continue;
-      asked[i] += change;
+      amplitudes[i] += change;
       largest = std::max(largest, std::abs(change));
       changes.push_back({i, change});
-      const std::vector<double>& heights = contact.motions[i].heights;
+      const std::vector<double>& heights = contact.point_motions[i].heights;
       for (std::size_t k = 0; k < heights.size(); ++k) profiles.heights[k] += heights[k] * change;
     }
   }
   return changes;
 }
 
-void SkinContacts::move_depths(const Contact& contact, std::span<const DepthChange> changes,
+void SkinContacts::move_depths(const Contact& contact, std::span<const AmplitudeChange> changes,
                                std::vector<double>& depths) {
   parallel_blocks(depths.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
-    for (const DepthChange& change : changes) {
-      const std::vector<double>& motions = contact.motions[change.place].depths;
-      for (std::size_t k = begin; k < end; ++k) depths[k] += motions[k] * change.by;
+    for (const AmplitudeChange& change : changes) {
+      const std::vector<double>& point_motions = contact.point_motions[change.place].depths;
+      for (std::size_t k = begin; k < end; ++k) depths[k] += point_motions[k] * change.amount;
     }
   });
 }
@@ -269,7 +270,7 @@ double SkinContacts::Profiles::gap(std::size_t place) const {
   return Clearance::gap(opposites[place], std::span(heights).subspan(begins[place]));
 }
 
-void SkinContacts::move(const Contact& contact, std::span<const double> by,
+void SkinContacts::move(const Contact& contact, std::span<const double> amplitudes,
                         Positions& positions) const {
   std::vector<Eigen::Vector3d> ups;
   for (std::size_t p = contact.begin; p < contact.end; ++p) ups.push_back(places_[p].up);
@@ -277,7 +278,7 @@ void SkinContacts::move(const Contact& contact, std::span<const double> by,
     double x = 0, y = 0, z = 0;
     for (const auto& [place, weight] : contact.shares.of(i)) {
       const Eigen::Vector3d& up = ups[place - contact.begin];
-      const double share = weight * by[place - contact.begin];
+      const double share = weight * amplitudes[place - contact.begin];
       x += share * up.x();
       y += share * up.y();
       z += share * up.z();
@@ -288,8 +289,8 @@ void SkinContacts::move(const Contact& contact, std::span<const double> by,
   });
 }
 
-/// When points move, other points come to lie at the same depth, so several rounds are needed.
-void SkinContacts::bring_into(std::span<const Range> ranges, Positions& positions) const {
+/// Iterates, because moving points change which points lie at the same depth.
+void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions) const {
   for (const Contact& contact : contacts_) {
     Profiles profiles;
     for (std::size_t p = contact.begin; p < contact.end; ++p) {
@@ -297,15 +298,15 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
       append(clearances_[p].heights(positions), profiles.heights);
       append(clearances_[p].depths(positions), profiles.depths);
     }
-    std::vector<double> asked(contact.end - contact.begin, 0.0);
-    std::vector<DepthChange> changes;
+    std::vector<double> amplitudes(contact.end - contact.begin, 0.0);
+    std::vector<AmplitudeChange> changes;
     double most = 0;
     for (int round = 0; round < kRounds; ++round) {
       // Update the depths, and find the facing points again.
       move_depths(contact, changes, profiles.depths);
       double missing = 0;
       profiles.opposites.clear();
-      for (std::size_t i = 0; i < asked.size(); ++i) {
+      for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const std::span depths = std::span(profiles.depths).subspan(profiles.begins[i]);
         profiles.opposites.push_back(clearances_[contact.begin + i].opposites(depths));
         const auto [least, widest] = ranges[contact.begin + i];
@@ -313,11 +314,11 @@ void SkinContacts::bring_into(std::span<const Range> ranges, Positions& position
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (missing <= tolerance_) break;
-      // Solve for the amplitudes with these points.
+      // Solve for the amplitudes with these facing points.
       if (round == 0) most = kMax * missing;
-      changes = ask(contact, ranges, most, profiles, asked);
+      changes = find_amplitudes(contact, ranges, most, profiles, amplitudes);
     }
-    if (most > 0) move(contact, asked, positions);
+    if (most > 0) move(contact, amplitudes, positions);
   }
 }
 

@@ -26,46 +26,46 @@ class SkinContacts {
   const ContactPlace& place(std::size_t i) const { return places_[i]; }
   /// Returns the gaps at all places, in the heads' unit.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns the gaps of a head.
+  /// Returns the gaps of a head at all places, in the heads' unit.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
 
-  /// Returns the largest difference, over all places, between a gap and the widest gap of any head
-  /// at the same place; 0 if no gap is wider than in the heads.
-  double wider(const Positions& positions) const;
+  /// Returns the largest excess, over all places, of a gap over the widest gap of any head at the
+  /// same place; 0 if no gap is wider than in the heads.
+  double max_excess(const Positions& positions) const;
 
-  /// Returns the vertices that bring_into may move.
-  std::vector<std::uint32_t> moved() const;
+  /// Returns the vertices that fit_gaps may move.
+  std::vector<std::uint32_t> movable_vertices() const;
 
   struct Range {
-    double least, most;
+    double min, max;
   };
-  /// Moves the skin so that every gap lies in its range. If all gaps already lie in their ranges,
-  /// nothing moves.
+  /// Moves the skin so that the gap at each place lies in its range. Moves nothing if all gaps
+  /// already do.
   ///
   /// \param ranges     #places.
   /// \param positions  #V by 3; adjusted.
-  void bring_into(std::span<const Range> ranges, Positions& positions) const;
+  void fit_gaps(std::span<const Range> ranges, Positions& positions) const;
 
  private:
-  /// The smooth displacement is a sum of one kernel per place, each with an amplitude. A Share is
-  /// the value of one place's kernel at one vertex.
+  /// The value of the kernel of one place at one vertex. The smooth displacement is the sum of the
+  /// kernels of all places, each multiplied by an amplitude.
   struct Share {
     std::uint32_t place;
     double weight;  ///< positive on the high side, negative on the low side
   };
-  /// How far the profile points of a contact move, place after place, if the amplitude of one place
-  /// grows by one.
-  struct Motions {
+  /// The movement of all profile points of a contact, place after place, if the amplitude of one
+  /// place grows by one.
+  struct PointMotions {
     std::vector<double> heights, depths;
   };
-  /// Places that affect the same skin, such as a mouth.
+  /// Places that affect the same skin, such as all places of a mouth.
   struct Contact {
-    std::size_t begin = 0, end = 0;       ///< range of places
-    std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
-    CompressedRows<Share> shares;         ///< #vertices
-    std::vector<Motions> motions;         ///< #places of the contact: see Motions
+    std::size_t begin = 0, end = 0;           ///< range of places
+    std::vector<std::uint32_t> vertices;      ///< vertices that move, ascending
+    CompressedRows<Share> shares;             ///< #vertices
+    std::vector<PointMotions> point_motions;  ///< #places of the contact
   };
 
   /// The current profiles at a contact's places.
@@ -74,7 +74,7 @@ class SkinContacts {
     std::vector<double> heights, depths;
     std::vector<std::size_t> begins;  ///< index of each place's first point
     /// #places: opposite points of the two profiles
-    std::vector<std::vector<Clearance::Opposite>> opposites;
+    std::vector<std::vector<Clearance::OppositePoints>> opposites;
 
     double gap(std::size_t place) const;
   };
@@ -85,22 +85,23 @@ class SkinContacts {
                    const std::vector<double>& side, double extent, Contact& contact) const;
   void find_motions(Contact& contact) const;
   /// A change of a place's amplitude.
-  struct DepthChange {
+  struct AmplitudeChange {
     std::size_t place;  ///< index within the contact
-    double by;
+    double amount;
   };
   /// Finds the amplitudes that bring the gaps into their ranges (skin_contacts.cpp explains the
   /// method).
   ///
   /// \param most   Largest amplitude.
-  /// \param asked  Amplitudes of the contact's places; updated.
-  /// \return       Changes in the order in which they were made. The depths of `profiles` are not
-  ///               updated.
-  std::vector<DepthChange> ask(const Contact& contact, std::span<const Range> ranges, double most,
-                               Profiles& profiles, std::vector<double>& asked) const;
-  static void move_depths(const Contact& contact, std::span<const DepthChange> changes,
+  /// \param amplitudes  Amplitudes of the contact's places; updated.
+  /// \return       The changes in order. The depths of `profiles` are not updated.
+  std::vector<AmplitudeChange> find_amplitudes(const Contact& contact,
+                                               std::span<const Range> ranges, double most,
+                                               Profiles& profiles,
+                                               std::vector<double>& amplitudes) const;
+  static void move_depths(const Contact& contact, std::span<const AmplitudeChange> changes,
                           std::vector<double>& depths);
-  void move(const Contact& contact, std::span<const double> by, Positions& positions) const;
+  void move(const Contact& contact, std::span<const double> amplitudes, Positions& positions) const;
 
   double tolerance_ = 0;
   std::vector<ContactPlace> places_;

@@ -6,8 +6,8 @@
 namespace crowdface {
 namespace {
 
-/// A socket keeps kMaxKept vertices; more would change the motion by less than 0.01 mm. In a larger
-/// socket, only kMaxMeasured vertices are measured.
+/// kMaxKept: largest number of vertices in a socket; more would change the motion by less than 0.01
+/// mm. kMaxMeasured: largest number of vertices whose distance is measured.
 constexpr std::size_t kMaxKept = 1500, kMaxMeasured = 16 * kMaxKept;
 
 }  // namespace
@@ -17,7 +17,7 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
                    double reach) {
   std::vector<std::uint32_t> around;
   for (const std::uint32_t v : skin) {
-    if (part.in_reach(positions.row(v).transpose(), reach)) around.push_back(v);
+    if (part.may_be_in_reach(positions.row(v).transpose(), reach)) around.push_back(v);
   }
   Socket all;
   for (const std::uint32_t v : evenly_spaced_items(around, kMaxMeasured)) {

@@ -12,7 +12,8 @@ namespace crowdface {
 /// The skin around a rigid part or a point, whose motion the part or point follows.
 struct Socket {
   std::vector<std::uint32_t> vertices;  ///< ascending
-  std::vector<double> weights;          ///< #vertices: area × nearness
+  /// #vertices: area times a weight that decreases with distance
+  std::vector<double> weights;
 };
 
 /// Returns the skin within `reach` of a part on a head. Weights are area times (1 − (d/reach)²)²,
@@ -20,7 +21,7 @@ struct Socket {
 ///
 /// \param part   The part's vertices.
 /// \param skin   The skin's vertices, ascending.
-/// \param areas  #V.
+/// \param areas  #V: area of each vertex.
 Socket find_socket(const Positions& positions, const PointGrid& part,
                    std::span<const std::uint32_t> skin, const std::vector<double>& areas,
                    double reach);

@@ -27,20 +27,22 @@ SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
 
-/// Walks from `start` over the mesh as long as a vertex of an adjacent face is nearer to the point.
-/// This is cheaper than nearest_from, and the result is a good start for nearest_from.
+/// Walks over the mesh from vertex `start` as long as a vertex of an adjacent face is nearer to the
+/// point. Returns the last vertex, which is a good start for nearest_from. This walk is cheaper
+/// than nearest_from.
 std::uint32_t descend(const Topology& topology, const VertexFaces& faces,
                       const Positions& positions, std::uint32_t start,
                       const Eigen::Vector3d& point);
 
 /// Returns a point of the surface near the query point. Walks from `start` from triangle to
-/// triangle as long as the distance decreases. Allocates no memory. Meant for query points near a
-/// known vertex.
+/// triangle as long as the distance decreases. Allocates no memory. Suits query points near a known
+/// vertex.
 SurfacePoint nearest_from(const Topology& topology, const VertexFaces& faces,
                           const Positions& positions, std::uint32_t start,
                           const Eigen::Vector3d& point);
 
-/// Returns the unit normal of the point's triangle; zero if the triangle has no area.
+/// Returns the unit normal of the triangle that contains a surface point; zero if the triangle has
+/// no area.
 Eigen::Vector3d normal_at(const Positions& positions, const SurfacePoint& place);
 
 }  // namespace crowdface

@@ -9,25 +9,26 @@
 
 namespace crowdface {
 
-/// The layout of the heads' anchors on the weight plane; kManual: the config gives each anchor.
+/// The layout of the heads' anchors on the weight plane. With kManual, the config gives each
+/// anchor.
 enum class Layout { kCircle, kGrid, kSimilarity, kManual };
 
-/// Anchors evenly spaced on the unit circle, counter-clockwise from (1, 0). Rounded to 10⁻⁹,
-/// because sines differ between C libraries.
+/// Places the anchors evenly on the unit circle, counter-clockwise from (1, 0). The coordinates are
+/// rounded to 10⁻⁹, because sines differ between C libraries.
 std::vector<PlanePoint> circle_layout(Eigen::Index heads);
 
-/// Anchors row by row on a square grid over [−1, 1]², first row on top. A partial last row is
-/// centred.
+/// Places the anchors row by row on a square grid over [−1, 1]², the first row on top. A partial
+/// last row is centred.
 std::vector<PlanePoint> grid_layout(Eigen::Index heads);
 
-/// Anchors whose distances approximate the given distances between heads, so that similar heads lie
-/// near each other: classical multidimensional scaling (Torgerson 1952) to the two largest
-/// components, scaled to the unit disc and rounded to 10⁻⁹.
+/// Places the anchors so that their distances approximate the given distances between heads, by
+/// classical multidimensional scaling (Torgerson 1952) with the two largest components. The result
+/// is scaled to the unit disc and rounded to 10⁻⁹.
 /// \param distances  #heads by #heads, symmetric, zero diagonal, any unit.
 std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances);
 
-/// Corners of the convex hull, counter-clockwise, without collinear points. Two corners if all
-/// points lie on a line, one if they coincide.
+/// Corners of the convex hull, counter-clockwise, without collinear points. There are two corners
+/// if all points lie on a line, and one if all points coincide.
 std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points);
 
 /// Maps three uniform random numbers to a point distributed uniformly by area in a convex polygon

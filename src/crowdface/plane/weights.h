@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// A point of the weight plane. Every head has an anchor t_i on the plane, and every face a
-/// position m.
+/// A point of the weight plane, on which every head has an anchor t_i and every face has a position
+/// m.
 using PlanePoint = Eigen::Vector2d;
 
 /// Eq. 4, normalised: 1/‖m − t_i‖² divided by the sum over all i. At an anchor, the anchor's head

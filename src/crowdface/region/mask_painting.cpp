@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kBleed = 6;       // texels painted beyond a chart's border
+constexpr int kBleed = 6;       // width in texels of the paint beyond a chart's border
 constexpr int kMaxRounds = 60;  // largest number of correction rounds
 /// Largest error of a sampled weight at which corrections stop: a fifth of an 8-bit step.
 constexpr double kGoodEnough = 0.2 / 255;
@@ -44,7 +44,7 @@ class Canvas {
         value_(count() * regions_, 0) {}
 
   /// Paints a triangle over unpainted texels.
-  /// \param at  corners, in texels.
+  /// \param at  the corners of the triangle, in texels.
   void paint(const std::array<Vector2d, 3>& at, const std::array<const double*, 3>& weights) {
     const Vector2d low = at[0].cwiseMin(at[1]).cwiseMin(at[2]);
     const Vector2d high = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
@@ -88,9 +88,9 @@ class Canvas {
     }
   }
 
-  /// Adjusts texels iteratively until the samples at some places match given weights. Each round
-  /// distributes the error of every sample over its texels.
-  /// \param weights  for each place: the weights that a sample should have.
+  /// Adjusts texels iteratively until the samples at given texture coordinates match given weights.
+  /// Each round distributes the error of every sample over its texels.
+  /// \param weights  #places: the weights that each sample should have.
   void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
     std::vector<float> sum(value_.size()), share(count());
     for (const Texels& place : places) {
@@ -122,7 +122,7 @@ class Canvas {
     }
   }
 
-  /// \param u, v  relative to the tile.
+  /// \param u, v  texture coordinates relative to the tile.
   Texels texels(double u, double v) const {
     const double x = std::clamp(u * size_ - 0.5, 0.0, size_ - 1.0);
     const double y = std::clamp((1 - v) * size_ - 0.5, 0.0, size_ - 1.0);
@@ -190,7 +190,7 @@ std::map<int, std::vector<Index>> faces_by_tile(const Topology& topology,
     std::set<int> of_face;
     for (const std::uint32_t uv : corners) {
       of_face.insert(
-          tile_number(tile_step(uvs(uv, 0), middle.x()), tile_step(uvs(uv, 1), middle.y())));
+          tile_number(tile_index(uvs(uv, 0), middle.x()), tile_index(uvs(uv, 1), middle.y())));
     }
     for (const int tile : of_face) tiles[tile].push_back(f);
   }
@@ -199,17 +199,17 @@ std::map<int, std::vector<Index>> faces_by_tile(const Topology& topology,
 
 }  // namespace
 
-bool PaintedMasks::tiled() const {
+bool PaintedMasks::is_tiled() const {
   return tiles.size() > 1 || (!tiles.empty() && tiles.begin()->first != kFirstTile);
 }
 
 PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs,
-                         const RegionWeights::Alpha& alpha, const std::vector<bool>& first,
+                         const RegionWeights::Alpha& alpha, const std::vector<bool>& has_priority,
                          int size) {
   require(size >= 1 && alpha.rows() == topology.vertex_count && alpha.cols() >= 1, "a mask of ",
           size, " texels for ", alpha.rows(), " vertices");
   if (topology.corner_uvs.empty()) throw InvalidInput("a mask needs texture coordinates");
-  const auto counts_first = [&](std::uint32_t v) { return first.empty() || first[v]; };
+  const auto is_prior = [&](std::uint32_t v) { return has_priority.empty() || has_priority[v]; };
   const UvSamples samples = gather_uv_samples(topology, uvs, Tiles::kUdim);
   PaintedMasks out;
   out.size = size;
@@ -221,7 +221,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     for (const bool turn : {true, false}) {
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);
-        if (counts_first(corners[0]) != turn) continue;
+        if (is_prior(corners[0]) != turn) continue;
         throw_if_interrupted();
         const auto at = [&](std::size_t c) -> Vector2d {
           return size * Vector2d(uvs(face_uvs[c], 0) - column, 1 - (uvs(face_uvs[c], 1) - row));
@@ -240,7 +240,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     std::vector<Texels> places;
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {
-      if (!counts_first(v)) continue;
+      if (!is_prior(v)) continue;
       for (const UvSample& sample : samples.of(v)) {
         if (sample.tile != tile) continue;
         places.push_back(canvas.texels(sample.u - column, sample.v - row));
@@ -260,7 +260,8 @@ MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& p
     const std::string number = i == 0 ? std::string() : concat('_', i + 1);
     const std::size_t tile = stem.find(concat('.', kTileWord));
     stem.insert(std::min(tile, stem.size()), number);
-    if (masks.tiled() && stem.find(kTileWord) == std::string::npos) stem += concat('.', kTileWord);
+    if (masks.is_tiled() && stem.find(kTileWord) == std::string::npos)
+      stem += concat('.', kTileWord);
     const auto mask = path.parent_path() / (stem + path.extension().string());
     out.masks.push_back(mask);
     for (const auto& [number_of_tile, images] : masks.tiles) {

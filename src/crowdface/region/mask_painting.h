@@ -15,14 +15,14 @@ namespace crowdface {
 /// Number of regions in one mask image: red, green and blue hold one region each.
 inline constexpr Index kRegionsOfImage = 3;
 
-/// Mask images by tile. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to images of
-/// `size` × `size` × 3 bytes, first row at v = 1. Image i holds regions 3·i to 3·i + 2. At a
-/// painted texel the channel values of all images sum to 255; other texels are black.
+/// The mask images of all tiles. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to
+/// images of `size` × `size` × 3 bytes, first row at v = 1. Image i holds regions 3·i to 3·i + 2.
+/// At a painted texel the channel values of all images sum to 255; other texels are black.
 struct PaintedMasks {
   int size = 0;
   std::map<int, std::vector<std::vector<std::uint8_t>>> tiles;
 
-  bool tiled() const;  ///< whether the file names need <UDIM>
+  bool is_tiled() const;  ///< whether the file names need <UDIM>
   std::size_t image_count() const { return tiles.empty() ? 0 : tiles.begin()->second.size(); }
 };
 
@@ -31,15 +31,15 @@ struct PaintedMasks {
 /// few texels beyond the borders of the UV charts, and then adjusts texels until the sampled
 /// weights match the vertex weights as closely as the resolution allows.
 /// \param alpha  #V by #R, not negative, rows summing to one.
-/// \param first  #V, or empty for all: vertices with priority. Where polygons overlap in the
-///               texture, polygons whose first corner has priority win (the skin: eyes and lashes
-///               may overlap the face's texture); otherwise the polygon with the lower index wins.
-///               Only these vertices are matched.
+/// \param has_priority  #V, or empty for all: whether the vertex has priority, as the skin has over
+///                      eyes and lashes. Where polygons overlap in the texture, polygons whose
+///                      first corner has priority win; otherwise the polygon with the lower index
+///                      wins. Only the weights of vertices with priority are matched.
 /// \param size   texels per side, at least 1.
 /// \throws InvalidInput if there are no texture coordinates, a face lacks them, or a texture
 ///         coordinate lies outside all UDIM tiles.
 PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs,
-                         const RegionWeights::Alpha& alpha, const std::vector<bool>& first,
+                         const RegionWeights::Alpha& alpha, const std::vector<bool>& has_priority,
                          int size);
 
 struct MaskFiles {

@@ -31,16 +31,16 @@ MaskSource::MaskSource(std::string path) : path_(std::move(path)) {}
 MaskSource::MaskSource(std::string name, Image image)
     : path_(std::move(name)), image_(std::move(image)) {}
 
-bool MaskSource::tiled() const {
+bool MaskSource::is_tiled() const {
   return !image_ && path_.find(kTileWord) != std::string::npos;
 }
 
-std::string MaskSource::file_of(int tile) const {
-  return tiled() ? with_tile(path_, tile).string() : path_;
+std::string MaskSource::tile_path(int tile) const {
+  return is_tiled() ? with_tile(path_, tile).string() : path_;
 }
 
 Image MaskSource::read(int tile) const {
-  const std::string file = file_of(tile);
+  const std::string file = tile_path(tile);
   Image image = image_ ? *image_ : read_image(file);
   check_not_negative(file, image);
   return image;

@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// The source of a mask's pixels: one picture, or a set of UDIM tiles if the path contains <UDIM>.
-/// Pictures are read on request only, so tiles that no texture coordinate uses may be missing.
+/// Reads a picture only on request, so tiles that no texture coordinate uses may be missing.
 class MaskSource {
  public:
   /// \param path  may contain <UDIM> (one or more times), which stands for a tile's number.
@@ -21,9 +21,9 @@ class MaskSource {
 
   const std::string& path() const { return path_; }
   /// Whether the mask is a set of UDIM tiles.
-  bool tiled() const;
+  bool is_tiled() const;
   /// The path of a tile, or of the single picture.
-  std::string file_of(int tile) const;
+  std::string tile_path(int tile) const;
   /// Reads a tile, or the single picture.
   /// \throws InvalidInput naming the pixel, if a value outside the alpha channel is negative; also
   ///         throws the errors of read_image.
@@ -34,7 +34,7 @@ class MaskSource {
   std::optional<Image> image_;
 };
 
-/// The channels of an image that hold masks: all channels but alpha, in order.
+/// The indices of the channels of an image that hold masks: all channels except alpha, in order.
 std::vector<int> mask_channels(const Image& image);
 
 }  // namespace crowdface

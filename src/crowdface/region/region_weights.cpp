@@ -42,7 +42,7 @@ struct LoadedMask {
     if (weights) return weights->rows.width();
     return tiles.empty() ? 0 : tiles.begin()->second.channels.size();
   }
-  /// One channel at a texture coordinate; zero if the tile is not loaded.
+  /// The value of one channel at a texture coordinate; zero if the tile is not loaded.
   double at(const UvSample& sample, std::size_t channel) const {
     const auto found = tiles.find(tiled ? sample.tile : kFirstTile);
     if (found == tiles.end()) return 0;
@@ -51,8 +51,8 @@ struct LoadedMask {
     const int column = number % 10, row = number / 10;
     return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
-  /// One channel at a vertex: the mean of the samples at its texture coordinates; nothing if it has
-  /// none.
+  /// The value of one channel at a vertex: the mean of the samples at the vertex's texture
+  /// coordinates; nothing if the vertex has none.
   std::optional<double> at_vertex(Index vertex, std::span<const UvSample> samples,
                                   std::size_t channel) const {
     if (weights) {
@@ -65,7 +65,8 @@ struct LoadedMask {
   }
 };
 
-/// Returns which channel of a tile to look at: the tiles of a mask may be files of several kinds.
+/// Returns the index of the channel to examine in a tile, which may differ between tiles of one
+/// mask.
 using ChannelOf = std::function<int(const LoadedTile&)>;
 
 ChannelOf colour(std::size_t number) {
@@ -105,8 +106,8 @@ bool is_grey(const LoadedMask& mask) {
   });
 }
 
-/// Whether all tiles have alpha, and it is not the same everywhere.
-bool has_alpha_that_varies(const LoadedMask& mask) {
+/// Whether all tiles have an alpha channel, and alpha is not constant.
+bool has_varying_alpha(const LoadedMask& mask) {
   const bool is_there = std::ranges::all_of(
       mask.tiles, [](const auto& numbered) { return numbered.second.image.alpha_channel >= 0; });
   return is_there && !mask.tiles.empty() && !is_constant(mask, alpha());
@@ -118,21 +119,21 @@ void take_one_channel(LoadedMask& mask, const ChannelOf& channel_of) {
 }
 
 /// Uses alpha as the mask if alpha varies and all colour channels are constant.
-void take_alpha_if_it_is_all(LoadedMask& mask) {
-  if (!has_alpha_that_varies(mask)) return;
+void use_alpha_of_constant_colours(LoadedMask& mask) {
+  if (!has_varying_alpha(mask)) return;
   for (std::size_t number = 0; number < mask.channels(); ++number) {
     if (!is_constant(mask, colour(number))) return;
   }
   take_one_channel(mask, alpha());
 }
 
-/// For an image that holds one region: uses its grey value if all channels are equal, or else its
+/// Makes an image the mask of one region. Uses the grey value if all channels are equal, or else
 /// alpha.
 /// \throws InvalidInput if the image is coloured and alpha does not vary.
-void take_grey(LoadedMask& mask, const std::string& path) {
+void use_grey_or_alpha(LoadedMask& mask, const std::string& path) {
   if (mask.channels() < 2 || mask.tiles.empty()) return;
   if (is_grey(mask)) return take_one_channel(mask, colour(0));
-  if (has_alpha_that_varies(mask)) return take_one_channel(mask, alpha());
+  if (has_varying_alpha(mask)) return take_one_channel(mask, alpha());
   throw InvalidInput(
       concat(path,
              ": expected a grey image, because each region has its own image, found a colour "
@@ -145,7 +146,7 @@ void take_grey(LoadedMask& mask, const std::string& path) {
 LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::set<int>& needed,
                 Index vertices, Problems& problems) {
   LoadedMask mask;
-  mask.tiled = source.tiled();
+  mask.tiled = source.is_tiled();
   if (holds_vertex_weights(source.path())) {
     try {
       mask.weights = read_vertex_weights(source.path());
@@ -172,7 +173,7 @@ LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::
       } else if (needed.contains(tile)) {
         problems.add(ExitCode::kMissingInput, concat("mask ", source.path(), ": tile ", tile,
                                                      " is used by texture coordinates, but ",
-                                                     source.file_of(tile), " cannot be found"));
+                                                     source.tile_path(tile), " cannot be found"));
       }
     } catch (const InvalidInput& error) {
       problems.add(error);
@@ -191,7 +192,7 @@ LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::
     if (first.channel_names.empty()) break;
     mask.names.push_back(first.channel_names[static_cast<std::size_t>(channel)]);
   }
-  take_alpha_if_it_is_all(mask);
+  use_alpha_of_constant_colours(mask);
   return mask;
 }
 
@@ -234,8 +235,8 @@ bool is_colour_name(const std::string& name) {
   return colours.contains(lower_case(name));
 }
 
-/// Finds the channels that are named like regions, in the order of the regions; nothing if no
-/// channel is.
+/// Finds the channels that have the names of regions, in the order of the regions. Returns nothing
+/// if no channel has such a name.
 /// \throws InvalidInput if a mask's channels have names and none of the names is a region.
 std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
     const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
@@ -276,8 +277,8 @@ bool has_word(const std::string& file, const std::string& word) {
   return false;
 }
 
-/// The image of each region, if there is one image per region: by file name if all match, otherwise
-/// in order.
+/// The index of the image of each region, where there is one image per region. File names determine
+/// the order if all of them match regions.
 std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& sources,
                                            const std::vector<std::string>& regions) {
   std::vector<std::size_t> by_order(sources.size());
@@ -298,7 +299,8 @@ std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& source
   return by_order;
 }
 
-/// The channel of each region; a region without a channel gets the remainder of the others.
+/// The channel of each region. A region without a channel gets 1 minus the sum of all other
+/// regions.
 std::vector<std::optional<RegionChannel>> channels_of_regions(
     const std::vector<MaskSource>& sources, std::vector<LoadedMask>& masks, Index regions,
     const std::vector<std::string>& names) {
@@ -319,7 +321,7 @@ std::vector<std::optional<RegionChannel>> channels_of_regions(
   for (const LoadedMask& mask : masks) channels += mask.channels();
   std::vector<std::optional<RegionChannel>> found;
   if (count > 1 && masks.size() == count && channels >= count) {
-    for (std::size_t m = 0; m < masks.size(); ++m) take_grey(masks[m], sources[m].path());
+    for (std::size_t m = 0; m < masks.size(); ++m) use_grey_or_alpha(masks[m], sources[m].path());
     for (const std::size_t m : images_of_regions(sources, names)) {
       found.emplace_back(RegionChannel{m, 0});
     }
@@ -336,7 +338,7 @@ std::vector<std::optional<RegionChannel>> channels_of_regions(
 }
 
 /// Samples every region's mask at one vertex and scales the values to sum to one. Returns false and
-/// writes nothing if all masks are zero there or the vertex has no texture coordinates.
+/// writes nothing if all masks are zero at the vertex or the vertex has no texture coordinates.
 bool normalised_mean(const std::vector<LoadedMask>& masks,
                      const std::vector<std::optional<RegionChannel>>& channels, Index vertex,
                      std::span<const UvSample> samples, Eigen::Ref<Eigen::RowVectorXd> row) {
@@ -364,7 +366,7 @@ bool all_hold_vertex_weights(const std::vector<MaskSource>& masks) {
   });
 }
 
-/// The texture coordinates of all vertices; empty groups if all masks are vertex weights.
+/// The texture coordinates of all vertices; no coordinates if all masks are vertex weights.
 UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
                       const std::vector<MaskSource>& masks, const std::vector<bool>& needed) {
   if (all_hold_vertex_weights(masks)) {
@@ -372,7 +374,7 @@ UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
     none.offsets.assign(static_cast<std::size_t>(topology.vertex_count) + 1, 0);
     return none;
   }
-  const bool tiled = std::ranges::any_of(masks, [](auto& m) { return m.tiled(); });
+  const bool tiled = std::ranges::any_of(masks, [](auto& m) { return m.is_tiled(); });
   return gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne, needed);
 }
 

@@ -19,7 +19,7 @@ struct RegionWeights {
   Index uncovered_vertices = 0;
 };
 
-/// One region that is the whole head.
+/// Returns the weights of a single region that covers the whole head.
 RegionWeights whole_head(const Topology& topology);
 
 /// Samples the masks at every vertex's texture coordinates.
@@ -28,19 +28,19 @@ RegionWeights whole_head(const Topology& topology);
 /// - By default, channels are assigned to regions in the order of the images; alpha channels are
 ///   skipped and surplus channels ignored.
 /// - Channels with names that match region names (OpenEXR channels, or columns of a vertex weight
-///   file) are assigned by name. If only the last region has no channel, it gets the remainder
-///   1 − Σ of the others.
-/// - If there are as many images as regions, each image is one region: its grey value, or else its
-///   alpha. File names that match all regions determine the order.
+///   file) are assigned by name. If only the last region has no channel, this region gets 1 minus
+///   the sum of all other regions.
+/// - If there are as many images as regions, each image is the mask of one region: its grey value,
+///   or its alpha if it is not grey. File names that match all regions determine the order.
 /// - If all colour channels are constant and alpha is not, alpha is the mask.
 /// - If there is one channel for two regions, the second region gets the remainder.
 ///
-/// Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at
-/// v = 1. A UDIM sample comes from the tile that contains the coordinate; on a tile border the mean
-/// coordinate of the corner's polygon decides. A single picture covers u and v in [0, 1] and is
-/// clamped beyond. A vertex with several distinct texture coordinates gets the mean of the samples
-/// there. The weights of a vertex are scaled to sum to one; if the sum is zero, or no face uses the
-/// vertex, the vertex belongs to the last region.
+/// Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at v
+/// = 1. A UDIM sample comes from the tile that contains the coordinate; on a tile border, the mean
+/// coordinate of the corner's polygon decides. A single picture covers u and v in [0, 1];
+/// coordinates beyond are clamped. A vertex with several distinct texture coordinates gets the mean
+/// of the samples at these coordinates. The weights of a vertex are scaled to sum to one; if the
+/// sum is zero, or no face uses the vertex, the vertex belongs to the last region.
 ///
 /// \param masks   may be empty if there is one region.
 /// \param needed  #V, or empty for all vertices. Tiles that none of these vertices use may be
@@ -56,8 +56,8 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
                              const std::vector<bool>& needed = {},
                              const std::vector<std::string>& names = {});
 
-/// The first channel of one mask at every vertex, sampled as in region_weights but not scaled; zero
-/// for vertices that no face uses. Throws the errors of region_weights.
+/// Samples the first channel of a mask at every vertex, as in region_weights but without scaling.
+/// Returns zero for vertices that no face uses. Throws the errors of region_weights.
 /// \param needed  #V, or empty for all: vertices that must have texture coordinates.
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
                                 const MaskSource& mask, const std::vector<bool>& needed = {});

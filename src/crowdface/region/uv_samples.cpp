@@ -39,7 +39,7 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
         const Eigen::RowVector2d uv = uvs.row(face_uvs[c]);
         const int tile = tiles == Tiles::kOne
                              ? kFirstTile
-                             : tile_number(tile_step(uv[0], mean[0]), tile_step(uv[1], mean[1]));
+                             : tile_number(tile_index(uv[0], mean[0]), tile_index(uv[1], mean[1]));
         put(topology.face(f)[c], {tile, uv[0], uv[1]});
       }
     }
@@ -62,7 +62,7 @@ void check_every_used_vertex(const Topology& topology, const UvSamples& samples,
 
 }  // namespace
 
-double tile_step(double coordinate, double polygon_mean) {
+double tile_index(double coordinate, double polygon_mean) {
   const double whole = std::floor(coordinate);
   return whole == coordinate ? std::floor(polygon_mean) : whole;
 }
@@ -80,7 +80,8 @@ UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& 
   std::vector<std::size_t> kept(static_cast<std::size_t>(topology.vertex_count));
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
     const std::span<UvSample> places = corners.of(i);
-    // Sorted, so that the mean's last bits do not depend on the order of the faces.
+    // Sort the samples, so that the last bits of their mean do not depend on the order of the
+    // faces.
     std::sort(places.begin(), places.end());
     kept[static_cast<std::size_t>(i)] =
         static_cast<std::size_t>(std::unique(places.begin(), places.end()) - places.begin());

@@ -18,17 +18,17 @@ struct UvSample {
   auto operator<=>(const UvSample&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The distinct texture coordinates of each vertex, collected from its corners. A value on the
-/// border of two tiles occurs once for each tile that the vertex's polygons lie in.
+/// The distinct texture coordinates of each vertex, collected from its corners. A coordinate on the
+/// border of two tiles occurs once for each tile that contains a polygon of the vertex.
 using UvSamples = CompressedRows<UvSample>;
 
-/// The column (for u) or row (for v) of the tile that contains a corner's coordinate: its integer
-/// part. An integer coordinate lies on a tile border; then the mean coordinate of the corner's
-/// polygon decides.
-double tile_step(double coordinate, double polygon_mean);
+/// The column (for u) or row (for v) of the tile that contains a corner's coordinate: the integer
+/// part of the coordinate. An integer coordinate lies on a tile border, where the mean coordinate
+/// of the corner's polygon decides.
+double tile_index(double coordinate, double polygon_mean);
 
-/// kOne: one picture covers all coordinates, and every sample's tile is kFirstTile. kUdim: UDIM
-/// tiles.
+/// How a mask covers the texture coordinates. kOne: with one picture; every sample's tile is
+/// kFirstTile. kUdim: with UDIM tiles.
 enum class Tiles { kOne, kUdim };
 
 /// Collects the texture coordinates of every vertex; a vertex that no face uses has none.
@@ -38,7 +38,7 @@ enum class Tiles { kOne, kUdim };
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles,
                             const std::vector<bool>& needed = {});
 
-/// The tiles that contain at least one sample.
+/// The UDIM numbers of all tiles that contain at least one sample.
 std::set<int> tiles_of(const UvSamples& samples);
 
 }  // namespace crowdface

@@ -15,8 +15,8 @@ struct VertexWeights {
   std::vector<std::string> names;  ///< names of the columns, if the file has a header line
 };
 
-/// Whether a mask file holds one row of weights per vertex (.npy, .txt, .csv) instead of pixels, by
-/// its extension.
+/// Whether a mask file holds a row of weights for each vertex instead of pixels. The extension
+/// decides: .npy, .txt or .csv.
 bool holds_vertex_weights(const std::filesystem::path& path);
 
 /// Reads a NumPy array, or lines of numbers separated by blanks, commas or semicolons, with an

@@ -79,7 +79,7 @@ void CameraNormals::compute(const Topology& topology, const NormalFans& fans,
   normals.resize(static_cast<std::size_t>(fans.rows()));
   parallel_for_each(fans.rows(), kVertexBlock, [&](Index i) {
     Vector sum = Vector::Zero();
-    for (const std::uint32_t face : fans.around(i)) sum += areas[face];
+    for (const std::uint32_t face : fans.polygons_at(i)) sum += areas[face];
     const float length = sum.norm();
     normals[static_cast<std::size_t>(i)] =
         length > 0 ? Vector(sum * (sign / length)) : Vector(sign * Vector::UnitZ());

@@ -104,7 +104,7 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) con
 
 void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (recipe.asymmetry != 1) {
-    face = between_mirrored(face, mirrored(mirror(), face), mirror_share(recipe.asymmetry, false));
+    face = blend_with_image(face, mirrored(mirror(), face), mirror_share(recipe.asymmetry, false));
   }
   correct_contacts(recipe, face);
   if (follower_) follower_->follow(recipe.target, face);
@@ -130,7 +130,7 @@ std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
 }
 
 void FaceBuilder::correct_contacts(const Recipe& recipe, Positions& face) const {
-  if (keeps_contacts_) contacts_->bring_into(contact_ranges(recipe), face);
+  if (keeps_contacts_) contacts_->fit_gaps(contact_ranges(recipe), face);
 }
 
 const MirrorMap& FaceBuilder::mirror() const {
@@ -144,7 +144,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
     mixed = target_positions(inputs_.faces, recipe);
     if (recipe.asymmetry != 1) {
-      mixed = between_mirrored(*mixed, mirrored(mirror(), *mixed),
+      mixed = blend_with_image(*mixed, mirrored(mirror(), *mixed),
                                mirror_share(recipe.asymmetry, false));
     }
   }
@@ -187,7 +187,7 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
         }
         of_sources += contact_masks_[p][k] * (weights > 0 ? sum / weights : of_target);
       }
-      range = {std::min(range.least, of_sources), std::max(range.most, of_sources)};
+      range = {std::min(range.min, of_sources), std::max(range.max, of_sources)};
     }
     ranges.push_back(range);
   }
@@ -209,7 +209,7 @@ void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) con
       nearest = distance;
       other = q;
     }
-    ranges[p] = {std::min(own[p].least, own[other].least), std::max(own[p].most, own[other].most)};
+    ranges[p] = {std::min(own[p].min, own[other].min), std::max(own[p].max, own[other].max)};
   }
 }
 

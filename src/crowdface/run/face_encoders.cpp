@@ -156,9 +156,10 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
   }
   const DetailLevel& detail = *levels_[level].face;
   FinishedFace::Reduced& reduced = face.reduced.emplace_back();
-  reduced.positions = detail.of(face.positions);
-  if (face.normals.rows() > 0) reduced.normals = detail.of(face.normals);
-  for (const Displacements& shape : face.moves) reduced.moves.push_back(detail.of(shape));
+  reduced.positions = detail.restrict_rows(face.positions);
+  if (face.normals.rows() > 0) reduced.normals = detail.restrict_rows(face.normals);
+  for (const Displacements& shape : face.moves)
+    reduced.moves.push_back(detail.restrict_rows(shape));
   reduced.placed_attachments = levels_[level].of(face.placed_attachments);
   if (face.colours.rows() > 0) reduced.colours = face.colours(detail.vertices, kAllColumns);
   mesh.positions = &reduced.positions;

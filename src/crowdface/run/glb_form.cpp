@@ -166,7 +166,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   const DetailLevel& detail = *level.face;
   options.face_materials = at_rows(options.face_materials, detail.faces);
   for (std::size_t t = 0; t < options.targets.size(); ++t) {
-    options.targets[t].vertices = detail.of(inputs.shapes.shapes[t].moves).vertices;
+    options.targets[t].vertices = detail.restrict_rows(inputs.shapes.shapes[t].moves).vertices;
   }
   if (options.overlay) options.overlay->places = at_rows(options.overlay->places, detail.vertices);
   options.skin.influences = at_rows(options.skin.influences, detail.vertices);

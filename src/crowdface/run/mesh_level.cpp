@@ -46,8 +46,10 @@ std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> pl
   std::vector<PlacedAttachment> reduced;
   for (const PlacedAttachment& one : placed) {
     const DetailLevel& level = attachments.at(one.item);
-    reduced.push_back({one.item, one.colour, level.of(one.positions), {}, one.face, one.texture});
-    for (const Displacements& moves : one.moves) reduced.back().moves.push_back(level.of(moves));
+    reduced.push_back(
+        {one.item, one.colour, level.restrict_rows(one.positions), {}, one.face, one.texture});
+    for (const Displacements& moves : one.moves)
+      reduced.back().moves.push_back(level.restrict_rows(moves));
   }
   return reduced;
 }

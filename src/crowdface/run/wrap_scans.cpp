@@ -269,7 +269,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   if (textures != nullptr) {
     const ScanColours colours(std::move(mesh), task.scan);
     for (const std::string& warning : colours.warnings()) log_warning(warning);
-    if (!colours.any()) {
+    if (!colours.has_colours()) {
       throw InvalidInput(concat(task.scan.string(),
                                 ": --texture: expected a texture or colours at vertices, found "
                                 "neither: an OBJ file names its texture in a material file"));

@@ -61,7 +61,7 @@ TextureFiles WrapTextures::files_of(const fs::path& head, const fs::path& report
 std::string WrapTextures::materials_text(const TextureFiles& files) const {
   const std::string name = files.materials.stem().string();
   OwnMaterials::Replacements textures;
-  for (const auto& [material, picture] : target_.of_material()) {
+  for (const auto& [material, picture] : target_.pictures_by_material()) {
     textures[TextureKind::kColour][material.empty() ? kSkinMaterial : material] =
         map_name(name, "colour", target_.names()[picture], kTileWord);
   }
@@ -75,7 +75,8 @@ void WrapTextures::copy_other_textures(const fs::path& folder) const {
   std::set<fs::path> kept;
   for (const auto& [kind, of_material] : named.of_kind) {
     for (const auto& [material, path] : of_material) {
-      if (kind == TextureKind::kColour && target_.of_material().contains(material)) continue;
+      if (kind == TextureKind::kColour && target_.pictures_by_material().contains(material))
+        continue;
       kept.insert(path);
       for (const fs::path& tile : find_tiles(path)) kept.insert(tile);
     }
@@ -109,7 +110,7 @@ double WrapTextures::write(const WrapResult& result, const Scan& scan, const Sca
 
 EncodedFile WrapTextures::head_file(EncodedFile plain, const TextureFiles& files) const {
   std::string first = concat("mtllib ", files.materials.filename().string());
-  if (target_.of_material().contains("")) first += concat("\nusemtl ", kSkinMaterial);
+  if (target_.pictures_by_material().contains("")) first += concat("\nusemtl ", kSkinMaterial);
   if (plain.replace_line("mtllib", first)) return plain;
   EncodedFile with_materials(first + '\n');
   for (const std::string_view piece : plain.pieces()) with_materials.refer_to(piece);

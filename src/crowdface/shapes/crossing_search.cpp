@@ -16,17 +16,17 @@
 namespace crowdface {
 namespace {
 
-/// Triangles at most kSheetRings edges apart count as one sheet. Two triangles of a sheet face
-/// alike if the cosine between their normals is at least kAlike.
+/// Triangles at most kSheetRings edges apart count as one sheet. Two triangles of a sheet have
+/// similar normals if the cosine between the normals is at least kAlike.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.998F;
 
-/// Upper limit of both search distances, in mean leaf sizes. On a dense mesh, leaves are small, and
-/// with larger distances there would be too many pairs of leaves.
+/// Upper limit of both search distances, in mean leaf sizes. On a dense mesh, leaves are small;
+/// larger distances would give too many pairs of leaves.
 constexpr double kMaxLeaves = 3;
 
-/// Bits of the candidates of a leaf paired with itself: each pair of triangles occurs once.
-constexpr std::uint64_t kOnce = [] {
+/// Bits of the pairs of triangles in one leaf, each pair once.
+constexpr std::uint64_t kEachPairOnce = [] {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < LeafBoxes::kCount; ++i) {
     for (std::size_t j = i + 1; j < LeafBoxes::kCount; ++j) {
@@ -45,7 +45,7 @@ class Rings {
         seen_(triangles.size(), kNoIndex) {}
 
   /// Returns the triangles within kSheetRings edges, including `from`.
-  std::span<const std::uint32_t> around(std::uint32_t from) {
+  std::span<const std::uint32_t> triangles_near(std::uint32_t from) {
     reached_ = {from};
     seen_[from] = from;
     std::size_t begin = 0;
@@ -67,7 +67,7 @@ class Rings {
  private:
   const std::vector<Triangle>& triangles_;
   VertexFaces around_;
-  /// #triangles: the triangle whose search reached this one last
+  /// #triangles: the start of the last search that reached each triangle
   std::vector<std::uint32_t> seen_;
   std::vector<std::uint32_t> reached_;
 };
@@ -97,15 +97,15 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   std::vector<Triangle> numbered = triangles_;
   for (Triangle& triangle : numbered) {
-    for (std::uint32_t& v : triangle) v = place_in(vertices_, v);
+    for (std::uint32_t& v : triangle) v = index_in_list(vertices_, v);
   }
   const Positions points = mesh(vertices_, kAllColumns);
   tree_ = TriangleTree(numbered, points, reach);
-  find_near(numbered, points, reach, facing);
+  find_leaf_pairs(numbered, points, reach, facing);
 }
 
-void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Positions& points,
-                               double reach, double facing) {
+void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, const Positions& points,
+                                     double reach, double facing) {
   const SingleRows single = points.cast<float>();
   const double most = kMaxLeaves * mean_leaf_size(tree_, single);
   reach = std::min(reach, most);
@@ -122,7 +122,7 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
   std::vector<std::uint32_t> place(numbered.size(), kNoIndex);
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(numbered, points.rows());
-  // #leaves: bits for the current leaf `one`
+  // #leaves: for each other leaf, bits of the pairs with triangles of the current leaf `one`
   std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());
   for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
     const std::vector<std::uint32_t> others = scene.leaves_near(one);
@@ -130,7 +130,7 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
     const auto ones = tree_.leaf(one);
     // Mark the triangles on the same sheet: few edges apart, and joined at a vertex.
     for (std::size_t k = 0; k < ones.size(); ++k) {
-      for (const std::uint32_t other : rings.around(ones[k])) {
+      for (const std::uint32_t other : rings.triangles_near(ones[k])) {
         if (place[other] == kNoIndex) continue;
         const std::uint64_t bit = std::uint64_t{1}
                                   << (LeafBoxes::kCount * k + place[other] % LeafBoxes::kCount);
@@ -142,18 +142,18 @@ void CrossingSearch::find_near(const std::vector<Triangle>& numbered, const Posi
     for (const std::uint32_t other : others) {
       const auto& [few_edges, joined] = of_sheet[other];
       // Choose the candidates of each pair of leaves.
-      const std::uint64_t once = one == other ? kOnce : ~std::uint64_t{0};
+      const std::uint64_t once = one == other ? kEachPairOnce : ~std::uint64_t{0};
       std::uint64_t facing_it = overlap_mask(far[one], far[other]);
       if (facing_it != 0) facing_it &= ~similar_normal_mask(normals[one], normals[other], 0);
       const std::uint64_t near = overlap_mask(close[one], close[other]) & once;
       const std::uint64_t always = (near | (facing_it & once)) & ~few_edges;
       const std::uint64_t folded = near & few_edges & ~joined;
-      if ((always | folded) != 0) near_.push_back({one, other, always, folded});
+      if ((always | folded) != 0) leaf_pairs_.push_back({one, other, always, folded});
     }
   }
 }
 
-void CrossingSearch::measure(std::size_t l, Boxes& boxes) const {
+void CrossingSearch::measure_leaf(std::size_t l, Boxes& boxes) const {
   boxes.triangles[l] = LeafBoxes(tree_.corners[l], boxes.points, 0);
   boxes.leaves[l] = boxes.triangles[l].whole();
   boxes.normals[l] = LeafNormals(tree_.corners[l], boxes.points);
@@ -164,12 +164,12 @@ CrossingSearch::Boxes CrossingSearch::boxes_of(const Positions& mesh) const {
   Boxes boxes{mesh(vertices_, kAllColumns).cast<float>(), std::vector<LeafBoxes>(leaves),
               std::vector<LeafNormals>(leaves), std::vector<Box>(leaves),
               std::vector<std::uint8_t>(leaves, 1)};
-  for (std::size_t l = 0; l < leaves; ++l) measure(l, boxes);
+  for (std::size_t l = 0; l < leaves; ++l) measure_leaf(l, boxes);
   return boxes;
 }
 
-void CrossingSearch::renew(const Positions& mesh, const std::vector<bool>& changed,
-                           Boxes& boxes) const {
+void CrossingSearch::update(const Positions& mesh, const std::vector<bool>& changed,
+                            Boxes& boxes) const {
   std::vector<std::uint8_t> moved(vertices_.size(), 0);
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     if (!changed[vertices_[i]]) continue;
@@ -182,27 +182,27 @@ void CrossingSearch::renew(const Positions& mesh, const std::vector<bool>& chang
       for (const std::int32_t v : corner) any |= moved[static_cast<std::size_t>(v)];
     }
     boxes.is_new[l] = any;
-    if (any != 0) measure(l, boxes);
+    if (any != 0) measure_leaf(l, boxes);
   }
 }
 
-std::vector<CrossingSearch::Pair> CrossingSearch::crossing(
+std::vector<CrossingSearch::Pair> CrossingSearch::crossing_pairs(
     const Positions& mesh, const Boxes& boxes,
     const std::function<bool(std::uint32_t)>& excused) const {
   std::vector<Pair> pairs;
-  for (const Near& near : near_) {
-    if ((boxes.is_new[near.one] | boxes.is_new[near.other]) == 0) continue;
-    if (!overlap(boxes.leaves[near.one], boxes.leaves[near.other])) continue;
-    std::uint64_t left = (near.always | near.folded) &
-                         overlap_mask(boxes.triangles[near.one], boxes.triangles[near.other]);
-    if ((left & near.folded) != 0) {
-      left &= near.always |
-              ~similar_normal_mask(boxes.normals[near.one], boxes.normals[near.other], kAlike);
+  for (const LeafPair& pair : leaf_pairs_) {
+    if ((boxes.is_new[pair.first] | boxes.is_new[pair.second]) == 0) continue;
+    if (!overlap(boxes.leaves[pair.first], boxes.leaves[pair.second])) continue;
+    std::uint64_t left = (pair.always_tested | pair.tested_if_folded) &
+                         overlap_mask(boxes.triangles[pair.first], boxes.triangles[pair.second]);
+    if ((left & pair.tested_if_folded) != 0) {
+      left &= pair.always_tested |
+              ~similar_normal_mask(boxes.normals[pair.first], boxes.normals[pair.second], kAlike);
     }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-      const std::uint32_t t = tree_.leaf(near.one)[bit / LeafBoxes::kCount];
-      const std::uint32_t u = tree_.leaf(near.other)[bit % LeafBoxes::kCount];
+      const std::uint32_t t = tree_.leaf(pair.first)[bit / LeafBoxes::kCount];
+      const std::uint32_t u = tree_.leaf(pair.second)[bit % LeafBoxes::kCount];
       if (excused(t) && excused(u)) continue;
       if (!triangles_intersect(mesh, triangles_[t], triangles_[u])) continue;
       pairs.push_back({std::min(t, u), std::max(t, u)});

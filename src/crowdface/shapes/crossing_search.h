@@ -10,28 +10,28 @@
 
 namespace crowdface {
 
-/// Finds intersecting triangles in many meshes of one topology. The triangles are stored in leaves
-/// of eight that are close together. The constructor determines on one mesh which leaves, and which
-/// of their triangles, can intersect at all. Each search then only compares bounding boxes of these
-/// candidates before the exact test.
+/// Finds intersecting triangles in many meshes of one topology. Each leaf stores eight triangles
+/// that are close together. The constructor determines, on one mesh, which pairs of leaves and
+/// which of their triangles can intersect at all. Each search compares only the bounding boxes of
+/// these candidates before the exact test.
 class CrossingSearch {
  public:
   using Pair = std::array<std::uint32_t, 2>;  ///< indices of two triangles, ascending
 
   CrossingSearch() = default;
   /// \param triangles  The triangles to search.
-  /// \param mesh       #V by 3. The mesh on which candidate pairs are determined.
+  /// \param mesh       #V by 3: the mesh on which the constructor finds candidate pairs.
   /// \param reach      Largest distance of two candidates on `mesh`.
   /// \param facing     Largest distance of two candidates that face each other; at least `reach`.
   ///
-  /// If two triangles are only a few edges apart on one sheet, the pair is tested only where the
-  /// normals of the triangles differ, that is, where the sheet is folded.
+  /// Triangles that are only a few edges apart on one sheet are tested only if their normals
+  /// differ, that is, if the sheet is folded.
   CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach,
                  double facing);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  /// Bounding boxes of one mesh, kept from one search to the next.
+  /// Bounding boxes of one mesh, which `update` keeps up to date between searches.
   struct Boxes {
     SingleRows points;                 ///< #vertices of the triangles by 3
     std::vector<LeafBoxes> triangles;  ///< #leaves
@@ -43,32 +43,32 @@ class CrossingSearch {
   /// Updates the boxes after vertices moved.
   ///
   /// \param changed  #V: whether a vertex moved since the last update.
-  void renew(const Positions& mesh, const std::vector<bool>& changed, Boxes& boxes) const;
+  void update(const Positions& mesh, const std::vector<bool>& changed, Boxes& boxes) const;
 
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
   /// \param excused  Returns whether a triangle is excused. A pair is ignored if both of its
   ///                 triangles are excused.
-  std::vector<Pair> crossing(const Positions& mesh, const Boxes& boxes,
-                             const std::function<bool(std::uint32_t)>& excused) const;
+  std::vector<Pair> crossing_pairs(const Positions& mesh, const Boxes& boxes,
+                                   const std::function<bool(std::uint32_t)>& excused) const;
 
  private:
-  /// Candidates in a pair of leaves (or in one leaf, paired with itself). Bit 8·i + j stands for
-  /// triangle i of the first leaf and triangle j of the second.
-  struct Near {
-    std::uint32_t one, other;
-    std::uint64_t always;
-    /// pairs on one sheet, few edges apart: tested only if their normals differ
-    std::uint64_t folded;
+  /// Candidates in a pair of leaves, or in one leaf that is paired with itself. Bit 8·i + j stands
+  /// for triangle i of the first leaf and triangle j of the second leaf.
+  struct LeafPair {
+    std::uint32_t first, second;
+    std::uint64_t always_tested;
+    /// pairs of triangles on one sheet, few edges apart: tested only if their normals differ
+    std::uint64_t tested_if_folded;
   };
-  void find_near(const std::vector<Triangle>& numbered, const Positions& points, double reach,
-                 double facing);
-  void measure(std::size_t leaf, Boxes& boxes) const;
+  void find_leaf_pairs(const std::vector<Triangle>& numbered, const Positions& points, double reach,
+                       double facing);
+  void measure_leaf(std::size_t leaf, Boxes& boxes) const;
 
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> vertices_;  ///< vertices of the triangles, ascending
   TriangleTree tree_;                    ///< indexes vertices by their position in `vertices_`
-  std::vector<Near> near_;               ///< ascending
+  std::vector<LeafPair> leaf_pairs_;     ///< pairs of leaves with candidates, ascending
 };
 
 }  // namespace crowdface

@@ -15,18 +15,18 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 43 cm.
-constexpr double kSpacing = 0.06;  // spacing of the nodes
-constexpr double kBetween = 0.1;   // radius of a node's influence
-constexpr double kPatch = 0.1;     // radius of the patch that determines a node's map
-/// Weight with which a node's fit is drawn to the similarity transform of the whole skin, as a
-/// fraction of the patch's scatter.
+constexpr double kSpacing = 0.06;   // spacing of the nodes
+constexpr double kInfluence = 0.1;  // radius of a node's influence
+constexpr double kPatch = 0.1;      // radius of the patch that determines a node's map
+/// Weight of the similarity transform of the whole skin in the fit of a node, as a fraction of the
+/// patch's scatter.
 constexpr double kRegularisation = 0.02;
 /// Largest numbers of vertices: kMaxSkin for the whole skin, kMaxCandidates for candidates of
 /// nodes, kMaxPatch for a patch.
 constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
 
-/// Farthest-point sampling: adds the vertex farthest from those chosen so far, until none is
-/// farther than `spacing`.
+/// Farthest-point sampling: repeatedly adds the vertex that is farthest from the chosen vertices,
+/// until every vertex is within `spacing` of a chosen vertex.
 std::vector<std::uint32_t> spread_over(const Positions& positions,
                                        std::span<const std::uint32_t> vertices, double spacing) {
   std::vector<double> nearest(vertices.size(), std::numeric_limits<double>::max());
@@ -58,46 +58,44 @@ Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m) {
 FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
                        std::span<const std::uint32_t> used)
     : neutral_(&neutral),
-      some_skin_(evenly_spaced_items(skin, kMaxSkin)),
-      ones_(some_skin_.size(), 1.0) {
+      sampled_skin_(evenly_spaced_items(skin, kMaxSkin)),
+      unit_weights_(sampled_skin_.size(), 1.0) {
   const auto chosen =
       spread_over(neutral, evenly_spaced_items(skin, kMaxCandidates), kSpacing * extent);
-  places_.resize(chosen.size());
+  nodes_.resize(chosen.size());
   parallel_for_each(chosen.size(), [&](std::size_t p) {
     const Eigen::Vector3d middle = row3(neutral, chosen[p]);
     std::vector<std::uint32_t> patch;
     for (const std::uint32_t v : skin) {
       if ((row3(neutral, v) - middle).norm() < kPatch * extent) patch.push_back(v);
     }
-    places_[p] =
-        place_at(neutral, evenly_spaced_items(patch, kMaxPatch), kPatch * extent, chosen[p]);
+    nodes_[p] = node_at(neutral, evenly_spaced_items(patch, kMaxPatch), kPatch * extent, chosen[p]);
   });
   for (const std::uint32_t v : used) {
     std::vector<Share> shares;
     Share nearest{0, std::numeric_limits<double>::max()};
     double sum = 0;
-    for (std::uint32_t p = 0; p < places_.size(); ++p) {
-      const double distance = (row3(neutral, v) - places_[p].middle).norm();
+    for (std::uint32_t p = 0; p < nodes_.size(); ++p) {
+      const double distance = (row3(neutral, v) - nodes_[p].middle).norm();
       if (distance < nearest.weight) nearest = {p, distance};
-      const double weight = biweight(std::min(1.0, distance / (kBetween * extent)));
+      const double weight = biweight(std::min(1.0, distance / (kInfluence * extent)));
       if (weight > 0) shares.push_back({p, weight});
       sum += weight;
     }
-    if (shares.empty()) shares.push_back({nearest.place, sum = 1});
+    if (shares.empty()) shares.push_back({nearest.node, sum = 1});
     for (Share& share : shares) share.weight /= sum;
     shares_.add_group(shares);
   }
 }
 
-FrameField::Place FrameField::place_at(const Positions& neutral,
-                                       std::span<const std::uint32_t> patch, double reach,
-                                       std::uint32_t vertex) {
-  Place place{row3(neutral, vertex), vertex, {}, {}};
+FrameField::Node FrameField::node_at(const Positions& neutral, std::span<const std::uint32_t> patch,
+                                     double reach, std::uint32_t vertex) {
+  Node node{row3(neutral, vertex), vertex, {}, {}};
   std::vector<double> weights;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double sum = 0;
   for (const std::uint32_t v : patch) {
-    const Eigen::Vector3d from = row3(neutral, v) - place.middle;
+    const Eigen::Vector3d from = row3(neutral, v) - node.middle;
     weights.push_back(biweight(std::min(1.0, from.norm() / reach)));
     mean += weights.back() * from;
     sum += weights.back();
@@ -105,7 +103,7 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
   mean /= sum;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < patch.size(); ++i) {
-    const Eigen::Vector3d from = row3(neutral, patch[i]) - place.middle - mean;
+    const Eigen::Vector3d from = row3(neutral, patch[i]) - node.middle - mean;
     const Eigen::Vector3d weighted = weights[i] * from;
     spread += weighted * from.transpose();
   }
@@ -113,29 +111,29 @@ FrameField::Place FrameField::place_at(const Positions& neutral,
   // patch's scatter.
   const double whole = kRegularisation * (spread(0, 0) + spread(1, 1) + spread(2, 2));
   if (!(whole > 0)) {
-    place.rest = Eigen::Matrix3d::Identity();
-    return place;
+    node.whole_factor = Eigen::Matrix3d::Identity();
+    return node;
   }
   for (Index i = 0; i < 3; ++i) spread(i, i) += whole;
   const Eigen::Matrix3d inverse = inverse3(spread);
-  place.rest = whole * inverse;
+  node.whole_factor = whole * inverse;
   for (std::size_t i = 0; i < patch.size(); ++i) {
-    const Eigen::Vector3d from = row3(neutral, patch[i]) - place.middle - mean;
-    place.samples.push_back({patch[i], weights[i] * apply3(inverse, from)});
+    const Eigen::Vector3d from = row3(neutral, patch[i]) - node.middle - mean;
+    node.samples.push_back({patch[i], weights[i] * apply3(inverse, from)});
   }
-  return place;
+  return node;
 }
 
 FrameField::Frames FrameField::frames(const Positions& face) const {
-  Frames frames{fit_rigid_motion(*neutral_, face, some_skin_, ones_), {}};
-  frames.at_place.resize(places_.size());
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    const Place& place = places_[p];
-    Eigen::Matrix3d& map = frames.at_place[p];
-    for (Index c = 0; c < 3; ++c) map.col(c) = frames.whole.turn(place.rest.col(c));
+  Frames frames{fit_rigid_motion(*neutral_, face, sampled_skin_, unit_weights_), {}};
+  frames.node_maps.resize(nodes_.size());
+  for (std::size_t p = 0; p < nodes_.size(); ++p) {
+    const Node& node = nodes_[p];
+    Eigen::Matrix3d& map = frames.node_maps[p];
+    for (Index c = 0; c < 3; ++c) map.col(c) = frames.whole.turn(node.whole_factor.col(c));
     // Positions relative to one vertex, so that rounding does not depend on where the face is.
-    const Eigen::Vector3d origin = row3(face, place.vertex);
-    for (const Sample& sample : place.samples) {
+    const Eigen::Vector3d origin = row3(face, node.vertex);
+    for (const Sample& sample : node.samples) {
       const Eigen::Vector3d from = row3(face, sample.vertex) - origin;
       map += from * sample.weight.transpose();
     }
@@ -143,9 +141,9 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
   return frames;
 }
 
-Eigen::Matrix3d FrameField::at(std::size_t i, const Frames& frames) const {
+Eigen::Matrix3d FrameField::map_at(std::size_t i, const Frames& frames) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
-  for (const Share& share : shares_.of(i)) map += share.weight * frames.at_place[share.place];
+  for (const Share& share : shares_.of(i)) map += share.weight * frames.node_maps[share.node];
   return map;
 }
 

@@ -13,10 +13,10 @@ namespace crowdface {
 
 /// The local rotation and stretch of a face's skin relative to the template's, as a smooth field of
 /// linear maps. The maps are fitted at nodes a few centimetres apart: each map is the least-squares
-/// fit from the template's skin around the node to the face's. Between nodes the maps are
-/// interpolated. A flat patch of skin does not determine a map, so each fit also includes, with a
-/// small weight, the similarity of the whole skin. The constructor computes everything that depends
-/// on the template only.
+/// fit from the template's skin around the node to the same skin of the face. The maps are
+/// interpolated between the nodes. A flat patch of skin does not determine a map, so each fit also
+/// includes, with a small weight, the similarity transform of the whole skin. The constructor
+/// computes everything that depends on the template only.
 class FrameField {
  public:
   FrameField() = default;
@@ -28,38 +28,39 @@ class FrameField {
              std::span<const std::uint32_t> used);
 
   struct Frames {
-    RigidMotion whole;                      ///< motion from the template to the face
-    std::vector<Eigen::Matrix3d> at_place;  ///< #nodes: linear map at each node
+    RigidMotion whole;                       ///< motion from the template to the face
+    std::vector<Eigen::Matrix3d> node_maps;  ///< #nodes: linear map at each node
   };
   Frames frames(const Positions& face) const;
   /// Returns the map at the vertex `used[i]`. If the face is the template rotated, translated and
   /// scaled, the map is this rotation and scale, up to rounding.
-  Eigen::Matrix3d at(std::size_t i, const Frames& frames) const;
+  Eigen::Matrix3d map_at(std::size_t i, const Frames& frames) const;
 
  private:
   struct Sample {
     std::uint32_t vertex;
     Eigen::Vector3d weight;
   };
-  struct Place {
+  struct Node {
     Eigen::Vector3d middle;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// factor on the whole skin's map, which fills directions that the samples do not determine
-    Eigen::Matrix3d rest;
+    /// factor on the map of the whole skin; it determines the directions that the samples leave
+    /// open
+    Eigen::Matrix3d whole_factor;
   };
   struct Share {
-    std::uint32_t place;
+    std::uint32_t node;
     double weight;  ///< weights of a vertex sum to one
   };
 
-  static Place place_at(const Positions& neutral, std::span<const std::uint32_t> patch,
-                        double reach, std::uint32_t vertex);
+  static Node node_at(const Positions& neutral, std::span<const std::uint32_t> patch, double reach,
+                      std::uint32_t vertex);
 
   const Positions* neutral_ = nullptr;
-  std::vector<std::uint32_t> some_skin_;
-  std::vector<double> ones_;  ///< #some_skin_
-  std::vector<Place> places_;
+  std::vector<std::uint32_t> sampled_skin_;
+  std::vector<double> unit_weights_;  ///< #sampled_skin_: all 1
+  std::vector<Node> nodes_;
   /// #used: the nodes between which each vertex interpolates, with weights
   CompressedRows<Share> shares_;
 };

@@ -18,9 +18,9 @@ constexpr double kMaxChange = 1e-3;
 GapPreserver::GapPreserver(const HeadSet& faces, const Adjacency& adjacency,
                            std::span<const std::uint32_t> skin)
     : contacts_(faces, adjacency, skin),
-      most_(kMaxChange * extent_of(faces.heads.front().positions, skin)) {}
+      max_change_(kMaxChange * extent_of(faces.heads.front().positions, skin)) {}
 
-bool GapPreserver::moved_by(std::span<const std::uint32_t> vertices) const {
+bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const {
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
     for (const auto* profile : {&contacts_.place(p).low, &contacts_.place(p).high}) {
       for (const EdgePoint& point : *profile) {
@@ -39,20 +39,20 @@ std::vector<std::uint32_t> GapPreserver::vertices() const {
   return vertices;
 }
 
-double GapPreserver::deepest(const Positions& positions) const {
+double GapPreserver::max_overlap(const Positions& positions) const {
   double deepest = 0;
   for (const double gap : gaps(positions)) deepest = std::max(deepest, -gap);
   return deepest;
 }
 
-void GapPreserver::keep(std::span<const double> rest, std::span<const double> widening, Keeping how,
-                        Positions& shape) const {
+void GapPreserver::adjust(std::span<const double> rest, std::span<const double> widening,
+                          GapSelection how, Positions& shape) const {
   std::vector<SkinContacts::Range> ranges(rest.size(), {-HUGE_VAL, HUGE_VAL});
   for (std::size_t p = 0; p < rest.size(); ++p) {
-    if (how == Keeping::kNearlySame && std::abs(widening[p]) > most_) continue;
+    if (how == GapSelection::kNearlySame && std::abs(widening[p]) > max_change_) continue;
     ranges[p] = {rest[p] + widening[p], rest[p] + widening[p]};
   }
-  contacts_.bring_into(ranges, shape);
+  contacts_.fit_gaps(ranges, shape);
 }
 
 }  // namespace crowdface

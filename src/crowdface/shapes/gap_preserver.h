@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// Preserves the gap between the lips in shapes that keep the lips closed or equally far apart. The
-/// two lips are far from each other along the skin, so the linear maps of FrameField differ between
-/// them and would change the gap.
+/// two lips are far from each other along the skin. So the linear maps of FrameField differ between
+/// the lips, and alone they would change the gap.
 class GapPreserver {
  public:
   /// \param skin  Vertices of the skin, ascending.
@@ -20,33 +20,33 @@ class GapPreserver {
 
   /// Returns whether a shape that moves these vertices (ascending) moves skin that nearly touches
   /// other skin.
-  bool moved_by(std::span<const std::uint32_t> vertices) const;
-  /// Returns one vertex of each place.
+  bool is_affected_by(std::span<const std::uint32_t> vertices) const;
+  /// Returns one vertex at each place where gaps are measured.
   std::vector<std::uint32_t> vertices() const;
 
-  /// Returns the vertices that `keep` may move.
-  std::vector<std::uint32_t> moved() const { return contacts_.moved(); }
+  /// Returns the vertices that `adjust` may move.
+  std::vector<std::uint32_t> movable_vertices() const { return contacts_.movable_vertices(); }
 
   /// Returns the gaps at all places. \param positions  #V by 3.
   std::vector<double> gaps(const Positions& positions) const { return contacts_.gaps(positions); }
-  /// Returns the largest depth, over all places, by which skin passes through other skin; 0 if
-  /// there is no such place.
-  double deepest(const Positions& positions) const;
+  /// Returns the largest depth by which skin overlaps other skin, over all places; 0 if no skin
+  /// overlaps.
+  double max_overlap(const Positions& positions) const;
 
-  /// Which gaps to adjust: those that the shape hardly changes, or all.
-  enum class Keeping { kNearlySame, kAll };
+  /// Which gaps to adjust: only the gaps that the shape hardly changes, or all gaps.
+  enum class GapSelection { kNearlySame, kAll };
   /// Adjusts a shape so that gaps become `rest + widening`.
   ///
   /// \param rest      #places: gaps of the face at rest.
   /// \param widening  #places: wanted change of each gap.
   /// \param how       Which gaps to adjust.
   /// \param shape     The face in the shape, #V by 3; adjusted.
-  void keep(std::span<const double> rest, std::span<const double> widening, Keeping how,
-            Positions& shape) const;
+  void adjust(std::span<const double> rest, std::span<const double> widening, GapSelection how,
+              Positions& shape) const;
 
  private:
   SkinContacts contacts_;
-  double most_ = 0;  ///< kNearlySame adjusts only gaps that change by at most this length
+  double max_change_ = 0;  ///< largest change of a gap that kNearlySame adjusts
 };
 
 }  // namespace crowdface

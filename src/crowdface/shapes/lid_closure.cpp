@@ -22,25 +22,26 @@ constexpr double kWholeShare = 1.8, kNoShare = 3;
 // skin farther than kNoHold is not.
 constexpr double kWholeHold = 0.27, kNoHold = 0.6;
 constexpr std::size_t kPlaces = 52;  // number of places along the opening
-constexpr double kProfile = 0.35;    // radius of a profile around its place
+constexpr double kProfile = 0.35;    // radius of the profile around each place
 constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
 // Smallest decrease of a gap at which the shape counts as closing a place.
 constexpr double kMinClosed = 0.05;
-/// The shape closes a place of the template if at most this fraction of the gap at rest remains.
-constexpr double kLeft = 0.4;
-// clearance from the eyeball that lids keep, if template and face at rest have at least this
-// clearance
+/// Largest fraction of the gap at rest that may remain where the shape closes a place of the
+/// template.
+constexpr double kMaxRemaining = 0.4;
+// clearance between lid and eyeball that is kept where template and face at rest have it
 constexpr double kMargin = 0.004;
 /// Largest depth of skin in the eyeball, unless the skin is deeper at rest.
 constexpr double kDeepest = 0.0125;
 constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
-/// If gaps must be corrected, lids close by up to this much more than on the template, so that the
-/// skin between the places closes too.
-constexpr double kSure = 0.02;
+/// Largest extra closing, beyond the template's, where gaps must be corrected. It also closes the
+/// skin between the places.
+constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
 
-/// Returns the vertex of a lid's rim that is nearest to a position along the opening.
+/// Returns the position, in the shape, of the vertex of a lid's rim that is nearest to a coordinate
+/// along the opening.
 Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
                        const Eigen::Vector3d& along) {
   double nearest = std::numeric_limits<double>::max();
@@ -91,12 +92,12 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   const FaceEye at_rest{&eye.ball, {}};
   const Eigen::Vector3d along = axes.side();
   for (std::uint32_t i = 0; i < eye.skin.size(); ++i) {
-    const std::uint32_t v = eye.skin[i], row = place_in(shape.vertices, v);
+    const std::uint32_t v = eye.skin[i], row = index_in_list(shape.vertices, v);
     if (row == kNoIndex) continue;
     const Eigen::Vector3d before = row3(neutral, v), after = before + row3(shape.moves, row);
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
-    Lid lid{row, v, i, 0, 0};
+    LidVertex lid{row, v, i, 0, 0};
     lid.hold = smooth_step(kNoHold * radius_, kWholeHold * radius_,
                            std::min(std::abs(gap_before), std::abs(gap_after)));
     if (!places_.empty())
@@ -104,29 +105,30 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
     if (lid.share > 0 || lid.hold > 0) lids_.push_back(lid);
   }
   put_profiles_first();
-  for (const Lid& lid : lids_) {
+  for (const LidVertex& lid : lids_) {
     const double at = (row3(neutral, lid.vertex) + row3(shape.moves, lid.row)).dot(along);
-    const std::size_t first = heard_.size();
+    const std::size_t first = gain_effects_.size();
     double sum = 0;
-    for (const Place& place : places_) {
+    for (const LidPlace& place : places_) {
       const double x = (at - place.along) / (kBlur * radius_);
-      heard_.push_back(1 / ((x * x + 1) * (x * x + 1)));
-      sum += heard_.back();
+      gain_effects_.push_back(1 / ((x * x + 1) * (x * x + 1)));
+      sum += gain_effects_.back();
     }
-    for (std::size_t p = first; p < heard_.size(); ++p) heard_[p] *= lid.share / sum;
+    for (std::size_t p = first; p < gain_effects_.size(); ++p) gain_effects_[p] *= lid.share / sum;
   }
 }
 
-/// Only lids in profiles are moved while the gains are searched.
+/// Sorts the lid vertices that belong to profiles to the front, because the search for gains moves
+/// only these.
 void LidClosure::put_profiles_first() {
   std::set<std::uint32_t> rows;
-  for (const Place& place : places_) {
+  for (const LidPlace& place : places_) {
     for (const auto* points : {&place.low, &place.high}) {
       for (const Point& point : *points) rows.insert({point.row_a, point.row_b});
     }
   }
-  const auto rest = std::stable_partition(lids_.begin(), lids_.end(),
-                                          [&](const Lid& lid) { return rows.contains(lid.row); });
+  const auto rest = std::stable_partition(
+      lids_.begin(), lids_.end(), [&](const LidVertex& lid) { return rows.contains(lid.row); });
   in_profiles_ = static_cast<std::size_t>(rest - lids_.begin());
 }
 
@@ -150,17 +152,18 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kPlaces;
     const Eigen::Vector3d middle =
         (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
-    // Cut both lids across the opening, in the template's shape, where the shape closes them
-    // enough.
+    // Cut both lids across the opening, on the template in the shape. Keep the place if the shape
+    // closes the lids enough.
     ContactPlace cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
     cut_profiles(adjacency, closed, eye.skin, side, kProfile * radius_, cut);
     if (cut.low.empty() || cut.high.empty()) continue;
     const double before = cut.gap(neutral), after = cut.gap(closed);
-    if (before - after < kMinClosed * radius_ || after > kLeft * before) continue;
-    Place place{{}, {}, at, before - after};
+    if (before - after < kMinClosed * radius_ || after > kMaxRemaining * before) continue;
+    LidPlace place{{}, {}, at, before - after};
     const auto add = [&](const std::vector<EdgePoint>& points, std::vector<Point>& to) {
       for (const EdgePoint& point : points) {
-        to.push_back({point, place_in(shape.vertices, point.a), place_in(shape.vertices, point.b)});
+        to.push_back({point, index_in_list(shape.vertices, point.a),
+                      index_in_list(shape.vertices, point.b)});
       }
     };
     add(cut.low, place.low);
@@ -171,11 +174,11 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
 
 std::vector<std::uint32_t> LidClosure::rows() const {
   std::vector<std::uint32_t> rows;
-  for (const Lid& lid : lids_) rows.push_back(lid.row);
+  for (const LidVertex& lid : lids_) rows.push_back(lid.row);
   return rows;
 }
 
-LidClosure::Axes LidClosure::axes_on(const RigidMotion& whole) const {
+LidClosure::EyeAxes LidClosure::axes_on(const RigidMotion& whole) const {
   return {whole.turn(axes_.side()) / whole.scale, whole.turn(axes_.up) / whole.scale};
 }
 
@@ -183,11 +186,11 @@ LidClosure::Goals LidClosure::goals(const Positions& mesh, const FaceEye& eye,
                                     const RigidMotion& whole, const Positions& moves) const {
   Goals goals;
   if (!places_.empty()) goals.gaps = gaps(axes_on(whole), mesh, moves);
-  for (Gap& gap : goals.gaps) gap = {gap.paired / whole.scale, gap.plumb / whole.scale};
-  for (const Lid& lid : lids_) {
+  for (Gap& gap : goals.gaps) gap = {gap.paired / whole.scale, gap.vertical / whole.scale};
+  for (const LidVertex& lid : lids_) {
     const double after = eye.gap_at(row3(mesh, lid.vertex) + row3(moves, lid.row)).gap;
-    goals.least.push_back(after / whole.scale);
-    goals.gap_change.push_back((after - eye.rest_gaps[lid.number]) / whole.scale);
+    goals.ball_distances.push_back(after / whole.scale);
+    goals.distance_changes.push_back((after - eye.rest_gaps[lid.number]) / whole.scale);
   }
   return goals;
 }
@@ -195,52 +198,53 @@ LidClosure::Goals LidClosure::goals(const Positions& mesh, const FaceEye& eye,
 LidClosure::Goals LidClosure::mean(std::span<const Goals> goals, std::span<const SetShare> shares) {
   Goals mean;
   mean.gaps.assign(goals.front().gaps.size(), {0, 0});
-  mean.least.assign(goals.front().least.size(), 0);
-  mean.gap_change = mean.least;
+  mean.ball_distances.assign(goals.front().ball_distances.size(), 0);
+  mean.distance_changes = mean.ball_distances;
   for (const SetShare& of_set : shares) {
     const Goals& one = goals[of_set.set];
     for (std::size_t p = 0; p < mean.gaps.size(); ++p) {
       mean.gaps[p].paired += of_set.share * one.gaps[p].paired;
-      mean.gaps[p].plumb += of_set.share * one.gaps[p].plumb;
+      mean.gaps[p].vertical += of_set.share * one.gaps[p].vertical;
     }
-    for (std::size_t i = 0; i < mean.least.size(); ++i) {
-      mean.least[i] += of_set.share * one.least[i];
-      mean.gap_change[i] += of_set.share * one.gap_change[i];
+    for (std::size_t i = 0; i < mean.ball_distances.size(); ++i) {
+      mean.ball_distances[i] += of_set.share * one.ball_distances[i];
+      mean.distance_changes[i] += of_set.share * one.distance_changes[i];
     }
   }
   return mean;
 }
 
-LidClosure::Rim LidClosure::rim_point(const std::vector<Point>& points, double sign,
-                                      const Axes& axes, const Positions& face,
-                                      const Positions& moves) {
-  Rim rim{0, -std::numeric_limits<double>::max()};
+LidClosure::RimPoint LidClosure::rim_point(const std::vector<Point>& points, double sign,
+                                           const EyeAxes& axes, const Positions& face,
+                                           const Positions& moves) {
+  RimPoint rim{0, -std::numeric_limits<double>::max()};
   for (const Point& point : points) {
-    Eigen::Vector3d at =
-        (1 - point.on.share) * row3(face, point.on.a) + point.on.share * row3(face, point.on.b);
-    if (point.row_a != kNoIndex) at += (1 - point.on.share) * row3(moves, point.row_a);
-    if (point.row_b != kNoIndex) at += point.on.share * row3(moves, point.row_b);
+    Eigen::Vector3d at = (1 - point.edge.share) * row3(face, point.edge.a) +
+                         point.edge.share * row3(face, point.edge.b);
+    if (point.row_a != kNoIndex) at += (1 - point.edge.share) * row3(moves, point.row_a);
+    if (point.row_b != kNoIndex) at += point.edge.share * row3(moves, point.row_b);
     const double height = sign * at.dot(axes.up);
     if (height > rim.height) rim = {at.dot(axes.along), height};
   }
   return {rim.along, sign * rim.height};
 }
 
-std::vector<LidClosure::Gap> LidClosure::gaps(const Axes& axes, const Positions& face,
+std::vector<LidClosure::Gap> LidClosure::gaps(const EyeAxes& axes, const Positions& face,
                                               const Positions& moves) const {
-  std::vector<Rim> low;
-  for (const Place& place : places_) low.push_back(rim_point(place.low, 1, axes, face, moves));
-  std::vector<Rim> sorted = low;
+  std::vector<RimPoint> low;
+  for (const LidPlace& place : places_) low.push_back(rim_point(place.low, 1, axes, face, moves));
+  std::vector<RimPoint> sorted = low;
   std::sort(sorted.begin(), sorted.end(),
-            [](const Rim& a, const Rim& b) { return a.along < b.along; });
+            [](const RimPoint& a, const RimPoint& b) { return a.along < b.along; });
   std::vector<Gap> gaps;
   for (std::size_t p = 0; p < places_.size(); ++p) {
-    const Rim high = rim_point(places_[p].high, -1, axes, face, moves);
-    const auto next = std::lower_bound(sorted.begin(), sorted.end(), high.along,
-                                       [](const Rim& rim, double at) { return rim.along < at; });
+    const RimPoint high = rim_point(places_[p].high, -1, axes, face, moves);
+    const auto next =
+        std::lower_bound(sorted.begin(), sorted.end(), high.along,
+                         [](const RimPoint& rim, double at) { return rim.along < at; });
     double below = next == sorted.end() ? sorted.back().height : next->height;
     if (next != sorted.begin() && next != sorted.end()) {
-      const Rim& before = *std::prev(next);
+      const RimPoint& before = *std::prev(next);
       const double t = (high.along - before.along) / (next->along - before.along);
       below = (1 - t) * before.height + t * next->height;
     }
@@ -252,62 +256,62 @@ std::vector<LidClosure::Gap> LidClosure::gaps(const Axes& axes, const Positions&
 void LidClosure::close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
                        std::span<const double> gains, Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
-    const Lid& lid = lids_[i];
+    const LidVertex& lid = lids_[i];
     const Eigen::Vector3d move = row3(carried, lid.row);
-    const double gain = fixed_dot(heard(i), gains);
+    const double gain = fixed_dot(gain_effects(i), gains);
     moves.row(lid.row) = (move + gain * move.dot(up) * up).transpose();
   }
 }
 
 double LidClosure::min_gap(std::size_t lid, double rest, double scale, const Goals& goals) const {
-  const double of_shape = std::max(scale * goals.least[lid], -kDeepest * scale * radius_);
+  const double of_shape = std::max(scale * goals.ball_distances[lid], -kDeepest * scale * radius_);
   return std::min({rest, of_shape, kMargin * scale * radius_});
 }
 
-void LidClosure::hold_off(std::size_t count, const Positions& face, const FaceEye& eye,
-                          double scale, const Goals& goals, Positions& moves) const {
+void LidClosure::keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye,
+                               double scale, const Goals& goals, Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
-    const Lid& lid = lids_[i];
+    const LidVertex& lid = lids_[i];
     if (lid.hold == 0) continue;
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     const double rest = eye.rest_gaps[lid.number];
     const double wanted =
-        std::max(rest + scale * goals.gap_change[i], min_gap(i, rest, scale, goals));
+        std::max(rest + scale * goals.distance_changes[i], min_gap(i, rest, scale, goals));
     moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
   }
 }
 
 bool LidClosure::keep_out(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
                           const Goals& goals, Positions& moves) const {
-  const double some = kSomeDeeper * whole.scale * radius_;
+  const double tolerance = kSomeDeeper * whole.scale * radius_;
   bool is_out = true;
   for (std::size_t i = 0; i < lids_.size(); ++i) {
-    const Lid& lid = lids_[i];
+    const LidVertex& lid = lids_[i];
     if (lid.hold == 0) continue;
     const double least = min_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    // Count the missing distance only to the extent that this vertex may be moved.
-    is_out = is_out && lid.hold * (least - now.gap) < some;
+    // The missing distance counts with the weight of this vertex's correction.
+    is_out = is_out && lid.hold * (least - now.gap) < tolerance;
     moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
   }
   return is_out;
 }
 
-double LidClosure::open(const Positions& face, const RigidMotion& whole, const Goals& goals,
-                        const Positions& moves) const {
+double LidClosure::opening(const Positions& face, const RigidMotion& whole, const Goals& goals,
+                           const Positions& moves) const {
   const std::vector<Gap> now = gaps(axes_on(whole), face, moves);
   double open = 0;
   for (std::size_t p = 0; p < now.size(); ++p) {
-    const double allowed = std::max(goals.gaps[p].plumb / radius_, kClosed);
-    open = std::max(open, now[p].plumb / (whole.scale * radius_) - allowed);
+    const double allowed = std::max(goals.gaps[p].vertical / radius_, kClosed);
+    open = std::max(open, now[p].vertical / (whole.scale * radius_) - allowed);
   }
   return open;
 }
 
 void LidClosure::close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
                              Positions& moves) const {
-  const Axes axes = axes_on(whole);
+  const EyeAxes axes = axes_on(whole);
   std::vector<double> gains = missing_gaps(gaps(axes, face, moves), goals, whole.scale);
   for (std::size_t p = 0; p < places_.size(); ++p) {
     gains[p] = std::max(gains[p], 0.0) / (whole.scale * places_[p].closed);
@@ -322,16 +326,16 @@ std::vector<double> LidClosure::missing_gaps(const std::vector<Gap>& now, const 
   for (std::size_t p = 0; p < now.size(); ++p) {
     const Gap& wanted = goals.gaps[p];
     missing.push_back(std::max(now[p].paired - scale * wanted.paired,
-                               now[p].plumb - scale * std::max(wanted.plumb, 0.0)));
+                               now[p].vertical - scale * std::max(wanted.vertical, 0.0)));
   }
   return missing;
 }
 
 void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
                      const Goals& goals, Positions& moves) const {
-  const Axes axes = axes_on(whole);
+  const EyeAxes axes = axes_on(whole);
   if (places_.empty()) {
-    return hold_off(lids_.size(), face, eye, whole.scale, goals, moves);
+    return keep_off_ball(lids_.size(), face, eye, whole.scale, goals, moves);
   }
   const Positions carried = moves;
   std::vector<double> gains(places_.size(), 0.0);
@@ -339,18 +343,18 @@ void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotio
   // Chord method for the gains: a gain of one closes a place by as much as on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) close(in_profiles_, axes.up, carried, gains, moves);
-    hold_off(in_profiles_, face, eye, whole.scale, goals, moves);
+    keep_off_ball(in_profiles_, face, eye, whole.scale, goals, moves);
     const std::vector<double> missing = missing_gaps(gaps(axes, face, moves), goals, whole.scale);
     if (step == 0) {
       for (const double gap : missing) sure = std::max(sure, std::abs(gap) / 2);
-      sure = std::min(sure, kSure * whole.scale * radius_);
+      sure = std::min(sure, kMaxExtraClosing * whole.scale * radius_);
     }
     for (std::size_t p = 0; p < places_.size(); ++p) {
       gains[p] += (missing[p] + sure) / (whole.scale * places_[p].closed);
     }
   }
   close(lids_.size(), axes.up, carried, gains, moves);
-  hold_off(lids_.size(), face, eye, whole.scale, goals, moves);
+  keep_off_ball(lids_.size(), face, eye, whole.scale, goals, moves);
 }
 
 }  // namespace crowdface

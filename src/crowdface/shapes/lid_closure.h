@@ -21,8 +21,9 @@ struct TemplateEye {
   std::vector<std::uint32_t> skin;  ///< vertices around the eye, ascending
 };
 
-/// An eyeball of a face: the radius map of a head's eyeball, the motion of this eyeball from the
-/// head to the face, and the distance of the surrounding skin from the eyeball at rest.
+/// An eyeball of a face: the radius map of a head's eyeball, the motion that carries this eyeball
+/// from the head to the face, and the distances between the surrounding skin and the eyeball at
+/// rest.
 struct FaceEye {
   const BallMap* ball;
   RigidMotion motion;
@@ -34,17 +35,17 @@ struct FaceEye {
 FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
                  const Positions& mesh);
 
-/// Assigns the skin around an eye to the upper lid (1) or the lower lid (−1), whichever has the
-/// nearest vertex of the rim. Leaves other entries unchanged.
+/// Assigns the skin around an eye to the lid with the nearest rim vertex: 1 for the upper lid, −1
+/// for the lower lid. Leaves other entries unchanged.
 ///
 /// \param side  #V.
 void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side);
 
 /// Adjusts how a shape moves the lids of one eye, so that a blink closes eyes of any size. With the
-/// local linear maps alone, lids would stay open or overlap by millimetres, because the opening is
-/// not part of the skin and no map measures its height. Where the shape closes the lids on the
-/// template, this class scales the lids' vertical movement until the gap on the face equals the
-/// template's. It also keeps the lids outside the eyeball, as on the template.
+/// local linear maps alone, lids would stay open or overlap by millimetres: the opening is not part
+/// of the skin, so no map measures its height. Where the shape closes the lids on the template,
+/// this class scales the lids' vertical movement until the gap on the face equals the gap on the
+/// template. The class also keeps the lids outside the eyeball, as on the template.
 class LidClosure {
  public:
   /// \param shape  Shape of the template. Some of its vertices may be skin around the eye.
@@ -54,19 +55,19 @@ class LidClosure {
   /// Returns whether the shape leaves this eye's lids unmoved.
   bool empty() const { return lids_.empty(); }
 
-  /// Gap between the two rims at one place; negative where the upper lid is below the lower lid.
+  /// Gap between the rims of both lids at one place; negative where the upper lid is below the
+  /// lower lid.
   struct Gap {
-    double paired;  ///< gap between points that lie above each other on the template
-    /// vertical distance from the point of the upper rim to the lower rim
-    double plumb;
+    double paired;    ///< gap between points that lie above each other on the template
+    double vertical;  ///< vertical distance from the point of the upper rim to the lower rim
   };
-  /// The gaps and distances that a face's lids should have. They are measured on a mesh with a
-  /// known shape and divided by the mesh's scale relative to the template.
+  /// The gaps and distances that a face's lids should have: measured on a mesh with a known shape,
+  /// and divided by the mesh's scale relative to the template.
   struct Goals {
     std::vector<Gap> gaps;  ///< #places
-    /// #lids: distance from the eyeball in the shape; difference of this distance from its value at
-    /// rest
-    std::vector<double> least, gap_change;
+    /// #lids: each lid vertex's distance from the eyeball in the shape, and the difference between
+    /// this distance and the distance at rest
+    std::vector<double> ball_distances, distance_changes;
   };
   /// Measures the goals on a mesh.
   ///
@@ -79,13 +80,13 @@ class LidClosure {
   static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
   /// Returns whether the shape closes the lids.
   bool closes() const { return !places_.empty(); }
-  /// Returns the rows of the shape that `fit` may change.
+  /// Returns the rows of the shape's displacements that `fit` may change.
   std::vector<std::uint32_t> rows() const;
 
-  /// Returns how far lids that the shape should close are open: the maximum over all places, in
-  /// radii of the eyeball. Gaps small enough to count as closed give 0.
-  double open(const Positions& face, const RigidMotion& whole, const Goals& goals,
-              const Positions& moves) const;
+  /// Returns the largest gap, over all places, between lids that the shape should close, in radii
+  /// of the eyeball. Gaps that are small enough to count as closed give 0.
+  double opening(const Positions& face, const RigidMotion& whole, const Goals& goals,
+                 const Positions& moves) const;
   /// Closes lids that other corrections have opened again, by scaling the vertical movement.
   void close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
                    Positions& moves) const;
@@ -104,26 +105,26 @@ class LidClosure {
                 const Goals& goals, Positions& moves) const;
 
  private:
-  /// A point of a lid's profile. Rows are rows of the shape, or kNoIndex if the vertex does not
-  /// move.
+  /// A point of a lid's profile, on an edge of the mesh. Each row is the row of an end of the edge
+  /// in the shape, or kNoIndex if this end does not move.
   struct Point {
-    EdgePoint on;
+    EdgePoint edge;
     std::uint32_t row_a, row_b;
   };
-  struct Place {
+  struct LidPlace {
     std::vector<Point> low, high;
     double along;   ///< position along the lid opening
-    double closed;  ///< by how much the shape narrows the gap on the template
+    double closed;  ///< length by which the shape narrows the gap on the template
   };
-  /// Axes of a face's eye: along the opening, and from the lower lid to the upper; unit vectors.
-  struct Axes {
+  /// Unit vectors of a face's eye: along the opening, and from the lower lid to the upper lid.
+  struct EyeAxes {
     Eigen::Vector3d along, up;
   };
-  /// A point of a rim in the plane of these axes.
-  struct Rim {
+  /// A point of a lid's rim, in the plane of EyeAxes.
+  struct RimPoint {
     double along, height;
   };
-  struct Lid {
+  struct LidVertex {
     std::uint32_t row, vertex;
     std::uint32_t number;  ///< index among the skin around the eye
     /// how strongly closing moves this vertex: 1 near the eye, less farther away
@@ -134,32 +135,32 @@ class LidClosure {
   void add_places(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
                   const Displacements& shape, const HeadAxes& axes);
   void put_profiles_first();
-  std::span<const double> heard(std::size_t lid) const {
-    return {heard_.data() + lid * places_.size(), places_.size()};
+  std::span<const double> gain_effects(std::size_t lid) const {
+    return {gain_effects_.data() + lid * places_.size(), places_.size()};
   }
-  /// Applies gains to the vertical movement of the first `count` lids.
+  /// Applies gains to the vertical movement of the first `count` lid vertices.
   void close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
              std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the
   /// smallest of its distance at rest, its distance in the shape, and a small margin.
   double min_gap(std::size_t lid, double rest, double scale, const Goals& goals) const;
-  void hold_off(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
-                const Goals& goals, Positions& moves) const;
-  Axes axes_on(const RigidMotion& whole) const;
-  static Rim rim_point(const std::vector<Point>& points, double sign, const Axes& axes,
-                       const Positions& face, const Positions& moves);
-  /// Returns, for each place, the gap minus its goal.
+  void keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
+                     const Goals& goals, Positions& moves) const;
+  EyeAxes axes_on(const RigidMotion& whole) const;
+  static RimPoint rim_point(const std::vector<Point>& points, double sign, const EyeAxes& axes,
+                            const Positions& face, const Positions& moves);
+  /// Returns, for each place, the current gap minus the wanted gap.
   static std::vector<double> missing_gaps(const std::vector<Gap>& now, const Goals& goals,
                                           double scale);
-  std::vector<Gap> gaps(const Axes& axes, const Positions& face, const Positions& moves) const;
+  std::vector<Gap> gaps(const EyeAxes& axes, const Positions& face, const Positions& moves) const;
 
   HeadAxes axes_;
   double radius_ = 0;
-  std::vector<Place> places_;
-  std::vector<Lid> lids_;
-  std::size_t in_profiles_ = 0;  ///< number of lids that appear in profiles; they come first
-  /// #lids by #places: effect of each place's gain on each lid vertex
-  std::vector<double> heard_;
+  std::vector<LidPlace> places_;
+  std::vector<LidVertex> lids_;
+  std::size_t in_profiles_ = 0;  ///< number of lid vertices in profiles; they come first in `lids_`
+  /// #lids by #places: weight with which each place's gain moves each lid vertex
+  std::vector<double> gain_effects_;
 };
 
 }  // namespace crowdface

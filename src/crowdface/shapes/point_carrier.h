@@ -16,16 +16,17 @@ namespace crowdface {
 struct PointSet {
   std::vector<std::string> names;
   /// `positions`: #names by 3 each. `meshes`: the mesh that each set of points belongs to, #V by 3.
-  /// One entry (a template's, for all faces) or one for each head (for the faces built on it).
+  /// One entry for all faces, or one entry for each head, which applies to the faces built on this
+  /// head.
   std::vector<Positions> positions, meshes;
 
   bool empty() const { return names.empty(); }
 };
 
-/// Transfers named points to faces, in the way parts follow the skin. A point inside an eyeball, or
-/// nearer to another rigid part than to the skin, moves with this part. Any other point moves by
-/// the best rotation, translation and scale of the skin nearest to it. If the face is the points'
-/// own mesh, rotated, translated and scaled, the points undergo the same motion up to rounding.
+/// Transfers named points to faces, as parts follow the skin. A point inside an eyeball, or nearer
+/// to another rigid part than to the skin, moves with this part. Any other point moves by the best
+/// rotation, translation and scale of the skin nearest to it. If the face is the points' own mesh,
+/// rotated, translated and scaled, the points undergo the same motion up to rounding.
 class PointCarrier {
  public:
   /// \param points  Must outlive this object.

@@ -17,12 +17,12 @@
 namespace crowdface {
 namespace {
 
-/// Number of vertices of an eyeball or jaw used to fit its motion.
+/// Largest number of vertices of an eyeball or jaw that determine its motion.
 constexpr std::size_t kMaxFitted = 500;
 /// Distance from an eyeball's centre, in radii, within which skin belongs to the eye.
 constexpr double kEyeSkin = 3;
-/// Depth by which a shape must move the lips through each other to count as corrective (see
-/// companions_of), as a fraction of the skin's extent; about 5 mm.
+/// Smallest overlap of the lips in a corrective shape (see companions_of), as a fraction of the
+/// skin's extent; about 5 mm.
 constexpr double kFarThrough = 0.012;
 
 std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
@@ -36,11 +36,11 @@ std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
   return used;
 }
 
-/// Returns a head's displacements with the rows of the mean shape.
+/// Returns a head's displacements in the rows of the mean shape; zero where only other heads move.
 Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& shape) {
   Positions rows = Positions::Zero(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
-    rows.row(place_in(vertices, shape.vertices[i])) =
+    rows.row(index_in_list(vertices, shape.vertices[i])) =
         shape.moves.row(static_cast<Index>(i)).cast<double>();
   }
   return rows;
@@ -53,7 +53,7 @@ std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
   const auto through_in = [&](std::initializer_list<std::size_t> shapes) {
     Positions mesh = set.neutral;
     for (const std::size_t s : shapes) set.shapes[s].moves.add_to(mesh);
-    return contacts.deepest(mesh);
+    return contacts.max_overlap(mesh);
   };
   const std::size_t count = set.shapes.size();
   std::vector<double> through(count);
@@ -79,8 +79,8 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
     : faces(all_faces),
       set(shape_set),
       axes(head_axes),
-      around(faces.topology),
-      skin(skin_of(parts, around)),
+      vertex_faces(faces.topology),
+      skin(skin_of(parts, vertex_faces)),
       used(used_vertices(set)),
       contacts(faces, adjacency, skin),
       extent(extent_of(set.neutral, skin)),
@@ -109,9 +109,10 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
   RigidPart bound{
       part.vertices, evenly_spaced_items(part.vertices, kMaxFitted), {}, Eigen::Vector3d::Zero()};
-  bound.ones.assign(bound.fitted.size(), 1.0);
+  bound.unit_weights.assign(bound.fitted.size(), 1.0);
   if (part.eyeball) {
-    const RigidMotion motion = fit_rigid_motion(mean, set.neutral, bound.fitted, bound.ones);
+    const RigidMotion motion =
+        fit_rigid_motion(mean, set.neutral, bound.fitted, bound.unit_weights);
     bound.middle = motion.apply(parts.shapes[part.ball].centre);
   } else {
     bound.middle = centre_of(set.neutral, part.vertices);
@@ -122,8 +123,8 @@ void PreparedShapes::add_part(const Part& part, const PartList& parts, const Pos
 void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const Positions& mean) {
   const RigidPart& bound = rigid.back();
   const auto map_in = [&](const Positions& head) {
-    const RigidMotion motion = fit_rigid_motion(mean, head, bound.fitted, bound.ones);
-    return BallMap(faces.topology, around, head, part.surface, motion.apply(ball.centre),
+    const RigidMotion motion = fit_rigid_motion(mean, head, bound.fitted, bound.unit_weights);
+    return BallMap(faces.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
                    motion.scale * ball.radius, axes);
   };
   ActingEye eye{rigid.size() - 1, {map_in(set.neutral), {}, {}}, {}};
@@ -153,7 +154,8 @@ void PreparedShapes::find_inner(const PartList& parts) {
   }
 }
 
-/// Masks do not cover lashes and eyeballs, so these get the weights of the nearest skin.
+/// Looks up the region weights of skin and parts. Masks do not cover lashes and eyeballs, so these
+/// get the weights of the nearest skin.
 void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   const PointGrid grid(set.neutral, skin);
   const auto nearest = [&](std::uint32_t v) {
@@ -179,11 +181,11 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
 
 void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency,
                           PreparedShape& state) const {
-  for (const std::uint32_t v : moves.vertices) state.used.push_back(place_in(used, v));
+  for (const std::uint32_t v : moves.vertices) state.used.push_back(index_in_list(used, v));
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     PartMove part{p, {}, {}, {}};
     for (const std::uint32_t v : rigid[p].vertices) {
-      const std::uint32_t row = place_in(moves.vertices, v);
+      const std::uint32_t row = index_in_list(moves.vertices, v);
       if (row == kNoIndex) continue;
       part.rows.push_back(row);
       part.vertices.push_back(v);
@@ -191,7 +193,7 @@ void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency
     if (!part.rows.empty()) state.parts.push_back(std::move(part));
   }
   bind_lids(moves, adjacency, state);
-  state.moves_contacts = contacts.moved_by(moves.vertices);
+  state.moves_contacts = contacts.is_affected_by(moves.vertices);
   state.watched = watch(moves, state);
   Positions shaped = set.neutral;
   if (state.companion) set.shapes[*state.companion].moves.add_to(shaped);
@@ -211,7 +213,7 @@ SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
   Positions rest = set.neutral;
   set.shapes[*state.companion].moves.add_to(rest);
   SkinCrossings::Watched found = crossings.watch(rest, moves, std::move(side));
-  found.comes_from_afar = true;
+  found.joins_distant_skin = true;
   return found;
 }
 
@@ -242,22 +244,22 @@ void PreparedShapes::bind_lids(const Displacements& moves, const Adjacency& adja
     const auto nearest = grid.nearest(point, reach);
     if (nearest.vertex == kNoIndex) continue;
     const SurfacePoint place =
-        nearest_around(faces.topology, around, set.neutral, nearest.vertex, point);
-    Hanging hanging{row, {}, place.shares};
+        nearest_around(faces.topology, vertex_faces, set.neutral, nearest.vertex, point);
+    LidFollower follower{row, {}, place.shares};
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t corner = place_in(moves.vertices, place.corners[k]);
-      hanging.rows[k] = corner != kNoIndex && fitted[corner] ? corner : kNoIndex;
-      any = any || hanging.rows[k] != kNoIndex;
+      const std::uint32_t corner = index_in_list(moves.vertices, place.corners[k]);
+      follower.rows[k] = corner != kNoIndex && fitted[corner] ? corner : kNoIndex;
+      any = any || follower.rows[k] != kNoIndex;
     }
-    if (any) state.hanging.push_back(hanging);
+    if (any) state.lid_followers.push_back(follower);
   }
 }
 
-PreparedShapes::Carrier PreparedShapes::carrier_to(const Positions& face) const {
+PreparedShapes::Carrier PreparedShapes::carrier_for(const Positions& face) const {
   Carrier carrier{face, field.frames(face), std::vector<Eigen::Matrix3d>(used.size()),
                   contacts.gaps(face), crossings.crossing_at_rest(face, watched)};
-  for (std::size_t i = 0; i < used.size(); ++i) carrier.maps[i] = field.at(i, carrier.frames);
+  for (std::size_t i = 0; i < used.size(); ++i) carrier.maps[i] = field.map_at(i, carrier.frames);
   return carrier;
 }
 
@@ -273,7 +275,7 @@ Eigen::Matrix3d PreparedShapes::map_of(const PartMove& part, const PreparedShape
 void PreparedShapes::add_sets() {
   const std::size_t heads = set.of_head.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
-    const Carrier carrier = carrier_to(heads > 0 ? faces.heads[h].positions : set.neutral);
+    const Carrier carrier = carrier_for(heads > 0 ? faces.heads[h].positions : set.neutral);
     std::vector<FaceEye> at_eyes;
     for (const auto& [part, eye, balls] : eyes) {
       at_eyes.push_back(face_eye(eye, heads > 0 ? balls[h] : eye.ball, {}, carrier.mesh));
@@ -283,7 +285,7 @@ void PreparedShapes::add_sets() {
       Positions rest = carrier.mesh;
       if (const auto& other = shapes[s].companion) shape_of_set(h, *other).add_to(rest);
       add_set(carrier, rest, own, at_eyes, shapes[s]);
-      if (heads > 0) shapes[s].of_head.push_back(undone(carrier, shapes[s], own.moves));
+      if (heads > 0) shapes[s].of_head.push_back(normalised(carrier, shapes[s], own.moves));
     });
   }
 }
@@ -322,8 +324,8 @@ void PreparedShapes::add_set(const Carrier& carrier, const Positions& rest,
   }
 }
 
-SingleRows PreparedShapes::undone(const Carrier& carrier, const PreparedShape& state,
-                                  const Positions& moves) const {
+SingleRows PreparedShapes::normalised(const Carrier& carrier, const PreparedShape& state,
+                                      const Positions& moves) const {
   SingleRows rows(moves.rows(), 3);
   for (Index i = 0; i < moves.rows(); ++i) {
     const Eigen::Matrix3d& map = carrier.maps[state.used[static_cast<std::size_t>(i)]];

@@ -42,18 +42,19 @@ struct LidMove {
   std::vector<LidClosure::Goals> goals;  ///< #sets
 };
 
-/// A vertex of a bound part (such as a lash) that follows a lid's correction.
-struct Hanging {
+/// A vertex of a bound part, such as a lash, that follows the correction of a lid.
+struct LidFollower {
   std::uint32_t row;
-  /// rows of the corners of the skin triangle to which the vertex is bound; kNoIndex: not corrected
+  /// rows of the corners of the skin triangle to which the vertex is bound; kNoIndex for a corner
+  /// that is not corrected
   std::array<std::uint32_t, 3> rows;
-  std::array<double, 3> shares;
+  std::array<double, 3> shares;  ///< barycentric coordinates in this triangle
 };
 
 /// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's
 /// `mouthClose` closes the lips while `jawOpen` opens the jaw. A shape is corrective if it alone
-/// moves the lips far through each other. Its companion is the other shape with which the lips
-/// overlap least, provided that the overlap is at most half as deep.
+/// moves the lips far through each other. The companion of a corrective shape is the other shape
+/// with which the lips overlap least; it must at least halve the overlap.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
 /// \return        #shapes: the companion of each corrective shape, if one is found.
@@ -62,14 +63,16 @@ std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
 
 /// One shape: the vertices and parts that it moves, and the data for its corrections on a face.
 struct PreparedShape {
-  /// the other shape, if this one is corrective: lips and intersections are corrected in their sum
+  /// only for a corrective shape: the shape with which it is applied. Lips and intersections are
+  /// corrected in the sum of both shapes.
   std::optional<std::size_t> companion;
   std::vector<std::uint32_t> used;  ///< #rows: indices into PreparedShapes::used
-  /// #heads by #rows, normalised to the mean head; empty: one set
+  /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
+  /// all heads use one set
   std::vector<SingleRows> of_head;
   std::vector<PartMove> parts;
   std::vector<LidMove> lids;  ///< #eyes
-  std::vector<Hanging> hanging;
+  std::vector<LidFollower> lid_followers;
   SkinOverParts over_parts;
   SkinCrossings::Watched watched;
   bool moves_contacts = false;
@@ -88,7 +91,7 @@ struct PreparedShapes {
   const HeadSet& faces;
   const ShapeSet& set;
   HeadAxes axes;
-  VertexFaces around;
+  VertexFaces vertex_faces;
   std::vector<std::uint32_t> skin;  ///< vertices of the skin, ascending
   std::vector<RigidPart> rigid;
   /// #rigid by #regions: mean weights of the skin at each part
@@ -103,7 +106,7 @@ struct PreparedShapes {
   double extent = 0;                 ///< diagonal of the template's skin's bounding box
   std::vector<std::uint32_t> inner;  ///< vertices of parts away from the eyes: gums and teeth
   SkinCrossings crossings;
-  CrossingSearch watched;  ///< search over the skin that any of the shapes may bring into contact
+  CrossingSearch watched;  ///< search over the skin that at least one shape may bring into contact
   std::vector<PreparedShape> shapes;
 
   /// A face, and how its skin is rotated and stretched relative to the template's.
@@ -113,9 +116,9 @@ struct PreparedShapes {
     std::vector<Eigen::Matrix3d> maps;  ///< #used: linear map at each vertex
     std::vector<double> gaps;           ///< #contacts
     /// #V: whether the vertex is at a self-intersection of the face at rest
-    std::vector<bool> at_rest;
+    std::vector<bool> crosses_at_rest;
   };
-  Carrier carrier_to(const Positions& face) const;
+  Carrier carrier_for(const Positions& face) const;
   /// Returns the mean map over the vertices of the part that the shape moves.
   Eigen::Matrix3d map_of(const PartMove& part, const PreparedShape& state,
                          std::span<const Eigen::Matrix3d> maps) const;
@@ -134,8 +137,8 @@ struct PreparedShapes {
   /// \param rest  The mesh to which the shape is added.
   void add_set(const Carrier& carrier, const Positions& rest, const Displacements& shape,
                std::span<const FaceEye> at_eyes, PreparedShape& state) const;
-  SingleRows undone(const Carrier& carrier, const PreparedShape& state,
-                    const Positions& moves) const;
+  SingleRows normalised(const Carrier& carrier, const PreparedShape& state,
+                        const Positions& moves) const;
 };
 
 }  // namespace crowdface

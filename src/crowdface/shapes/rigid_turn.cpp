@@ -38,15 +38,15 @@ Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
 }
 
 /// Transforms a direction on the face to the template, by the inverse rotation and scale.
-Vector3d undone(const RigidMotion& whole, const Vector3d& direction) {
+Vector3d to_template(const RigidMotion& whole, const Vector3d& direction) {
   return whole.undo(whole.to + direction) - whole.from;
 }
 
-/// Returns the displacement that the rotation alone gives a vertex.
-Vector3d by_turn(const std::array<double, 4>& quaternion, const PlacedPart& placed,
-                 std::uint32_t vertex) {
+/// Returns the displacement of a vertex by the rotation alone.
+Vector3d rotation_displacement(const std::array<double, 4>& quaternion, const PlacedPart& placed,
+                               std::uint32_t vertex) {
   const Vector3d arm = row3(placed.mesh, vertex) - placed.middle;
-  return placed.whole.turn(turned(quaternion, undone(placed.whole, arm))) - arm;
+  return placed.whole.turn(turned(quaternion, to_template(placed.whole, arm))) - arm;
 }
 
 RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
@@ -57,17 +57,18 @@ RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
   std::vector<std::uint32_t> all(part.fitted.size());
   std::iota(all.begin(), all.end(), 0U);
   for (const std::uint32_t i : all) {
-    const std::uint32_t place = place_in(vertices, part.fitted[i]);
+    const std::uint32_t place = index_in_list(vertices, part.fitted[i]);
     if (place != kNoIndex) shape.row(i) += moves.row(rows[place]);
   }
-  return fit_rigid_motion(rest, shape, all, part.ones);
+  return fit_rigid_motion(rest, shape, all, part.unit_weights);
 }
 
 }  // namespace
 
 PlacedPart::PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& positions,
                        const RigidMotion& motion, const Eigen::Matrix3d& skin)
-    : middle(fit_rigid_motion(neutral, positions, part.fitted, part.ones).apply(part.middle)),
+    : middle(
+          fit_rigid_motion(neutral, positions, part.fitted, part.unit_weights).apply(part.middle)),
       mesh(positions),
       whole(motion),
       map(skin) {}
@@ -78,27 +79,28 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
   const RigidMotion motion = motion_in_shape(part, placed.mesh, vertices, rows, moves);
   const Eigen::Matrix3d inverse = inverse3(placed.map);
   const std::array<double, 4> here = quaternion_of(motion);
-  const Vector3d axis = undone(placed.whole, {here[1], here[2], here[3]}) * placed.whole.scale;
+  const Vector3d axis = to_template(placed.whole, {here[1], here[2], here[3]}) * placed.whole.scale;
   RigidTurn turn{{here[0], axis.x(), axis.y(), axis.z()},
                  apply3(inverse, motion.apply(placed.middle) - placed.middle),
                  {}};
   normalize(turn.quaternion);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vector3d left = row3(moves, rows[i]) - by_turn(turn.quaternion, placed, vertices[i]);
-    turn.rests.push_back(apply3(inverse, left) - turn.shift);
+    const Vector3d left =
+        row3(moves, rows[i]) - rotation_displacement(turn.quaternion, placed, vertices[i]);
+    turn.residuals.push_back(apply3(inverse, left) - turn.shift);
   }
   return turn;
 }
 
 RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares) {
   RigidTurn mean{{0, 0, 0, 0}, {0, 0, 0}, {}};
-  mean.rests.assign(turns.front().rests.size(), Vector3d::Zero());
+  mean.residuals.assign(turns.front().residuals.size(), Vector3d::Zero());
   for (const SetShare& of_set : shares) {
     const RigidTurn& turn = turns[of_set.set];
     for (std::size_t c = 0; c < 4; ++c) mean.quaternion[c] += of_set.share * turn.quaternion[c];
     mean.shift += of_set.share * turn.shift;
-    for (std::size_t i = 0; i < mean.rests.size(); ++i) {
-      mean.rests[i] += of_set.share * turn.rests[i];
+    for (std::size_t i = 0; i < mean.residuals.size(); ++i) {
+      mean.residuals[i] += of_set.share * turn.residuals[i];
     }
   }
   normalize(mean.quaternion);
@@ -109,8 +111,8 @@ void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
                 std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
                 Positions& moves) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    moves.row(rows[i]) = (by_turn(turn.quaternion, placed, vertices[i]) +
-                          apply3(placed.map, turn.shift + turn.rests[i]))
+    moves.row(rows[i]) = (rotation_displacement(turn.quaternion, placed, vertices[i]) +
+                          apply3(placed.map, turn.shift + turn.residuals[i]))
                              .transpose();
   }
 }

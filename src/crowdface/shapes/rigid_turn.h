@@ -15,21 +15,21 @@ namespace crowdface {
 /// A rigid part of the template: an eyeball, or the teeth of a jaw.
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> fitted;  ///< the subset of `vertices` used in fits
-  std::vector<double> ones;           ///< #fitted
-  /// centre of rotation: for an eyeball its centre, for teeth their mean
+  std::vector<std::uint32_t> fitted;  ///< the subset of `vertices` that determines motions
+  std::vector<double> unit_weights;   ///< #fitted: all 1
+  /// centre of rotation: the centre of an eyeball, or the mean of the teeth
   Eigen::Vector3d middle;
 };
 
-/// The motion of a rigid part in a shape, without the influence of the mesh on which it was
-/// measured: find_turn removes the local rotation and stretch of that mesh relative to the
-/// template, and carry_turn applies the rotation and stretch of another face.
+/// The motion of a rigid part in a shape, independent of the mesh on which the motion was measured.
+/// find_turn removes this mesh's local rotation and stretch relative to the template; carry_turn
+/// applies the rotation and stretch of another face.
 struct RigidTurn {
   /// unit quaternion (w, x, y, z); rotation about the middle
   std::array<double, 4> quaternion = {1, 0, 0, 0};
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< translation of the middle
-  /// #rows: residual displacement beyond rotation and translation
-  std::vector<Eigen::Vector3d> rests;
+  /// #rows: displacement of each vertex that rotation and translation do not explain
+  std::vector<Eigen::Vector3d> residuals;
 };
 
 /// The position of a rigid part on a face.
@@ -46,7 +46,7 @@ struct PlacedPart {
 /// Measures the motion of a rigid part in a shape of a mesh, and expresses it on the template.
 ///
 /// \param vertices  #rows: vertices of the part that the shape moves.
-/// \param rows      Their rows in `moves`.
+/// \param rows      #rows: row of each of these vertices in `moves`.
 /// \param moves     Displacements of the shape.
 RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
                     std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,

@@ -23,13 +23,13 @@ struct OwnShape {
   SingleRows moves;                     ///< #vertices by 3
 };
 
-/// Expressions in the topology of a crowd's heads: one set (a template's), or one set for each
-/// head.
+/// Expressions in the topology of a crowd's heads: one set of a template, or one set for each head.
 struct ShapeSet {
-  /// mesh at rest: the template, or the mean head; #V by 3; no rows: there are no shapes
+  /// #V by 3: the mesh at rest, which is the template or the mean head; no rows if there are no
+  /// shapes
   Positions neutral;
   std::vector<Shape> shapes;  ///< the template's shapes, or the means of the heads' shapes
-  /// #heads by #shapes; empty: one set for all heads
+  /// #heads by #shapes: each head's own shapes; empty if all heads use one set
   std::vector<std::vector<OwnShape>> of_head = {};
 };
 
@@ -47,20 +47,22 @@ Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh
 OwnShape own_shape_of(const Displacements& moves);
 Displacements displacements_of(const OwnShape& shape);
 
-/// Returns the mean of all heads' displacements, for all vertices that any head moves.
+/// Returns the mean of all heads' displacements in one shape, at all vertices that move on any
+/// head.
 Displacements mean_of(const std::vector<std::vector<OwnShape>>& of_head, std::size_t shape);
 
-/// The weight of one of several sets of shapes.
+/// The weight of a set of shapes, where the shapes of several sets are blended.
 struct SetShare {
   std::uint32_t set;
   double share;
 };
 using SetShares = std::vector<SetShare>;
 
-/// #regions: the sets from which a face's shape is made. The weights of a region sum to one.
+/// #regions: the weights of the sets of shapes that are blended in each region; sum one in each
+/// region.
 using RegionShares = std::vector<SetShares>;
 
-/// Returns the sets' weights at a position in several regions.
+/// Returns the weights of the sets at a position that belongs to several regions.
 ///
 /// \param alpha  #regions: weights of the regions, with sum one.
 inline SetShares shares_at(std::span<const double> alpha, const RegionShares& of_region) {

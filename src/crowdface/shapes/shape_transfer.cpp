@@ -13,9 +13,9 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of rounds of repairs. Another round follows only if the last one moved lids into
-/// an eyeball or opened them.
-constexpr int kMends = 3;
+/// Largest number of rounds of repairs. A round is repeated only if it moved lids into an eyeball
+/// or opened lids.
+constexpr int kMaxRepairs = 3;
 /// Cost of a gap between lids that should be closed, per eyeball radius, in units of one
 /// intersecting triangle. The cost is high because intersections between closed lids are invisible.
 constexpr double kOpenIsAsBad = 1000;
@@ -27,8 +27,8 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
   std::vector<FaceEye> there;
   for (const auto& [number, eye, balls] : prepared.eyes) {
     const RigidPart& part = prepared.rigid[number];
-    const RigidMotion motion =
-        fit_rigid_motion(prepared.faces.heads[target].positions, face, part.fitted, part.ones);
+    const RigidMotion motion = fit_rigid_motion(prepared.faces.heads[target].positions, face,
+                                                part.fitted, part.unit_weights);
     there.push_back(face_eye(eye, balls[target], motion, face));
   }
   return there;
@@ -58,12 +58,13 @@ class CarriedShape {
       move_skin(prepared.set.shapes[number].moves.moves);
     }
     move_parts();
-    const Positions carried = before_lids();
+    const Positions carried = skin_of_followers();
     fit_lids();
     if (shape_.moves_contacts) keep_contacts();
-    shape_.over_parts.keep(rest_, carrier_.frames.whole, shape_.watched.rows, mesh_, result_);
-    take_skin_apart();
-    hang(carried);
+    shape_.over_parts.keep_in_front(rest_, carrier_.frames.whole, shape_.watched.rows, mesh_,
+                                    result_);
+    remove_crossings();
+    follow_lids(carried);
   }
 
   Displacements moves() && { return std::move(result_); }
@@ -78,15 +79,15 @@ class CarriedShape {
   Positions mixed_moves() const;
   void move_skin(const Positions& moves);
   void move_parts();
-  Positions before_lids() const;
+  Positions skin_of_followers() const;
   void fit_lids();
   void keep_contacts();
-  void take_skin_apart();
+  void remove_crossings();
   bool keep_lids_out();
   bool closes_lids() const;
   double lids_open(const Positions& moves) const;
   void close_lids();
-  void hang(const Positions& carried);
+  void follow_lids(const Positions& carried);
 
   const PreparedShapes& prepared_;
   const PreparedShape& shape_;
@@ -135,12 +136,13 @@ void CarriedShape::move_parts() {
   }
 }
 
-/// Returns the current displacements of the skin that bound vertices hang on, 3 · #hanging rows.
-Positions CarriedShape::before_lids() const {
-  Positions rows(static_cast<Index>(3 * shape_.hanging.size()), 3);
+/// Returns the current displacements of the skin that lashes follow: a row for each corner of each
+/// triangle, 3 · #lid_followers rows.
+Positions CarriedShape::skin_of_followers() const {
+  Positions rows(static_cast<Index>(3 * shape_.lid_followers.size()), 3);
   Index next = 0;
-  for (const Hanging& hanging : shape_.hanging) {
-    for (const std::uint32_t on : hanging.rows) {
+  for (const LidFollower& follower : shape_.lid_followers) {
+    for (const std::uint32_t on : follower.rows) {
       if (on != kNoIndex) rows.row(next) = result_.moves.row(on);
       ++next;
     }
@@ -158,8 +160,8 @@ void CarriedShape::fit_lids() {
   }
 }
 
-/// Lips that the shape leaves closed stay closed. If the shape closes lips that its companion
-/// opens, all gaps change as on the template.
+/// Corrects the gaps between lips. Lips that the shape leaves closed stay closed. If the shape
+/// closes lips that its companion opens, all gaps change as on the template.
 void CarriedShape::keep_contacts() {
   // Compute the wanted change of each gap: the weighted mean of the sets' changes.
   std::vector<double> widening(shape_.widening.front().size(), 0.0);
@@ -177,8 +179,8 @@ void CarriedShape::keep_contacts() {
   // Adjust the mesh in the shape, and convert the result back to displacements.
   result_.add_to(mesh_);
   const auto how =
-      shape_.companion ? GapPreserver::Keeping::kAll : GapPreserver::Keeping::kNearlySame;
-  prepared_.contacts.keep(carrier_.gaps, widening, how, mesh_);
+      shape_.companion ? GapPreserver::GapSelection::kAll : GapPreserver::GapSelection::kNearlySame;
+  prepared_.contacts.adjust(carrier_.gaps, widening, how, mesh_);
   for (std::size_t i = 0; i < result_.vertices.size(); ++i) {
     const std::uint32_t v = result_.vertices[i];
     auto move = result_.moves.row(static_cast<Index>(i));
@@ -186,23 +188,24 @@ void CarriedShape::keep_contacts() {
     move += mesh_.row(v) - before;
   }
   for (const std::uint32_t v : result_.vertices) mesh_.row(v) = rest_.row(v);
-  for (const std::uint32_t v : prepared_.contacts.moved()) mesh_.row(v) = rest_.row(v);
+  for (const std::uint32_t v : prepared_.contacts.movable_vertices()) mesh_.row(v) = rest_.row(v);
 }
 
-/// Repairing intersections may open lids, and closing lids may cause intersections. Alternate, and
-/// keep the best round.
-void CarriedShape::take_skin_apart() {
-  SkinCrossings::Harm harm;
-  if (closes_lids()) harm = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
-  const SkinCrossings::Face face{rest_, carrier_.at_rest, carrier_.frames.whole};
+/// Repairs intersections and closes lids by turns, because each may undo the other, and keeps the
+/// best round.
+void CarriedShape::remove_crossings() {
+  SkinCrossings::ExtraCost extra_cost;
+  if (closes_lids())
+    extra_cost = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
+  const SkinCrossings::Face face{rest_, carrier_.crosses_at_rest, carrier_.frames.whole};
   double best = HUGE_VAL;
   Positions kept;
-  for (int round = 0; round < kMends; ++round) {
+  for (int round = 0; round < kMaxRepairs; ++round) {
     if (round > 0) close_lids();
-    Index crossing = prepared_.crossings.mend(face, shape_.watched, mesh_, result_, harm);
+    Index crossing = prepared_.crossings.repair(face, shape_.watched, mesh_, result_, extra_cost);
     const bool are_out = keep_lids_out();
-    if (harm) crossing = prepared_.crossings.count(face, shape_.watched, result_, mesh_);
-    const double open = harm ? harm(result_.moves) : 0;
+    if (extra_cost) crossing = prepared_.crossings.count(face, shape_.watched, result_, mesh_);
+    const double open = extra_cost ? extra_cost(result_.moves) : 0;
     const double bad = static_cast<double>(crossing) + open;
     if (bad < best) {
       best = bad;
@@ -223,7 +226,7 @@ double CarriedShape::lids_open(const Positions& moves) const {
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (!lids.closes()) continue;
-    open = std::max(open, lids.open(carrier_.mesh, carrier_.frames.whole, goals_[e], moves));
+    open = std::max(open, lids.opening(carrier_.mesh, carrier_.frames.whole, goals_[e], moves));
   }
   return open;
 }
@@ -236,8 +239,8 @@ void CarriedShape::close_lids() {
   }
 }
 
-/// Moves the lids of all eyes out of the eyeballs, see LidClosure::keep_out. \return  Whether no
-/// lid was noticeably inside an eyeball before.
+/// Moves the lids of all eyes out of the eyeballs. \return false if any lid was noticeably inside
+/// an eyeball, see LidClosure::keep_out.
 bool CarriedShape::keep_lids_out() {
   bool are_out = true;
   for (std::size_t e = 0; e < goals_.size(); ++e) {
@@ -250,15 +253,16 @@ bool CarriedShape::keep_lids_out() {
   return are_out;
 }
 
-/// Lashes follow the corrections of the lid.
-void CarriedShape::hang(const Positions& carried) {
+/// Moves lashes with the corrections of the lids. \param carried result of skin_of_followers before
+/// these corrections.
+void CarriedShape::follow_lids(const Positions& carried) {
   Index next = 0;
-  for (const Hanging& hanging : shape_.hanging) {
+  for (const LidFollower& follower : shape_.lid_followers) {
     for (std::size_t k = 0; k < 3; ++k, ++next) {
-      const std::uint32_t on = hanging.rows[k];
+      const std::uint32_t on = follower.rows[k];
       if (on == kNoIndex) continue;
-      result_.moves.row(hanging.row) +=
-          hanging.shares[k] * (result_.moves.row(on) - carried.row(next));
+      result_.moves.row(follower.row) +=
+          follower.shares[k] * (result_.moves.row(on) - carried.row(next));
     }
   }
 }
@@ -275,7 +279,7 @@ ShapeTransfer::~ShapeTransfer() = default;
 std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& face,
                                                 std::span<const RegionShares> shares,
                                                 std::vector<Index>* crossing) const {
-  const Carrier carrier = prepared_->carrier_to(face);
+  const Carrier carrier = prepared_->carrier_for(face);
   const auto at_eyes = placed_eyes(*prepared_, static_cast<std::size_t>(target), face);
   const RegionShares none;
   std::vector<Displacements> shapes(prepared_->shapes.size());

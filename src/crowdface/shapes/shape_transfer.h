@@ -17,8 +17,7 @@ namespace crowdface {
 struct PreparedShapes;
 
 /// Transfers expressions to faces of the same topology (docs/shapes.md). The shapes come from a
-/// template, or are weighted means of the heads' shapes; these are first normalised to the mean
-/// head.
+/// template, or are weighted means of the heads' own shapes, normalised to the mean head.
 ///
 /// - Skin, and everything bound to the skin: displacements are multiplied by the local rotation and
 /// stretch of the face's skin relative to the template's (FrameField).
@@ -46,14 +45,14 @@ class ShapeTransfer {
   /// \param face      #V by 3.
   /// \param shares    #shapes: weights of the heads' shapes. Empty: the template's shapes.
   /// \param crossing  Optional output, #shapes: number of skin triangles that intersect other skin
-  ///                  in the shape, but neither in this shape of the template nor in the face at
-  ///                  rest.
+  ///                  only in the shape of this face: neither in the same shape of the template nor
+  ///                  in the face at rest.
   /// \return          #shapes: displacements, with the vertices of the set's shape.
   std::vector<Displacements> carry(Index target, const Positions& face,
                                    std::span<const RegionShares> shares = {},
                                    std::vector<Index>* crossing = nullptr) const;
 
-  /// Returns the shape that this shape corrects, see companions_of.
+  /// Returns the index of the shape that this corrective shape belongs to, see companions_of.
   std::optional<std::size_t> companion(std::size_t shape) const;
 
   /// Returns the memory, in bytes, of the heads' normalised shapes and region weights.

@@ -14,27 +14,27 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. Largest distance on the template of two
-// triangles that may intersect on a face: kMaxTemplateGap for any triangles,
-// kMaxFacingTemplateGap for triangles that face each other.
+// Lengths are fractions of the skin's extent, about 430 mm. Two triangles may intersect on a face
+// if their distance on the template is at most kMaxTemplateGap, or kMaxFacingTemplateGap if they
+// face each other.
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
-// rings of triangles to search around skin that may meet
+// number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
-// Distances from intersections, at rest: displacements closer than kEvened are replaced by their
-// average, displacements farther than kNotEvened are kept.
+// Distances from intersections, measured at rest. The average replaces displacements closer than
+// kEvened; displacements farther than kNotEvened do not change.
 constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
 // factor on these lengths where skin is arranged as on the template
 constexpr double kSameLayoutFactor = 0.7;
-/// Fraction of the averaging's vertical change that is applied to lids, so that the eye stays
-/// closed.
+/// Fraction of the vertical change by averaging that lids receive, so that the eye stays closed.
 constexpr double kClosing = 0.3;
-// kPush: push per round. kPushed: radius around intersections, at rest, in which skin is pushed.
+// kPush: length of the push in each round. kPushed: skin is pushed up to this distance from
+// intersections, measured at rest.
 constexpr double kPush = 0.00015, kPushed = 0.004;
 constexpr int kRounds = 30;
-constexpr int kPatience = 6;  // rounds without improvement before giving up, where lids meet
+constexpr int kPatience = 6;  // rounds without improvement after which the repair of lids ends
 
 using Pair = CrossingSearch::Pair;
 
@@ -62,13 +62,13 @@ Index crossing_triangles(const std::vector<Pair>& pairs) {
 }  // namespace
 
 /// Repairs one shape of a face.
-class SkinCrossings::Mending {
+class SkinCrossings::Repair {
  public:
-  Mending(const SkinCrossings& skin, const Face& face, const Watched& watched, Positions& mesh,
-          Displacements& shape)
+  Repair(const SkinCrossings& skin, const Face& face, const Watched& watched, Positions& mesh,
+         Displacements& shape)
       : skin_(skin),
         face_(face),
-        axes_(moved(skin.axes_, face.whole)),
+        axes_(moved_axes(skin.axes_, face.whole)),
         watched_(watched),
         mesh_(mesh),
         shape_(shape) {
@@ -76,42 +76,43 @@ class SkinCrossings::Mending {
     boxes_ = watched_.search.boxes_of(mesh_);
     look();
   }
-  ~Mending() {
+  ~Repair() {
     for (const std::uint32_t v : shape_.vertices) mesh_.row(v) = face_.rest.row(v);
   }
-  Mending(const Mending&) = delete;
-  Mending& operator=(const Mending&) = delete;
+  Repair(const Repair&) = delete;
+  Repair& operator=(const Repair&) = delete;
 
   Index crossing() const { return crossing_triangles(pairs_); }
 
   /// First pushes the lids apart. If intersections remain, starts again and arranges the lids as on
   /// the template.
-  void take_apart(const Harm& harm) {
+  void remove_crossings(const ExtraCost& extra_cost) {
     if (pairs_.empty()) return;
     const Positions start = shape_.moves;
-    take_apart(harm, watched_.comes_from_afar ? &Mending::lay : &Mending::push_lids);
+    remove_crossings(extra_cost, watched_.joins_distant_skin ? &Repair::arrange_as_template
+                                                             : &Repair::push_lids);
     if (!watched_.side.empty() && best_ > 0) {
       shape_.moves = start;
       changed_.assign(changed_.size(), true);
       look_again({});
-      take_apart(harm, &Mending::lay);
+      remove_crossings(extra_cost, &Repair::arrange_as_template);
     }
     shape_.moves = std::move(best_moves_);
     pairs_ = std::move(best_pairs_);
   }
 
  private:
-  using HandleLids = void (Mending::*)(const std::vector<Pair>& lids, double grown);
+  using HandleLids = void (Repair::*)(const std::vector<Pair>& lids, double grown);
 
-  void take_apart(const Harm& harm, HandleLids handle_lids) {
+  void remove_crossings(const ExtraCost& extra_cost, HandleLids handle_lids) {
     const int patience = watched_.side.empty() ? kRounds : kPatience;
     int since_best = 0;
     double grown = 1;
     for (int round = 0; round <= kRounds; ++round, grown += kGrowth) {
-      since_best = is_best(harm) ? 0 : since_best + 1;
+      since_best = is_best(extra_cost) ? 0 : since_best + 1;
       if (pairs_.empty() || since_best == patience || round == kRounds) return;
       const auto lids = std::stable_partition(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-        return !watched_.comes_from_afar && side_of(pair[0]) * side_of(pair[1]) >= 0;
+        return !watched_.joins_distant_skin && side_of(pair[0]) * side_of(pair[1]) >= 0;
       });
       const std::vector<Pair> before = pairs_, meeting(lids, pairs_.end());
       pairs_.erase(lids, pairs_.end());
@@ -123,8 +124,9 @@ class SkinCrossings::Mending {
   }
 
   /// Keeps the current displacements if they are the best so far.
-  bool is_best(const Harm& harm) {
-    const double bad = static_cast<double>(crossing()) + (harm ? harm(shape_.moves) : 0);
+  bool is_best(const ExtraCost& extra_cost) {
+    const double bad =
+        static_cast<double>(crossing()) + (extra_cost ? extra_cost(shape_.moves) : 0);
     if (bad >= best_) return false;
     best_ = bad;
     best_moves_ = shape_.moves;
@@ -134,20 +136,22 @@ class SkinCrossings::Mending {
 
   bool is_excused(std::uint32_t triangle) const {
     const auto& [a, b, c] = watched_.search.triangles()[triangle];
-    return watched_.excused[triangle] || face_.at_rest[a] || face_.at_rest[b] || face_.at_rest[c];
+    return watched_.excused[triangle] || face_.crosses_at_rest[a] || face_.crosses_at_rest[b] ||
+           face_.crosses_at_rest[c];
   }
   void look() {
-    pairs_ =
-        watched_.search.crossing(mesh_, boxes_, [&](std::uint32_t t) { return is_excused(t); });
+    pairs_ = watched_.search.crossing_pairs(mesh_, boxes_,
+                                            [&](std::uint32_t t) { return is_excused(t); });
   }
   /// Searches for intersections again after vertices have moved.
   ///
-  /// \param before  Pairs that intersected before the move. Pairs without a moved vertex still do.
+  /// \param before  Pairs that intersected before the move. Of these, pairs without a moved vertex
+  ///                still intersect.
   void look_again(const std::vector<Pair>& before) {
     for (const ShapeRow& row : watched_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
     }
-    watched_.search.renew(mesh_, changed_, boxes_);
+    watched_.search.update(mesh_, changed_, boxes_);
     look();
     const auto has_changed = [&](std::uint32_t triangle) {
       return std::ranges::any_of(watched_.search.triangles()[triangle],
@@ -202,7 +206,7 @@ class SkinCrossings::Mending {
 
   /// Arranges skin as on the template in the shape: averages the difference between face and
   /// template over skin that is close in the template's shape.
-  void lay(const std::vector<Pair>& meeting, double grown) {
+  void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kSameLayoutFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, watched_.search);
     std::vector<Eigen::Vector3d> around;
@@ -216,7 +220,7 @@ class SkinCrossings::Mending {
     std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
       const ShapeRow& row = watched_.rows[i];
-      if (!watched_.comes_from_afar && side(row.vertex) == 0) continue;
+      if (!watched_.joins_distant_skin && side(row.vertex) == 0) continue;
       if (!field.affects(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.whole.apply(shaped(i))});
     }
@@ -272,7 +276,7 @@ class SkinCrossings::Mending {
   Displacements& shape_;
   CrossingSearch::Boxes boxes_;
   std::vector<Pair> pairs_;    ///< intersecting pairs
-  std::vector<bool> changed_;  ///< #V: moved in this round
+  std::vector<bool> changed_;  ///< #V: whether the vertex moved in this round
   double best_ = HUGE_VAL;
   Positions best_moves_;
   std::vector<Pair> best_pairs_;
@@ -290,7 +294,7 @@ SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint
       skin_.triangles.push_back(triangle);
     }
   }
-  skin_.around = VertexFaces(topology_of(skin_.triangles, topology.vertex_count));
+  skin_.vertex_triangles = VertexFaces(topology_of(skin_.triangles, topology.vertex_count));
 }
 
 SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,
@@ -305,7 +309,7 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   for (std::size_t i = 0; i < watched.rows.size(); ++i) {
     watched.shaped.row(static_cast<Index>(i)) = shaped.row(watched.rows[i].vertex);
   }
-  // Search skin that may meet, and a few rings around it.
+  // Search skin that may touch, and a few rings of triangles around this skin.
   std::vector<bool> meets = skin_that_may_touch(skin_, neutral, shaped, extent_);
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<bool> wider = meets;
@@ -327,13 +331,14 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   return watched;
 }
 
-/// Excuses every triangle with a vertex of an intersecting triangle, as NewIntersections does.
+/// Excuses every triangle that shares a vertex with an intersecting triangle, as NewIntersections
+/// does.
 void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
   const CrossingSearch& search = watched.search;
   std::vector<bool> there(is_skin_.size(), false);
   const auto known = [&](std::uint32_t t) { return watched.excused[t]; };
   for (const std::uint32_t v :
-       vertices_of(search.crossing(mesh, search.boxes_of(mesh), known), search)) {
+       vertices_of(search.crossing_pairs(mesh, search.boxes_of(mesh), known), search)) {
     there[v] = true;
   }
   for (std::size_t i = 0; i < watched.excused.size(); ++i) {
@@ -357,7 +362,8 @@ std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
                                                   const CrossingSearch& all) const {
   std::vector<bool> at(is_skin_.size(), false);
   const auto none = [](std::uint32_t) { return false; };
-  for (const std::uint32_t v : vertices_of(all.crossing(rest, all.boxes_of(rest), none), all)) {
+  for (const std::uint32_t v :
+       vertices_of(all.crossing_pairs(rest, all.boxes_of(rest), none), all)) {
     at[v] = true;
   }
   return at;
@@ -366,15 +372,15 @@ std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
 Index SkinCrossings::count(const Face& face, const Watched& watched, const Displacements& shape,
                            Positions& mesh) const {
   Displacements same = shape;
-  return Mending(*this, face, watched, mesh, same).crossing();
+  return Repair(*this, face, watched, mesh, same).crossing();
 }
 
-Index SkinCrossings::mend(const Face& face, const Watched& watched, Positions& mesh,
-                          Displacements& shape, const Harm& harm) const {
+Index SkinCrossings::repair(const Face& face, const Watched& watched, Positions& mesh,
+                            Displacements& shape, const ExtraCost& extra_cost) const {
   if (watched.search.triangles().empty()) return 0;
-  Mending mending(*this, face, watched, mesh, shape);
-  mending.take_apart(harm);
-  return mending.crossing();
+  Repair repair(*this, face, watched, mesh, shape);
+  repair.remove_crossings(extra_cost);
+  return repair.crossing();
 }
 
 }  // namespace crowdface

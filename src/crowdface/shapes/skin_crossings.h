@@ -27,19 +27,19 @@ class SkinCrossings {
 
   const SkinTriangles& mesh() const { return skin_; }
 
-  /// The skin of a shape that is searched for intersections, see skin_that_may_touch.
+  /// The skin in which intersections of a shape are searched, see skin_that_may_touch.
   struct Watched {
     CrossingSearch search;
     /// #triangles of `search`: whether the triangle takes part in an intersection on the template
     std::vector<bool> excused;
-    /// #V: 1 for the upper and −1 for the lower lid of an eye that the shape closes; otherwise 0.
-    /// Or empty.
+    /// #V: 1 for the upper and −1 for the lower lid of an eye that the shape closes, 0 for other
+    /// skin; empty if the shape closes no eye.
     std::vector<signed char> side;
     std::vector<ShapeRow> rows;  ///< rows of the shape that are skin
     Positions shaped;            ///< #rows by 3: these vertices of the template in the shape
-    /// The shape brings together skin that is far apart at rest. Intersecting skin is then arranged
-    /// as on the template.
-    bool comes_from_afar = false;
+    /// Whether the shape brings together skin that is far apart at rest. If so, intersecting skin
+    /// is arranged as on the template.
+    bool joins_distant_skin = false;
   };
   /// \param neutral  The mesh to which the shape is added, #V by 3.
   /// \param side     See Watched::side.
@@ -48,18 +48,18 @@ class SkinCrossings {
   /// Marks the triangles that intersect on `mesh` as excused, so that they are ignored on faces.
   void excuse(const Positions& mesh, Watched& watched) const;
 
-  /// Returns a search over the skin that is searched in any of the shapes.
+  /// Returns one search over the skin of all shapes' searches.
   ///
   /// \param neutral  Template at rest, #V by 3.
   CrossingSearch watch_all(const Positions& neutral,
                            std::span<const CrossingSearch* const> shapes) const;
-  /// Returns which vertices belong to intersecting triangles of a face at rest, #V.
+  /// Returns #V: whether each vertex belongs to an intersecting triangle of a face at rest.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
 
   struct Face {
     const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
-    /// #V, from crossing_at_rest; the shape did not cause these intersections
-    const std::vector<bool>& at_rest;
+    /// #V, from crossing_at_rest: vertices of intersections that the shape did not cause
+    const std::vector<bool>& crosses_at_rest;
     const RigidMotion& whole;  ///< motion from the template to the face
   };
   /// Returns the number of intersecting triangles in a shape of a face.
@@ -68,25 +68,25 @@ class SkinCrossings {
   Index count(const Face& face, const Watched& watched, const Displacements& shape,
               Positions& mesh) const;
 
-  using Harm = std::function<double(const Positions& moves)>;
+  using ExtraCost = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
   /// over skin that is close at rest, so that the skin keeps its arrangement. Lids are pushed
   /// apart, or arranged as on the template.
   ///
   /// \param mesh   The face at rest; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
-  /// \param harm   Additional cost of displacements, in units of one intersecting triangle. The
-  ///               round with the lowest total cost is kept.
+  /// \param extra_cost  Cost of displacements in addition to intersections, in units of one
+  ///                    intersecting triangle. The round with the lowest total cost is kept.
   /// \return       Number of triangles that still intersect others.
-  Index mend(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
-             const Harm& harm = {}) const;
+  Index repair(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
+               const ExtraCost& extra_cost = {}) const;
 
  private:
-  class Mending;
+  class Repair;
 
   double extent_ = 0;
   HeadAxes axes_;
-  std::vector<bool> is_skin_;  ///< #V
+  std::vector<bool> is_skin_;  ///< #V: whether the vertex is skin
   SkinTriangles skin_;
 };
 

@@ -19,21 +19,22 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. depth below the skin that a covered
-// vertex should have, or its depth on the template if that is less
+// Lengths are fractions of the skin's extent, about 430 mm. The wanted depth of a covered vertex
+// below the skin; the depth on the template if that is less
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
-// a vertex needs no check if the triangle that covers it on the template is farther away than this
+// largest distance of a vertex from its cover; farther vertices need no check
 constexpr double kNear = 0.008;
-constexpr double kPushedAround = 0.02;  // radius of the skin that moves along
+constexpr double kPushedAround = 0.02;  // radius of the skin that a push moves
 // size of the cells in which one vertex represents the others
 constexpr double kFrontCell = 0.0025;
-// skin is pushed only if its distance is less than this fraction of the depth that it should have
+// skin is pushed only if its distance from the vertex is less than this fraction of the wanted
+// depth
 constexpr double kTooNear = 0.25;
 // smallest cosine between the skin's normal and the front; excludes the rims of the lips
 constexpr double kFacesFront = 0.5;
-/// On a face, another triangle near the covering triangle may be in front. This neighbourhood is
-/// kSlides wide, but has at least kMinRings and at most kMaxRings rings.
+/// On a face, a triangle near the template's cover may cover the vertex instead. Candidates are the
+/// triangles within kSlides of the cover, but at least kMinRings and at most kMaxRings rings.
 constexpr double kMinRings = 2, kMaxRings = 12;
 constexpr double kSlides = 0.007;
 constexpr int kFrontRounds = 6;
@@ -42,8 +43,8 @@ Eigen::Vector3d normal_of(const Corners& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
 }
 
-/// Returns how far a triangle is in front of a point (negative: behind); nothing if the point is
-/// beside the triangle, seen from the front.
+/// Returns the distance by which a triangle is in front of a point (negative: behind). Returns
+/// nothing if the triangle does not overlap the point, seen from the front.
 std::optional<double> ahead_of(const Eigen::Vector3d& point, const Corners& corners,
                                const HeadAxes& axes, const Eigen::Vector3d& side) {
   std::array<double, 3> x{}, y{}, shares{};
@@ -164,7 +165,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
       std::vector<std::uint32_t> wider;
       for (const std::uint32_t t : near) {
         for (const std::uint32_t corner : skin.triangles[t]) {
-          const auto of = skin.around.of(corner);
+          const auto of = skin.vertex_triangles.of(corner);
           wider.insert(wider.end(), of.begin(), of.end());
         }
       }
@@ -173,20 +174,20 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
       near = std::move(wider);
     }
     Covered covered{v, around[hit->triangle], {}, std::min(depth, kDepth * extent)};
-    for (const std::uint32_t t : near) covered.near.push_back(skin.triangles[t]);
+    for (const std::uint32_t t : near) covered.candidates.push_back(skin.triangles[t]);
     covered_.push_back(std::move(covered));
   }
 }
 
-void SkinOverParts::keep(const Positions& rest, const RigidMotion& whole,
-                         std::span<const ShapeRow> rows, Positions& mesh,
-                         Displacements& shape) const {
+void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& whole,
+                                  std::span<const ShapeRow> rows, Positions& mesh,
+                                  Displacements& shape) const {
   shape.add_to(mesh);
-  // largest further push for each covered vertex: at most the shape's own movement
+  // largest remaining push for each covered vertex: at most the shape's own movement
   std::vector<double> most;
   for (const Covered& covered : covered_) {
     double least = HUGE_VAL;
-    for (const std::uint32_t v : covered.over) {
+    for (const std::uint32_t v : covered.cover) {
       least = std::min(least, (row3(mesh, v) - row3(rest, v)).norm());
     }
     most.push_back(least);
@@ -203,19 +204,19 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
                                                           const RigidMotion& whole,
                                                           std::span<double> most) const {
   const double scale = whole.scale;
-  const HeadAxes axes = moved(axes_, whole);
+  const HeadAxes axes = moved_axes(axes_, whole);
   const Eigen::Vector3d side = axes.side();
   std::vector<Push> pushes;
   for (std::size_t i = 0; i < covered_.size(); ++i) {
     const Covered& covered = covered_[i];
     if (most[i] <= 0) continue;
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
-    const Corners over = corners_of(mesh, covered.over);
+    const Corners over = corners_of(mesh, covered.cover);
     if ((over[0] - point).dot(normal_of(over)) > kNear * scale * extent_) continue;
     // Find the skin in front of the vertex on this face.
     std::optional<double> foremost;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for (const Triangle& triangle : covered.near) {
+    for (const Triangle& triangle : covered.candidates) {
       const Corners corners = corners_of(mesh, triangle);
       const auto ahead = ahead_of(point, corners, axes, side);
       if (!ahead || (foremost && *ahead <= *foremost)) continue;
@@ -224,7 +225,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
     }
     const double facing = axes.front.dot(normal);
     if (!foremost || facing < kFacesFront) continue;
-    // Push this skin if it is too near to the vertex, or behind it.
+    // Push this skin if it is too near to the vertex, or behind the vertex.
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
     const double by = std::min(missing, most[i]);
@@ -239,7 +240,7 @@ void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<c
                          Positions& mesh, Displacements& shape) const {
   const double reach = kPushedAround * scale * extent_;
   Eigen::AlignedBox3d box;
-  for (const Push& push : pushes) box.extend(push.at);
+  for (const Push& push : pushes) box.extend(push.position);
   box = {box.min().array() - reach, box.max().array() + reach};
   for (const auto& [row, v] : rows) {
     const Eigen::Vector3d here = row3(mesh, v);
@@ -247,11 +248,11 @@ void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<c
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double longest = 0;
     for (const Push& push : pushes) {
-      const double distance = (push.at - here).norm() / reach;
+      const double distance = (push.position - here).norm() / reach;
       if (distance >= 1) continue;
       const double weight = biweight(distance);
-      sum += weight * push.by;
-      longest = std::max(longest, weight * push.by.norm());
+      sum += weight * push.displacement;
+      longest = std::max(longest, weight * push.displacement.norm());
     }
     if (longest == 0) continue;
     const Eigen::RowVector3d by = (longest * sum.normalized()).transpose();

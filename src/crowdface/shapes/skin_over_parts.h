@@ -12,13 +12,13 @@
 
 namespace crowdface {
 
-/// A row of a shape's displacements, and its vertex.
+/// A row of a shape's displacements, and the vertex that this row moves.
 struct ShapeRow {
   std::uint32_t row, vertex;
 };
 
-/// Keeps skin in front of gums and teeth. When a jaw opens, it pulls the cheeks in; on some faces
-/// the gums would penetrate the skin.
+/// Keeps skin in front of gums and teeth. An opening jaw pulls the cheeks in, so that gums would
+/// penetrate the skin on some faces.
 class SkinOverParts {
  public:
   SkinOverParts() = default;
@@ -37,25 +37,27 @@ class SkinOverParts {
   /// \param rows   Rows of the shape that are skin.
   /// \param mesh   Equal to `rest`; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
-  void keep(const Positions& rest, const RigidMotion& whole, std::span<const ShapeRow> rows,
-            Positions& mesh, Displacements& shape) const;
+  void keep_in_front(const Positions& rest, const RigidMotion& whole,
+                     std::span<const ShapeRow> rows, Positions& mesh, Displacements& shape) const;
 
  private:
-  /// A vertex under the skin, and the triangle in front of it on the template in the shape.
+  /// A vertex under the skin. `cover` is the triangle in front of this vertex on the template in
+  /// the shape.
   struct Covered {
     std::uint32_t vertex;
-    Triangle over;
-    /// `over` and the triangles around it, of which one covers the vertex on each face
-    std::vector<Triangle> near;
-    double depth;  ///< depth below the skin that the vertex should have
+    Triangle cover;
+    /// triangles near `cover` that may cover the vertex on a face
+    std::vector<Triangle> candidates;
+    double depth;  ///< wanted depth of the vertex below the skin
   };
 
   struct Push {
-    Eigen::Vector3d at, by;
+    Eigen::Vector3d position, displacement;
   };
-  /// \param most  #covered: largest further push of each covered vertex.
+  /// \param max_push  #covered: the largest push that each covered vertex may still cause; reduced
+  ///                  by each push.
   std::vector<Push> pushes_in(const Positions& mesh, const RigidMotion& whole,
-                              std::span<double> most) const;
+                              std::span<double> max_push) const;
   void push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
             Positions& mesh, Displacements& shape) const;
 

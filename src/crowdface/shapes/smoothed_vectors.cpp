@@ -34,7 +34,7 @@ class CellMeans {
       node.weight += weight;
     });
   }
-  /// Returns the average at a position where a sample was added.
+  /// Returns the average at a position; a sample must have been added there.
   Eigen::Vector3d at(const Eigen::Vector3d& place) const {
     Node mean;
     visit(place, [&](std::size_t at, double weight) {
@@ -82,10 +82,13 @@ class CellMeans {
 
 }  // namespace
 
-SmoothedVectors::SmoothedVectors(std::vector<Eigen::Vector3d> around, double cell, double whole,
-                                 double none)
-    : around_(std::move(around)), cell_(cell), whole_(whole), none_(none) {
-  for (const Eigen::Vector3d& place : around_) box_.extend(place);
+SmoothedVectors::SmoothedVectors(std::vector<Eigen::Vector3d> centres, double cell,
+                                 double inner_radius, double outer_radius)
+    : centres_(std::move(centres)),
+      cell_(cell),
+      inner_radius_(inner_radius),
+      outer_radius_(outer_radius) {
+  for (const Eigen::Vector3d& place : centres_) box_.extend(place);
 }
 
 bool SmoothedVectors::in_reach(const Eigen::Vector3d& place, double reach) const {
@@ -94,13 +97,13 @@ bool SmoothedVectors::in_reach(const Eigen::Vector3d& place, double reach) const
 }
 
 bool SmoothedVectors::affects(const Eigen::Vector3d& place) const {
-  return in_reach(place, none_ + cell_);
+  return in_reach(place, outer_radius_ + cell_);
 }
 
 /// Returns the distance to the nearest centre.
 double SmoothedVectors::distance(const Eigen::Vector3d& place) const {
   double least = std::numeric_limits<double>::max();
-  for (const Eigen::Vector3d& other : around_) {
+  for (const Eigen::Vector3d& other : centres_) {
     const Eigen::Vector3d from = other - place;
     least = std::min(least, from.squaredNorm());
   }
@@ -110,16 +113,16 @@ double SmoothedVectors::distance(const Eigen::Vector3d& place) const {
 std::vector<SmoothedVectors::Change> SmoothedVectors::changes(
     std::span<const Sample> samples) const {
   if (samples.empty()) return {};
-  const double margin = none_ + cell_;
+  const double margin = outer_radius_ + cell_;
   CellMeans means(box_.min().array() - margin, box_.max().array() + margin, cell_);
-  for (const Sample& sample : samples) means.add(sample.place, sample.value);
+  for (const Sample& sample : samples) means.add(sample.position, sample.value);
   std::vector<Change> changes;
   for (const Sample& sample : samples) {
-    if (!in_reach(sample.place, none_)) continue;
-    const double away = distance(sample.place);
-    if (away >= none_) continue;
-    changes.push_back({sample.number,
-                       smooth_step(none_, whole_, away) * (means.at(sample.place) - sample.value)});
+    if (!in_reach(sample.position, outer_radius_)) continue;
+    const double away = distance(sample.position);
+    if (away >= outer_radius_) continue;
+    changes.push_back({sample.number, smooth_step(outer_radius_, inner_radius_, away) *
+                                          (means.at(sample.position) - sample.value)});
   }
   return changes;
 }

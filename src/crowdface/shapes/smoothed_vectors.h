@@ -14,25 +14,27 @@ namespace crowdface {
 /// Smooths vectors at scattered positions, near given centres only.
 class SmoothedVectors {
  public:
-  /// \param around  The centres. If there are none, nothing changes.
+  /// \param centres  If there are no centres, nothing changes.
   /// \param cell    Cell size of the grid over which vectors are averaged.
-  /// \param whole   Up to this distance from a centre, the average replaces a vector completely.
-  /// \param none    From this distance on, a vector does not change. Between `whole` and `none` the
-  ///                effect fades.
-  SmoothedVectors(std::vector<Eigen::Vector3d> around, double cell, double whole, double none);
+  /// \param inner_radius  Distance from a centre up to which the average replaces a vector
+  ///                      completely.
+  /// \param outer_radius  Distance from which on a vector does not change. The effect fades between
+  ///                      both radii.
+  SmoothedVectors(std::vector<Eigen::Vector3d> centres, double cell, double inner_radius,
+                  double outer_radius);
 
   /// Returns whether a sample at this position can affect the result.
   bool affects(const Eigen::Vector3d& place) const;
 
   struct Sample {
-    std::uint32_t number;  ///< an index of the caller's choice
-    Eigen::Vector3d place, value;
+    std::uint32_t number;  ///< identifies the sample in the result
+    Eigen::Vector3d position, value;
   };
   struct Change {
     std::uint32_t number;
-    Eigen::Vector3d by;
+    Eigen::Vector3d displacement;
   };
-  /// Returns the changes of the samples nearer than `none` to a centre.
+  /// Returns the changes of the samples nearer than `outer_radius` to a centre.
   ///
   /// \param samples  Only samples at positions for which `affects` is true.
   std::vector<Change> changes(std::span<const Sample> samples) const;
@@ -41,9 +43,9 @@ class SmoothedVectors {
   bool in_reach(const Eigen::Vector3d& place, double reach) const;
   double distance(const Eigen::Vector3d& place) const;
 
-  std::vector<Eigen::Vector3d> around_;
+  std::vector<Eigen::Vector3d> centres_;
   Eigen::AlignedBox3d box_;  ///< bounding box of the centres
-  double cell_, whole_, none_;
+  double cell_, inner_radius_, outer_radius_;
 };
 
 }  // namespace crowdface

@@ -12,20 +12,20 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. largest distance between skin that may
-// come into contact, since other faces may be narrower
+// Lengths are fractions of the skin's extent, about 430 mm. The largest distance on the template of
+// skin that may touch on a face, since faces may be narrower
 constexpr double kMeetingReach = 0.02;
 constexpr double kMeetingReachEdges = 1.6;  // the same limit in edge lengths
-/// Skin at two vertices may meet if their distance in the shape is at most kOfMove times the larger
-/// of their movements plus kOfDifference times the difference of both movements.
+/// Skin at two vertices may touch if the distance of the vertices in the shape is at most kOfMove
+/// times the larger movement plus kOfDifference times the difference of both movements.
 constexpr double kOfMove = 4, kOfDifference = 10;
 // an edge folds if its ends move differently by more than this fraction of its length
 constexpr double kFolds = 0.5;
 // size of the cells in which one vertex represents the others
 constexpr double kMeetingCell = 0.003;
 
-/// Returns for each vertex of the skin a vertex in the same cell that faces the same way; for other
-/// vertices kNoIndex.
+/// Returns, for each vertex of the skin, a vertex in the same cell with a similar normal; kNoIndex
+/// for other vertices.
 std::vector<std::uint32_t> representatives(const SkinTriangles& skin, const Positions& shaped,
                                            const Positions& normals, double cell) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t, Index, bool>;
@@ -68,7 +68,7 @@ std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions
     const Eigen::Vector3d at = row3(shaped, v), move = move_of(v);
     if (move.squaredNorm() == 0) continue;
     double reach = kMeetingReach * extent;
-    for (const std::uint32_t t : skin.around.of(v)) {
+    for (const std::uint32_t t : skin.vertex_triangles.of(v)) {
       for (const std::uint32_t w : skin.triangles[t]) {
         const double edge = (row3(shaped, w) - at).norm();
         reach = std::max(reach, kMeetingReachEdges * edge);
@@ -77,7 +77,7 @@ std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions
       }
     }
     if (representative[v] != v) continue;
-    for (const std::uint32_t w : grid.about(at, reach)) {
+    for (const std::uint32_t w : grid.vertices_near(at, reach)) {
       if ((meets[v] && meets[w]) || row3(normals, w).dot(row3(normals, v)) > 0) continue;
       const double distance = (row3(shaped, w) - at).norm();
       if (distance > reach) continue;

@@ -14,11 +14,11 @@ namespace crowdface {
 struct SkinTriangles {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<Triangle> triangles;
-  CompressedRows<std::uint32_t> around;  ///< #V: triangles at each vertex
+  CompressedRows<std::uint32_t> vertex_triangles;  ///< #V: triangles at each vertex
 };
 
-/// Returns which skin vertices a shape folds, or brings near other skin, on the template or
-/// possibly on another face; #V.
+/// Returns #V: whether a shape folds the skin at a vertex or brings it near other skin, on the
+/// template or possibly on a face.
 ///
 /// \param neutral  Template at rest, #V by 3.
 /// \param shaped   Template in the shape, #V by 3.

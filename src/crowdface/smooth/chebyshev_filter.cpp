@@ -12,8 +12,8 @@ namespace crowdface {
 namespace {
 
 /// kTileRows: rows per tile. kStepsPerTurn: recurrence steps per round, after which tiles exchange
-/// their boundary rows. Both are chosen by measurement: a tile's two vectors and its part of the
-/// sums stay in a core's own cache (docs/benchmarks.md).
+/// their boundary rows. Measurements determined both values: a tile's two vectors and its part of
+/// the sums stay in a core's own cache (docs/benchmarks.md).
 constexpr Index kTileRows = 6144;
 constexpr int kStepsPerTurn = 8;
 
@@ -22,15 +22,15 @@ using RowVector = std::vector<Row<T>>;
 
 /// Number of the tile's own rows whose vertices are fixed. Fixed vertices have valence 0 and rows
 /// are sorted by valence, so these rows come first.
-std::uint32_t resting_rows(const Tile& tile) {
-  return tile.runs_to[0] == 0 ? tile.count : tile.runs[0].first;
+std::uint32_t fixed_rows(const Tile& tile) {
+  return tile.run_counts[0] == 0 ? tile.count : tile.runs[0].first;
 }
 
 double coefficient(const ChebyshevSeries& series, Index k) {
   return k < static_cast<Index>(series.size()) ? series[static_cast<std::size_t>(k)] : 0;
 }
 
-/// The recurrence of one input: T_k(W) x and T_{k−1}(W) x before and after a round, and the sums.
+/// The state of the recurrence for one input: T_k(W) x, T_{k−1}(W) x and the sums of its series.
 template <class T>
 class Recurrence {
  public:
@@ -41,7 +41,7 @@ class Recurrence {
       sums_.emplace_back(input.values.size());
     }
     for (const Tile& tile : tiling.tiles) {  // fixed rows have the same value in every T_k
-      std::copy_n(now_.begin() + tile.first, resting_rows(tile), previous_.begin() + tile.first);
+      std::copy_n(now_.begin() + tile.first, fixed_rows(tile), previous_.begin() + tile.first);
     }
     next_now_ = now_;
     next_previous_ = previous_;
@@ -59,7 +59,8 @@ class Recurrence {
     }
   }
 
-  /// Runs up to kStepsPerTurn steps on one tile, from T_k on, and adds the terms in the order of k.
+  /// Runs up to kStepsPerTurn steps of the recurrence on one tile, starting at T_k, and adds the
+  /// new terms to the sums in the order of k.
   /// \param visit  called with each k and the tile's own rows of T_k(W) x.
   template <class Visit>
   void round(const Tile& tile, Index k, const Visit& visit) {
@@ -69,8 +70,8 @@ class Recurrence {
     const auto steps = static_cast<int>(std::min<Index>(kStepsPerTurn, terms_ - 1 - k));
     for (int step = 0; step < steps; ++step) {
       const T scale = k == 0 ? T(1) : T(2);  // T_1 = W T_0, T_{k+1} = 2 W T_k − T_{k−1}
-      const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings needed by later steps
-      recurrence_step<T>(tile.runs.data(), tile.runs_to[reach], tile.rings.data(), scale,
+      const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings that later steps need
+      recurrence_step<T>(tile.runs.data(), tile.run_counts[reach], tile.rings.data(), scale,
                          now.data(), previous.data());
       now.swap(previous);
       ++k;
@@ -92,7 +93,7 @@ class Recurrence {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T sum = static_cast<T>(sum_of(input_.series[s]));
       for (const Tile& tile : tiling_.tiles) {
-        for (std::uint32_t r = tile.first; r < tile.first + resting_rows(tile); ++r) {
+        for (std::uint32_t r = tile.first; r < tile.first + fixed_rows(tile); ++r) {
           for (int c = 0; c < 4; ++c) sums_[s][r].value[c] = sum * input_.values[r].value[c];
         }
       }
@@ -124,7 +125,7 @@ class Recurrence {
   Index terms_ = 1;
 };
 
-/// Finds the probes in each tile and copies their terms.
+/// Finds the probes in each tile and copies the terms T_k(W) x at the probes.
 class ProbeRows {
  public:
   ProbeRows(const Tiling& tiling, Probes& probes) : probes_(probes), of_tile_(tiling.tiles.size()) {
@@ -158,7 +159,7 @@ class ProbeRows {
   std::vector<std::vector<Place>> of_tile_;
 };
 
-/// Columns 3·group to 3·group + 2 of x, row r from x's row order[r].
+/// Columns 3·group to 3·group + 2 of x; row r of the result is row order[r] of x.
 template <class T, class Values>
 std::vector<Row<T>> rows_in_order(std::span<const std::uint32_t> order, const Values& x,
                                   Index group) {

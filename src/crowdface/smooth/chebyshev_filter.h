@@ -29,9 +29,9 @@ struct Probes {
 };
 
 /// Evaluates polynomials of the one-ring mean W of one topology by the Chebyshev recurrence
-/// T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x. One pass evaluates all requested polynomials.
-/// Prepare the filter once per topology and use it for every head. Results are bit-identical for
-/// any thread count, any instruction set and any positions passed to the constructor.
+/// T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x. One pass evaluates all requested polynomials. One
+/// filter serves all heads of a topology. Results are bit-identical for any thread count, any
+/// instruction set and any positions passed to the constructor.
 class ChebyshevFilter {
  public:
   /// \param positions  #V by 3, any head of the topology. The filter uses them to group nearby

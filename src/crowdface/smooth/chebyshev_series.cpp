@@ -6,8 +6,8 @@
 namespace crowdface {
 namespace {
 
-/// Adds small terms first, for accuracy.
-double plain_sum(const ChebyshevSeries& series) {
+/// The sum of the coefficients. The smallest terms are added first, for accuracy.
+double accurate_sum(const ChebyshevSeries& series) {
   double sum = 0;
   for (auto a = series.rbegin(); a != series.rend(); ++a) sum += *a;
   return sum;
@@ -36,7 +36,7 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level, double tole
     // The ratios decrease, so a geometric series bounds the remaining terms.
     if (term <= tolerance * sum * (1 - ratio)) break;
   }
-  const double total = plain_sum(series);
+  const double total = accurate_sum(series);
   // The sum must be exactly 1, or fixed boundaries would drift.
   for (double& a : series) a /= total;
   return series;
@@ -49,7 +49,7 @@ ChebyshevSeries displacement_series(OperatorKind kind, std::uint64_t level, doub
 }
 
 double sum_of(const ChebyshevSeries& series) {
-  const double sum = plain_sum(series);
+  const double sum = accurate_sum(series);
   constexpr double kRounding = 1e-12;
   if (std::abs(sum - 1) < kRounding) return 1;
   return std::abs(sum) < kRounding ? 0 : sum;

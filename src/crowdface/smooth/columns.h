@@ -8,7 +8,8 @@ namespace crowdface {
 /// #V by C values, one row per vertex: the coordinates of one or more heads side by side.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Rows per parallel task. Constant, so that results do not depend on the thread count.
+/// Number of rows in each parallel task. The number is constant, so that results do not depend on
+/// the thread count.
 inline constexpr Eigen::Index kRowBlock = 4096;
 
 }  // namespace crowdface

@@ -24,9 +24,9 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
     for (Index p = 0; p < CubicFit::kRank; ++p) design(l, p) = basis[static_cast<std::size_t>(p)];
   }
   // Least squares is linear in the data: c_p = Σ_l P_pl (S_{L_l} x − x), where P is the
-  // pseudo-inverse of the design matrix. With fewer than four levels P gives the smallest
-  // coefficients that interpolate them. The series of all levels are therefore combined into one
-  // series per field.
+  // pseudo-inverse of the design matrix. With fewer than four levels, P gives the smallest
+  // coefficients that interpolate the levels. Linearity makes it possible to combine the series of
+  // all levels into one series per field.
   const Eigen::MatrixXd fit =
       design.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(count, count));
   std::vector<ChebyshevSeries> combined(CubicFit::kRank);
@@ -43,7 +43,7 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
   for (const Positions& field : filter_many(filter, positions, std::move(combined))) {
     for (Index i = 0; i < field.size(); ++i) fields.push_back(static_cast<float>(field.data()[i]));
   }
-  return {max_level, in_16_bits(fields, positions.rows())};
+  return {max_level, quantize(fields, positions.rows())};
 }
 
 }  // namespace crowdface

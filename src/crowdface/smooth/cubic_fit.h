@@ -10,19 +10,20 @@
 namespace crowdface {
 
 /// The paper's approximation of the levels (§5.1): each coordinate is a cubic in t = L/L_max, S_L x
-/// − x ≈ c_0 + c_1 t + c_2 t² + c_3 t³, fitted by least squares to about 40 levels. Where the head
-/// moves by centimetres, the error is millimetres (docs/method.md), so this fit exists for
-/// comparison only.
+/// − x ≈ c_0 + c_1 t + c_2 t² + c_3 t³, fitted by least squares to about 40 levels. The error is
+/// millimetres where the head moves by centimetres (docs/method.md), so this fit only serves
+/// comparisons.
 struct CubicFit {
   static constexpr int kRank = 4;
   std::uint64_t max_level = 1;
   LevelFields fields;  ///< c_0 … c_3
 };
 
-/// The fit samples levels_dense_at_start(max_level, kCubicFitSteps), as in the paper.
+/// Number of steps: the fit uses levels_dense_at_start(max_level, kCubicFitSteps), as in the paper.
 inline constexpr int kCubicFitSteps = 40;
 
-/// Fits one head. The recurrence accumulates the fields c_0 … c_3 directly, without storing levels.
+/// Fits the cubic functions to one head. The recurrence accumulates the fields c_0 … c_3 directly,
+/// without storing levels.
 CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
                    std::uint64_t max_level);
 

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes = hn::CappedTag<float, 16>;
 
-void narrow(const float* from, std::size_t count, float scale, std::int16_t* to) {
+void round_to_int16(const float* from, std::size_t count, float scale, std::int16_t* to) {
   const Lanes lanes;
   const hn::Rebind<std::int16_t, Lanes> narrow_lanes;
   const std::size_t width = hn::Lanes(lanes);
@@ -35,14 +35,16 @@ void narrow(const float* from, std::size_t count, float scale, std::int16_t* to)
 
 /// Multiplies and adds with separate rounding (no FMA), so that the number of fields kept does not
 /// depend on the instruction set. Each level adds fields from the last to the first until the error
-/// exceeds the limit; that field and all before it must be kept.
-MissedLevel choose_fewest_functions(const float* fields, std::size_t count, const float* functions,
-                                    std::size_t stride, std::size_t levels, float most) {
+/// exceeds the limit; this field and all fields before it must be kept.
+TruncationError choose_fewest_functions(const float* fields, std::size_t count,
+                                        const float* functions, std::size_t stride,
+                                        std::size_t levels, float most) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
   const auto limit = hn::Set(lanes, most);
   HWY_ALIGN float left[3 * kFieldTile];
-  std::vector<MissedLevel> worst(count + 1);  // worst[p]: the largest error with p fields kept
+  // worst[p]: the largest error if the tile keeps p fields
+  std::vector<TruncationError> worst(count + 1);
   std::size_t kept = 0;
   for (std::size_t level = 0; level < levels; ++level, functions += stride) {
     std::fill_n(left, 3 * kFieldTile, 0.0F);
@@ -102,16 +104,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
-HWY_EXPORT(narrow);
+HWY_EXPORT(round_to_int16);
 HWY_EXPORT(choose_fewest_functions);
 HWY_EXPORT(row_products);
 
-void narrow(const float* from, std::size_t count, float scale, std::int16_t* to) {
-  HWY_DYNAMIC_DISPATCH(narrow)(from, count, scale, to);
+void round_to_int16(const float* from, std::size_t count, float scale, std::int16_t* to) {
+  HWY_DYNAMIC_DISPATCH(round_to_int16)(from, count, scale, to);
 }
 
-MissedLevel choose_fewest_functions(const float* fields, std::size_t count, const float* functions,
-                                    std::size_t stride, std::size_t levels, float most) {
+TruncationError choose_fewest_functions(const float* fields, std::size_t count,
+                                        const float* functions, std::size_t stride,
+                                        std::size_t levels, float most) {
   return HWY_DYNAMIC_DISPATCH(choose_fewest_functions)(fields, count, functions, stride, levels,
                                                        most);
 }

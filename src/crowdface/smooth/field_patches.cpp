@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kPatchesPerTask = 16;
 
 /// Weights w_p such that |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each of the levels and any error
-/// vectors e_p: the largest |φ_p| over the levels, times the factor from the Cauchy–Schwarz
+/// vectors e_p. w_p is the largest |φ_p| over the levels, times the factor from the Cauchy–Schwarz
 /// inequality.
 std::vector<double> error_weights(const HeadLevels& head, std::span<const std::uint64_t> levels) {
   std::vector<std::vector<double>> functions;
@@ -52,7 +52,7 @@ struct MadePatches {
 class PatchMaker {
  public:
   /// \param heads, weights  must outlive this object.
-  /// \param weights         of each head, from error_weights.
+  /// \param weights         result of error_weights for each head.
   PatchMaker(std::span<const HeadLevels> heads, const std::vector<std::vector<double>>& weights,
              double tolerance)
       : heads_(heads), error_weights_(weights), tolerance_(tolerance) {}
@@ -67,7 +67,7 @@ class PatchMaker {
   }
 
  private:
-  using OfVertices = std::array<double, kPatchVertices>;
+  using PatchColumn = std::array<double, kPatchVertices>;
 
   std::size_t count_fields(std::span<const std::uint32_t> vertices) {
     counts_.assign(heads_.size(), 0);
@@ -112,7 +112,7 @@ class PatchMaker {
     // s·#fields + s·kPatchVertices > kPatchVertices·#fields.
     const std::size_t most = kPatchVertices * fields / (fields + kPatchVertices);
     fill_columns(vertices, fields);
-    OfVertices left{};
+    PatchColumn left{};
     for (std::size_t column = 0; column < 3 * fields; ++column) {
       for (std::size_t i = 0; i < kPatchVertices; ++i) {
         const double value = static_cast<double>(columns_[column * kPatchVertices + i]);
@@ -125,7 +125,7 @@ class PatchMaker {
       if (skeleton_.size() >= std::min(most, vertices.size() - 1)) break;
       // Next column of the factor: the Gram matrix's column minus its projection onto earlier
       // columns.
-      OfVertices& next = factor_.emplace_back();
+      PatchColumn& next = factor_.emplace_back();
       row_products(columns_.data(), 3 * fields, pivot, next.data());
       for (std::size_t j = 0; j + 1 < factor_.size(); ++j) {
         const double factor = factor_[j][pivot];
@@ -145,11 +145,11 @@ class PatchMaker {
     for (std::size_t i = 0; i < vertices.size(); ++i) skeleton_[i] = i;
   }
 
-  /// Appends the interpolation weights, #skeleton by kPatchVertices: back substitution of each
-  /// vertex's row of the factor with the rows of the skeleton.
+  /// Appends the interpolation weights, #skeleton by kPatchVertices. Back substitution finds, for
+  /// each vertex, the combination of the skeleton's rows of the factor that gives the vertex's row.
   void add_weights(std::vector<float>& to) const {
     const std::size_t size = skeleton_.size();
-    std::vector<OfVertices> weights(size);
+    std::vector<PatchColumn> weights(size);
     for (std::size_t j = size; j-- > 0;) {
       weights[j] = factor_[j];
       for (std::size_t i = j + 1; i < size; ++i) {
@@ -161,7 +161,7 @@ class PatchMaker {
       for (const std::size_t chosen : skeleton_) weights[j][chosen] = 0;
       weights[j][skeleton_[j]] = 1;
     }
-    for (const OfVertices& of_one : weights) {
+    for (const PatchColumn& of_one : weights) {
       for (const double weight : of_one) to.push_back(static_cast<float>(weight));
     }
   }
@@ -184,9 +184,8 @@ class PatchMaker {
       const std::size_t at = made.numbers.size();
       made.numbers.resize(at + values_.size());
       for (std::size_t p = 0; p < counts_[h]; ++p) {
-        made.steps.push_back(
-            in_16_bits(std::span(std::as_const(values_)).subspan(p * values, values),
-                       made.numbers.data() + at + p * values));
+        made.steps.push_back(quantize(std::span(std::as_const(values_)).subspan(p * values, values),
+                                      made.numbers.data() + at + p * values));
       }
     }
   }
@@ -196,7 +195,7 @@ class PatchMaker {
   double tolerance_;
   std::vector<std::uint32_t> counts_;
   std::vector<float> columns_, values_;
-  std::vector<OfVertices> factor_;  ///< #skeleton by kPatchVertices
+  std::vector<PatchColumn> factor_;  ///< #skeleton by kPatchVertices
   std::vector<std::size_t> skeleton_;
 };
 
@@ -206,7 +205,7 @@ struct OwnedPatches {
   MadePatches made;
 };
 
-/// Concatenates one list of all parts and clears it in the parts.
+/// Concatenates the same list of all parts, and clears this list in each part.
 template <class T>
 std::vector<T> join(std::vector<MadePatches>& parts, std::vector<T> MadePatches::*list) {
   std::size_t count = 0;
@@ -239,8 +238,8 @@ bool are_patches(std::span<const std::uint32_t> vertices, std::size_t count) {
 
 }  // namespace
 
-std::optional<FieldPatches> FieldPatches::of(PatchLists lists, Index vertex_count,
-                                             std::span<const Index> ranks) {
+std::optional<FieldPatches> FieldPatches::from_lists(PatchLists lists, Index vertex_count,
+                                                     std::span<const Index> ranks) {
   const auto vertices = static_cast<std::size_t>(vertex_count);
   const std::size_t patches = patch_count(vertices);
   if (!are_patches(lists.vertices, vertices) || lists.skeletons.size() != patches ||
@@ -255,19 +254,19 @@ std::optional<FieldPatches> FieldPatches::of(PatchLists lists, Index vertex_coun
     const std::size_t here = std::min(kPatchVertices, vertices - i * kPatchVertices);
     const std::size_t skeleton = lists.skeletons[i];
     if (skeleton > here) return std::nullopt;
-    end.fields = 0;
+    end.field_count = 0;
     for (std::size_t h = 0; h < ranks.size(); ++h) {
       const std::uint32_t count = lists.counts[i * ranks.size() + h];
       if (count > static_cast<std::uint64_t>(ranks[h])) return std::nullopt;
-      end.fields += count;
+      end.field_count += count;
     }
     result.patches_.push_back(end);
-    end.field += end.fields;
-    end.number += end.fields * FieldPatch::values_of(skeleton);
-    if (skeleton < here) end.weight += skeleton * kPatchVertices;
+    end.first_field += end.field_count;
+    end.first_number += end.field_count * FieldPatch::values_of(skeleton);
+    if (skeleton < here) end.first_weight += skeleton * kPatchVertices;
   }
-  if (end.field != lists.steps.size() || end.number != lists.numbers.size() ||
-      end.weight != lists.weights.size() || !std::ranges::all_of(lists.steps, is_step) ||
+  if (end.first_field != lists.steps.size() || end.first_number != lists.numbers.size() ||
+      end.first_weight != lists.weights.size() || !std::ranges::all_of(lists.steps, is_step) ||
       !std::ranges::all_of(lists.weights, [](float weight) { return std::isfinite(weight); })) {
     return std::nullopt;
   }
@@ -282,22 +281,22 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
   result.vertices =
       lists_.vertices.subspan(first, std::min(kPatchVertices, lists_.vertices.size() - first));
   result.counts = lists_.counts.subspan(patch * heads_, heads_);
-  result.fields = place.fields;
+  result.fields = place.field_count;
   result.skeleton = lists_.skeletons[patch];
-  result.steps = lists_.steps.data() + place.field;
-  result.numbers = lists_.numbers.data() + place.number;
-  if (!result.is_whole()) result.weights = lists_.weights.data() + place.weight;
+  result.steps = lists_.steps.data() + place.first_field;
+  result.numbers = lists_.numbers.data() + place.first_number;
+  if (!result.is_whole()) result.weights = lists_.weights.data() + place.first_weight;
   return result;
 }
 
-std::vector<std::uint32_t> patch_order(const Positions& positions, double near) {
+std::vector<std::uint32_t> patch_order(const Positions& positions, double max_distance) {
   constexpr std::uint32_t kLongest = 32;
   const auto vertices = static_cast<std::uint32_t>(positions.rows());
-  // The first vertex of each run; finally, the number of vertices.
+  // The first vertex of each run, followed by the number of vertices.
   std::vector<std::uint32_t> firsts;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     const bool goes_on = !firsts.empty() && v - firsts.back() < kLongest &&
-                         (positions.row(v) - positions.row(v - 1)).norm() <= near;
+                         (positions.row(v) - positions.row(v - 1)).norm() <= max_distance;
     if (!goes_on) firsts.push_back(v);
   }
   Positions at(static_cast<Index>(firsts.size()), 3);
@@ -351,7 +350,7 @@ FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
       all->made = {join(parts, &MadePatches::skeletons), join(parts, &MadePatches::counts),
                    join(parts, &MadePatches::steps), join(parts, &MadePatches::weights),
                    join(parts, &MadePatches::numbers)};
-  auto result = FieldPatches::of(
+  auto result = FieldPatches::from_lists(
       {all->vertices, made.skeletons, made.counts, made.steps, made.weights, made.numbers, all},
       static_cast<Index>(order.size()), ranks);
   require(result.has_value(), "patches: not each vertex once, or numbers that are none");

@@ -21,24 +21,25 @@ struct HeadLevels {
   std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
 };
 
-/// The fields of all heads at one patch: a group of nearby vertices.
+/// The fields of all heads at one patch, which is a group of nearby vertices.
 struct FieldPatch {
   std::span<const std::uint32_t> vertices;  ///< vertices of the mesh, ascending
-  /// #heads: how many leading fields of each head the patch stores.
+  /// #heads: number of leading fields that the patch stores of each head.
   std::span<const std::uint32_t> counts;
   std::size_t fields = 0;        ///< number of fields of all heads, the sum of `counts`
   std::size_t skeleton = 0;      ///< number of skeleton vertices, at which fields are stored
   const float* steps = nullptr;  ///< #fields quantization steps: powers of two, or zero
-  /// #fields by values(), in quantization steps: x of all skeleton vertices, then y, then z, then
-  /// zero padding.
+  /// #fields by values(), in quantization steps: x of all skeleton vertices, then all y, then all
+  /// z, then zero padding.
   const std::int16_t* numbers = nullptr;
   /// #skeleton by kPatchVertices: the value of a field at vertex v is Σ_s weights[s][v]·(value at
   /// skeleton vertex s). Null if the skeleton is all vertices, in their order.
   const float* weights = nullptr;
 
-  /// Whether the skeleton is the whole patch, so that no interpolation is needed.
+  /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
   bool is_whole() const { return skeleton == vertices.size(); }
-  /// Numbers stored per field, padded to a multiple of kPatchStep.
+  /// Count of 16-bit numbers stored for each field: 3·#skeleton, rounded up to a multiple of
+  /// kPatchStep.
   std::size_t values() const { return values_of(skeleton); }
   static std::size_t values_of(std::size_t skeleton) {
     return (3 * skeleton + kPatchStep - 1) / kPatchStep * kPatchStep;
@@ -52,8 +53,8 @@ inline std::size_t patch_count(std::size_t vertices) {
 
 /// The data of all patches, concatenated.
 struct PatchLists {
-  std::span<const std::uint32_t> vertices;   ///< #V: vertices patch by patch, each vertex once
-  std::span<const std::uint32_t> skeletons;  ///< #patches: number of skeleton vertices of each
+  std::span<const std::uint32_t> vertices;   ///< #V: each vertex once, ordered by patch
+  std::span<const std::uint32_t> skeletons;  ///< #patches: number of skeleton vertices
   std::span<const std::uint32_t> counts;     ///< #patches by #heads: see FieldPatch::counts
   std::span<const float> steps, weights;
   std::span<const std::int16_t> numbers;
@@ -69,12 +70,12 @@ struct PatchLists {
 class FieldPatches {
  public:
   FieldPatches() = default;
-  /// Validates and wraps the lists.
+  /// Makes the object from lists, if they are valid.
   /// \param ranks  #heads: number of fields of each head.
   /// \return       nothing if `interpolate_fields` could not have made these lists for heads with
   ///               these numbers of fields.
-  static std::optional<FieldPatches> of(PatchLists lists, Index vertex_count,
-                                        std::span<const Index> ranks);
+  static std::optional<FieldPatches> from_lists(PatchLists lists, Index vertex_count,
+                                                std::span<const Index> ranks);
 
   std::size_t size() const { return patches_.size(); }
   Index vertex_count() const { return static_cast<Index>(lists_.vertices.size()); }
@@ -84,20 +85,20 @@ class FieldPatches {
 
  private:
   struct Patch {
-    std::size_t fields, field, number, weight;
+    std::size_t field_count, first_field, first_number, first_weight;
   };
   PatchLists lists_;
   std::size_t heads_ = 0;
   std::vector<Patch> patches_;
 };
 
-/// A vertex order for cutting patches: along a space-filling curve (hilbert_order). Runs of up to
-/// 32 vertices with consecutive numbers and small distances stay together, so that blended faces
-/// are written in longer contiguous pieces.
+/// The vertices in an order for cutting patches, along a space-filling curve (hilbert_order). Runs
+/// of up to 32 vertices with consecutive numbers and small distances stay together, so that blended
+/// faces are written in longer contiguous pieces.
 /// \param positions  #V by 3, any head of the topology.
-/// \param near       largest distance between consecutive vertices of a run, in the unit of the
+/// \param max_distance  largest distance between consecutive vertices of a run, in the unit of the
 ///                   positions.
-std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
+std::vector<std::uint32_t> patch_order(const Positions& positions, double max_distance);
 
 /// Compresses the fields of all heads patch by patch.
 /// \param heads      at least one head; all of the same mesh.
@@ -107,8 +108,8 @@ std::vector<std::uint32_t> patch_order(const Positions& positions, double near);
 ///                   the unit of the positions. Rounding to quantization steps adds to this error;
 ///                   no step of a patch exceeds the largest step of the tiles that contain the
 ///                   patch's vertices.
-/// \param progress   called by any thread with the number of patches it has just finished; an
-///                   exception thrown by it stops the work.
+/// \param progress   any thread calls this function with the number of patches that the thread has
+///                   just finished. If the function throws an exception, the work stops.
 FieldPatches interpolate_fields(
     std::span<const HeadLevels> heads, std::span<const std::uint64_t> levels,
     std::span<const std::uint32_t> order, double tolerance,

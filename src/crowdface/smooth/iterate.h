@@ -8,8 +8,9 @@
 
 namespace crowdface {
 
-/// Applies the operator to `values` `level` times, one after the other (Eq. 1). This is the
-/// definition; tests compare the fast filter with it. Costs `level` products with the operator.
+/// Applies the operator `level` times to `values` (Eq. 1). This function is the definition of
+/// smoothing; tests compare the fast filter with its result. Costs `level` products with the
+/// operator.
 /// \param values  #V by C.
 /// \throws BrokenPrecondition if `values` does not have one row per vertex of the operator.
 Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::uint64_t level);

@@ -32,9 +32,9 @@ std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
   return rows;
 }
 
-/// Samples the rows from which the directions are computed. Half of them are evenly spaced; the
-/// others are the row of each block that moves most in the first iteration, because a few fields
-/// fit worst there.
+/// Samples the rows from which the directions are computed. Half of the rows are evenly spaced. The
+/// other half takes from each block the row that moves most in the first iteration, because a few
+/// fields fit such rows worst.
 NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacements) {
   const FieldRows& first = displacements.front();
   const auto moved = [&](std::size_t r) {
@@ -63,7 +63,7 @@ NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacemen
 /// Chooses the number of fields that each tile of vertices keeps, and quantizes them.
 class TileFitter {
  public:
-  /// \param tolerance  bound of the truncation error plus the rounding error.
+  /// \param tolerance  bound of the sum of truncation error and rounding error.
   TileFitter(const ChebyshevFilter& filter, const std::vector<FieldRows>& displacements,
              const Directions& directions, double tolerance)
       : filter_(filter),
@@ -87,22 +87,23 @@ class TileFitter {
     }
   }
 
-  /// The fields that some tiles keep, and the largest error of any of their vertices at any level.
-  struct Fitted {
+  /// The fields that a sequence of tiles keeps, and the largest error of the tiles' vertices at any
+  /// level.
+  struct FittedTiles {
     FieldTiles fields;
-    double missed = 0;
+    double max_error = 0;
     std::size_t level = 0;  ///< index among the tested levels
   };
-  Fitted fit(Index first_tile, Index end_tile) const {
-    Fitted fitted;
+  FittedTiles fit(Index first_tile, Index end_tile) const {
+    FittedTiles fitted;
     std::vector<float> by_coordinate, by_vertex;
     for (Index tile = first_tile; tile < end_tile; ++tile) {
       combine(tile, by_coordinate, by_vertex);
       const auto of_field = [&](std::size_t p) {
         return std::span(std::as_const(by_vertex)).subspan(p * kTileValues, kTileValues);
       };
-      // Skip trailing fields whose upper bounds have a negligible sum; their error need not be
-      // evaluated at each level.
+      // Skip trailing fields whose upper bounds have a negligible sum, without evaluating their
+      // error at each level.
       std::size_t looked_at = count_;
       double skipped = 0;
       for (; looked_at > 0; --looked_at) {
@@ -113,21 +114,21 @@ class TileFitter {
       // rounded[p]: bound of the rounding error of the first p fields.
       std::vector<double> rounded = {0};
       for (std::size_t p = 0; p < looked_at; ++p) {
-        const double half_a_step = 0.5 * static_cast<double>(step_of(of_field(p)));
+        const double half_a_step = 0.5 * static_cast<double>(quantization_step(of_field(p)));
         rounded.push_back(rounded.back() + peaks_[p] * std::sqrt(3.0) * half_a_step);
       }
       // Keep the fewest of the remaining fields that meet the tolerance.
       const double most =
-          std::min(tolerance_ - rounded.back(), kLeftOutShare * tolerance_) - skipped;
-      const MissedLevel left_out =
+          std::min(tolerance_ - rounded.back(), kTruncationShare * tolerance_) - skipped;
+      const TruncationError left_out =
           choose_fewest_functions(by_coordinate.data(), looked_at, functions_.data(), count_,
                                   static_cast<std::size_t>(directions_.functions.rows()),
                                   most > 0 ? static_cast<float>(most * most) : 0.0F);
       fitted.fields.add(by_vertex, left_out.kept);
       const double missed =
           std::sqrt(static_cast<double>(left_out.squared_error)) + skipped + rounded[left_out.kept];
-      if (missed > fitted.missed) {
-        fitted.missed = missed;
+      if (missed > fitted.max_error) {
+        fitted.max_error = missed;
         fitted.level = left_out.level;
       }
     }
@@ -138,7 +139,7 @@ class TileFitter {
   /// The truncation error may use this share of the tolerance. Adjacent tiles keep different
   /// fields, and a larger share would show a crease between them. With 1/8, normals are as close to
   /// the exact normals as when all tiles keep the same fields (docs/method.md).
-  static constexpr double kLeftOutShare = 0.125;
+  static constexpr double kTruncationShare = 0.125;
   /// The share of the tolerance for trailing fields that are skipped without evaluation.
   static constexpr double kSkippedShare = 0.01;
 
@@ -285,7 +286,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   const TileFitter fitter(filter, displacements, directions, budget);
   const auto tiles =
       static_cast<Index>(LevelFields::tile_count(static_cast<std::size_t>(filter.vertex_count())));
-  std::vector<TileFitter::Fitted> parts(
+  std::vector<TileFitter::FittedTiles> parts(
       static_cast<std::size_t>((tiles + kTilesPerTask - 1) / kTilesPerTask));
   parallel_blocks(tiles, kTilesPerTask, [&](Index begin, Index end) {
     parts[static_cast<std::size_t>(begin / kTilesPerTask)] = fitter.fit(begin, end);
@@ -295,20 +296,20 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   basis.max_level = nodes.max_level();
   std::uint32_t rank = 0;
   std::vector<FieldTiles> fields;
-  TileFitter::Fitted worst;
-  for (TileFitter::Fitted& part : parts) {
+  TileFitter::FittedTiles worst;
+  for (TileFitter::FittedTiles& part : parts) {
     for (const std::uint32_t count : part.fields.counts) rank = std::max(rank, count);
-    if (part.missed > worst.missed) worst = {{}, part.missed, part.level};
+    if (part.max_error > worst.max_error) worst = {{}, part.max_error, part.level};
     fields.push_back(std::move(part.fields));
   }
-  basis.error.max = worst.missed + of_nodes.max;
+  basis.error.max = worst.max_error + of_nodes.max;
   if (basis.error.max > tolerance) {
     throw InvalidInput(concat("expected levels within ", tolerance, ", reached ", basis.error.max,
                               " with ", nodes.levels().size(), " fields"));
   }
   basis.error.level = tested.levels[worst.level];
   basis.mixing = directions.mixing.leftCols(rank);
-  basis.fields = joined(filter.vertex_count(), rank, std::move(fields));
+  basis.fields = concatenate(filter.vertex_count(), rank, std::move(fields));
   basis.error.rms =
       probe_error(exact, directions.functions.leftCols(rank), [&](Index v, Index p, Index c) {
         const auto vertex = static_cast<Index>(probes.vertices[static_cast<std::size_t>(v)]);

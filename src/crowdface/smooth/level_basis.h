@@ -13,7 +13,7 @@ namespace crowdface {
 /// Distances between a basis and the exact filter, in the unit of the positions.
 struct BasisError {
   double max = 0;           ///< bound over all vertices and tested levels
-  double rms = 0;           ///< over the probes and tested levels
+  double rms = 0;           ///< root mean square over the probes and tested levels
   std::uint64_t level = 0;  ///< level of the maximum
 };
 
@@ -36,19 +36,19 @@ std::vector<double> basis_functions(const LevelNodes& nodes, const Eigen::Matrix
 struct NodeFields {
   /// S_{N_n} x − x for each node, in the filter's row order.
   std::vector<RowArray<float>> displacements;
-  Probes probes;  ///< the exact filter at some vertices
+  Probes probes;  ///< exact Chebyshev terms at some vertices
 };
 
 /// Filters one head to the levels of all nodes in one pass, in single precision.
 NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions);
 
-/// Fits one head. The fields are the principal directions of the head's own displacements
-/// (principal_directions). Each tile of vertices keeps the fewest leading fields whose truncation
-/// error is below tolerance/8 and whose total error is below the tolerance. The reported error is
-/// measured, not estimated: the sum of the truncation error at every vertex and every tested level,
-/// the error of the nodes against the exact filter at the probes, and the largest rounding error of
-/// the 16-bit values.
+/// Fits a basis to one head. The fields are the principal directions of the head's own
+/// displacements (principal_directions). Each tile of vertices keeps the fewest leading fields
+/// whose truncation error is below tolerance/8 and whose total error is below the tolerance. The
+/// reported error is measured, not estimated: the sum of the truncation error at every vertex and
+/// every tested level, the error of the nodes against the exact filter at the probes, and the
+/// largest rounding error of the 16-bit values.
 /// \param fields     result of filter_nodes for this head.
 /// \param tolerance  in the unit of the positions, > 0.
 /// \throws InvalidInput if no number of fields reaches the tolerance; the message states the error

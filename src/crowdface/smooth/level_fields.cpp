@@ -28,7 +28,7 @@ double LevelFields::value(Index field, Index vertex, Index coordinate) const {
   return static_cast<double>(tile.steps[f]) * static_cast<double>(tile.numbers[place]);
 }
 
-float step_of(std::span<const float> values) {
+float quantization_step(std::span<const float> values) {
   constexpr float kMax = std::numeric_limits<std::int16_t>::max();
   float largest = 0;
   for (const float value : values) largest = std::max(largest, std::abs(value));
@@ -38,9 +38,9 @@ float step_of(std::span<const float> values) {
   return std::ldexp(1.0F, m == 0.5F ? exponent - 1 : exponent);
 }
 
-float in_16_bits(std::span<const float> values, std::int16_t* numbers) {
-  const float step = step_of(values);
-  narrow(values.data(), values.size(), step > 0 ? 1 / step : 0, numbers);
+float quantize(std::span<const float> values, std::int16_t* numbers) {
+  const float step = quantization_step(values);
+  round_to_int16(values.data(), values.size(), step > 0 ? 1 / step : 0, numbers);
   return step;
 }
 
@@ -50,11 +50,11 @@ void FieldTiles::add(std::span<const float> values, std::size_t count) {
   std::int16_t* to = numbers.data() + numbers.size() - count * kTileValues;
   for (std::size_t p = 0; p < count; ++p) {
     const std::size_t at = p * kTileValues;
-    steps.push_back(in_16_bits(values.subspan(at, kTileValues), to + at));
+    steps.push_back(quantize(values.subspan(at, kTileValues), to + at));
   }
 }
 
-LevelFields joined(Index vertex_count, Index rank, std::vector<FieldTiles> tiles) {
+LevelFields concatenate(Index vertex_count, Index rank, std::vector<FieldTiles> tiles) {
   auto all = std::make_shared<OwnedFields>();
   all->first.push_back(0);
   for (FieldTiles& part : tiles) {
@@ -69,7 +69,7 @@ LevelFields joined(Index vertex_count, Index rank, std::vector<FieldTiles> tiles
   return {vertex_count, rank, all->first, all->steps, all->numbers, all};
 }
 
-LevelFields in_16_bits(std::span<const float> fields, Index vertex_count) {
+LevelFields quantize(std::span<const float> fields, Index vertex_count) {
   const std::size_t values = 3 * static_cast<std::size_t>(vertex_count);
   const std::size_t rank = values == 0 ? 0 : fields.size() / values;
   std::vector<FieldTiles> tiles(LevelFields::tile_count(static_cast<std::size_t>(vertex_count)));
@@ -82,7 +82,7 @@ LevelFields in_16_bits(std::span<const float> fields, Index vertex_count) {
     }
     tiles[tile].add(of_tile, rank);
   });
-  return joined(vertex_count, static_cast<Index>(rank), std::move(tiles));
+  return concatenate(vertex_count, static_cast<Index>(rank), std::move(tiles));
 }
 
 }  // namespace crowdface

@@ -14,15 +14,16 @@ namespace crowdface {
 
 /// The fields of one head at one tile of vertices.
 struct TileFields {
-  std::size_t count = 0;
-  const float* steps = nullptr;
+  std::size_t count = 0;                  ///< number of fields
+  const float* steps = nullptr;           ///< #count quantization steps
   const std::int16_t* numbers = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
 /// The vector fields c_0 … c_{R−1} of one head, each #V by 3, quantized to 16 bits. Each tile of
-/// vertices stores only its leading fields, as many as it needs; its other fields are zero. A value
-/// is a 16-bit integer times the quantization step of its tile and field. A step is zero or a power
-/// of two, so that multiplying by it is exact. The rounding error is at most half a step.
+/// vertices stores only its leading fields, as many as the tile needs; the other fields of the tile
+/// are zero. A value is a 16-bit integer times the quantization step of its tile and field. A step
+/// is zero or a power of two, so that multiplying by it is exact. The rounding error is at most
+/// half a step.
 struct LevelFields {
   Index vertex_count = 0;
   Index rank = 0;  ///< R
@@ -54,21 +55,21 @@ struct FieldTiles {
   void add(std::span<const float> values, std::size_t count);
 };
 
-/// The smallest power-of-two quantization step with which the values fit into 16 bits; zero if all
-/// values are below 10⁻³⁰ in magnitude.
-float step_of(std::span<const float> values);
+/// The smallest power of two that, as quantization step, makes the values fit into 16 bits. Zero if
+/// all values are below 10⁻³⁰ in magnitude.
+float quantization_step(std::span<const float> values);
 
-/// Quantizes the values.
+/// Quantizes values to 16 bits.
 /// \param numbers  receives values.size() numbers.
-/// \return         the quantization step (step_of).
-float in_16_bits(std::span<const float> values, std::int16_t* numbers);
+/// \return         the result of quantization_step.
+float quantize(std::span<const float> values, std::int16_t* numbers);
 
-/// Concatenates tiles.
-/// \param tiles  all tiles of the mesh, in order.
-LevelFields joined(Index vertex_count, Index rank, std::vector<FieldTiles> tiles);
+/// Concatenates the fields of all tiles of a mesh.
+/// \param tiles  all tiles, in order.
+LevelFields concatenate(Index vertex_count, Index rank, std::vector<FieldTiles> tiles);
 
 /// Quantizes complete fields: unlike FieldTiles, every tile stores all R fields.
 /// \param fields  #R by #V by 3, finite.
-LevelFields in_16_bits(std::span<const float> fields, Index vertex_count);
+LevelFields quantize(std::span<const float> fields, Index vertex_count);
 
 }  // namespace crowdface

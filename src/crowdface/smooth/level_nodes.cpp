@@ -50,7 +50,7 @@ std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
 
 }  // namespace
 
-LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed)
+LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_residual)
     : max_level_(max_level) {
   require(max_level > 0, "nodes of levels need a largest level of at least 1");
   // Build the grid: s = 1 − |λ| falls geometrically from 1 until s is too small to matter at any
@@ -69,7 +69,7 @@ LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed
     eigenvalues_.push_back(-1);
     grid_weights_.push_back(kNegativeWeight);
   }
-  choose_nodes(node_candidates(max_level), missed);
+  choose_nodes(node_candidates(max_level), max_residual);
 }
 
 LevelNodes::Spectrum LevelNodes::displacement(std::uint64_t level) const {
@@ -80,12 +80,12 @@ LevelNodes::Spectrum LevelNodes::displacement(std::uint64_t level) const {
   return values;
 }
 
-void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, double missed) {
+void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual) {
   // Residual of each candidate after projection onto the nodes chosen so far.
   std::vector<Spectrum> left;
   left.reserve(candidates.size());
   for (const std::uint64_t level : candidates) left.push_back(displacement(level));
-  const double enough = missed * missed * fixed_dot(left.back(), left.back());
+  const double enough = max_residual * max_residual * fixed_dot(left.back(), left.back());
   std::vector<std::uint64_t> chosen;
   while (chosen.size() < std::min(kMaxNodes, candidates.size())) {
     // The next node is the candidate with the largest residual.
@@ -109,7 +109,7 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
   levels_ = chosen;
   std::ranges::sort(levels_);
   for (const std::uint64_t level : chosen) {
-    choice_.push_back(
+    choice_order_.push_back(
         static_cast<std::size_t>(std::ranges::lower_bound(levels_, level) - levels_.begin()));
     const Spectrum node = displacement(level);
     std::vector<double> row;
@@ -134,10 +134,10 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   std::vector<double> share;
   share.reserve(directions_.size());
   for (const Spectrum& direction : directions_) share.push_back(fixed_dot(wanted, direction));
-  for (std::size_t p = choice_.size(); p-- > 0;) {
+  for (std::size_t p = choice_order_.size(); p-- > 0;) {
     const double weight = share[p] / triangle_[p][p];
     for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangle_[p][q];
-    result[choice_[p]] = weight;
+    result[choice_order_[p]] = weight;
   }
   return result;
 }

@@ -19,9 +19,9 @@ namespace crowdface {
 class LevelNodes {
  public:
   /// \param max_level  L_max, at least 1.
-  /// \param missed     largest residual of any level, as a fraction of the displacement at L_max;
-  ///                   nodes are added until it is reached.
-  LevelNodes(OperatorKind kind, std::uint64_t max_level, double missed = 2e-4);
+  /// \param max_residual  largest residual of any level, as a fraction of the displacement at
+  ///                      L_max. Nodes are added until no residual is larger.
+  LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_residual = 2e-4);
 
   std::uint64_t max_level() const { return max_level_; }
   /// N_p, ascending, from 1 to L_max.
@@ -34,13 +34,13 @@ class LevelNodes {
  private:
   using Spectrum = std::vector<double>;  ///< a function of λ on the grid
   Spectrum displacement(std::uint64_t level) const;
-  void choose_nodes(const std::vector<std::uint64_t>& candidates, double missed);
+  void choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual);
 
   std::uint64_t max_level_;
   std::vector<double> eigenvalues_, grid_weights_;
   std::vector<std::uint64_t> levels_;
-  std::vector<Spectrum> directions_;  ///< orthonormal, in the order of choice
-  std::vector<std::size_t> choice_;   ///< indices into levels_ in the order of choice
+  std::vector<Spectrum> directions_;  ///< orthonormal; one for each node, in the order of choice
+  std::vector<std::size_t> choice_order_;  ///< indices into levels_ in the order of choice
   /// p-th chosen node = Σ_q triangle_[p][q] directions_[q].
   std::vector<std::vector<double>> triangle_;
 };

@@ -14,9 +14,9 @@ inline constexpr double kWavelengthPerSigma = 5.336446256636997;
 /// The largest number of iterations that iterations_of_size returns.
 inline constexpr std::uint64_t kMaxLevel = 1'000'000'000;
 
-/// The number of iterations whose filter size is nearest to `size`, for a mesh with this edge
-/// length. L iterations act like a Gaussian of σ = h·√(L/2) (lazy: h·√L/2) with h = edge_length; it
-/// halves the amplitude of waves of length kWavelengthPerSigma·σ.
+/// The number of iterations whose filter size is nearest to `size`, for a mesh with the given edge
+/// length. L iterations act like a Gaussian of σ = h·√(L/2) (lazy: h·√L/2) with h = edge_length.
+/// The Gaussian halves the amplitude of waves of length kWavelengthPerSigma·σ.
 /// \param size         half-amplitude wavelength.
 /// \param edge_length  in the unit of `size`.
 /// \throws InvalidInput if an argument is not positive or the result exceeds kMaxLevel.
@@ -26,8 +26,8 @@ std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_len
 /// unit of the edge length.
 double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length);
 
-/// The distinct levels round(max_level·(j/steps)²) for j = 0 … steps. They are dense near 0, where
-/// fine detail disappears.
+/// The distinct levels round(max_level·(j/steps)²) for j = 0 … steps. The levels are dense near 0,
+/// where smoothing removes fine detail.
 std::vector<std::uint64_t> levels_dense_at_start(std::uint64_t max_level, int steps);
 
 }  // namespace crowdface

@@ -116,7 +116,7 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
 
 /// The largest error at the sample, for each tested level and each number of directions kept:
 /// #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
-Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sample) {
+Eigen::MatrixXd max_errors(const Directions& directions, const NodeDisplacements& sample) {
   const Index nodes = sample.nodes, levels = directions.functions.rows();
   // Transposed, so that the functions of one level are contiguous.
   const Eigen::MatrixXf functions = directions.functions.transpose().cast<float>();
@@ -159,9 +159,9 @@ Eigen::MatrixXd missed(const Directions& directions, const NodeDisplacements& sa
 }
 
 /// The lowest rank whose largest error is at most the tolerance.
-Index min_rank(const Eigen::MatrixXd& missed, double tolerance) {
+Index min_rank(const Eigen::MatrixXd& max_errors, double tolerance) {
   Index rank = 0;
-  while (rank + 1 < missed.cols() && missed.col(rank).maxCoeff() > tolerance) ++rank;
+  while (rank + 1 < max_errors.cols() && max_errors.col(rank).maxCoeff() > tolerance) ++rank;
   return rank;
 }
 
@@ -197,9 +197,9 @@ Directions principal_directions(const TestedLevels& tested, const NodeDisplaceme
   Directions best;
   for (int round = 0; round < kRounds; ++round) {
     Directions directions = weighted_directions(tested, importance, moments);
-    directions.missed = missed(directions, sample);
-    directions.rank = min_rank(directions.missed, tolerance);
-    const Eigen::MatrixXd distances = directions.missed;
+    directions.max_errors = max_errors(directions, sample);
+    directions.rank = min_rank(directions.max_errors, tolerance);
+    const Eigen::MatrixXd distances = directions.max_errors;
     if (round == 0 || directions.rank < best.rank) best = std::move(directions);
     if (best.rank <= 1) break;
     // Raise the importance of the levels at which the errors are largest.

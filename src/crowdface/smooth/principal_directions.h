@@ -8,8 +8,9 @@
 
 namespace crowdface {
 
-/// The levels at which a basis is tested, and the weights of the nodes there. The levels are 129
-/// levels evenly spaced in √L, the successor of each (so that both parities occur), and the nodes.
+/// The levels at which a basis is tested, and the weights of the nodes at these levels. There are
+/// 129 levels evenly spaced in √L, the successor of each of them (so that both parities occur), and
+/// the nodes.
 struct TestedLevels {
   std::vector<std::uint64_t> levels;
   Eigen::MatrixXd weights;  ///< #levels by #nodes
@@ -29,12 +30,12 @@ struct NodeDisplacements {
 /// reproduce most of them.
 struct Directions {
   Eigen::MatrixXd mixing;       ///< #nodes by #nodes: φ_p(L) = Σ_n w_n(L) mixing(n, p)
-  Eigen::MatrixXd combination;  ///< #nodes by #nodes: c_p = Σ_n combining(n, p) (S_{N_n} x − x)
+  Eigen::MatrixXd combination;  ///< #nodes by #nodes: c_p = Σ_n combination(n, p) (S_{N_n} x − x)
   Eigen::MatrixXd functions;    ///< #levels by #nodes: φ_p at the tested levels
-  /// #levels by #nodes + 1: largest error at the sample if only the first 0, 1, … directions are
-  /// used.
-  Eigen::MatrixXd missed;
-  Index rank = 0;  ///< number of leading directions that meet the tolerance at the sample
+  /// #levels by #nodes + 1: largest error over the sampled vertices if only the first 0, 1, …
+  /// directions are used.
+  Eigen::MatrixXd max_errors;
+  Index rank = 0;  ///< number of leading directions that meet the tolerance
 };
 
 /// Principal components of the sample's trajectories over the tested levels (proper orthogonal

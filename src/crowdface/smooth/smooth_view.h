@@ -13,7 +13,7 @@ namespace crowdface {
 
 class ChebyshevFilter;
 
-/// What `smooth` returns, for positions in somebody else's memory. They are not copied.
+/// Like `smooth` (chebyshev_filter.h), but reads the positions from foreign memory without a copy.
 std::vector<Positions> smooth_view(const ChebyshevFilter& filter,
                                    const Eigen::Ref<const Positions>& positions,
                                    std::span<const std::uint64_t> levels);

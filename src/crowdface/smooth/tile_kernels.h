@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Three values and one of padding, so that a row fills vector registers.
+/// Three values and one unused value, so that a row fills vector registers.
 template <class T>
 struct alignas(4 * sizeof(T)) Row {
   T value[4];
@@ -34,11 +34,10 @@ class RowArray {
   std::size_t size_ = 0;
 };
 
-/// One step of the Chebyshev recurrence, in place, on the rows covered by the runs:
-/// previous ← scale·(mean of the neighbours in `now`) − previous.
-/// With scale 2 this is T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0
-/// it is the first step, W x. Neighbours are added in list order, so that the result's bits depend
-/// only on the values.
+/// One step of the Chebyshev recurrence, in place, on the rows that the runs cover: previous ←
+/// scale·(mean of the neighbours in `now`) − previous. With scale 2 this is T_{k+1}(W) x = 2 W
+/// T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0 it is the first step, W x. Neighbours are
+/// added in list order, so that the result's bits depend only on the values.
 template <class T>
 void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
                      T scale, const Row<T>* now, Row<T>* previous);
@@ -49,7 +48,7 @@ void add_scaled(T factor, const Row<T>* values, std::size_t count, Row<T>* sums)
 
 /// Linear combinations of rows: outputs[o][i] = Σ_n factors[n·output_count + o]·inputs[n][i], added
 /// in the order of n by fused multiply-add.
-/// \param count  rows of each input and output.
+/// \param count  number of rows of each input and output.
 void combine_rows(const Row<float>* const* inputs, std::size_t input_count, const float* factors,
                   std::size_t output_count, std::size_t count, Row<float>* const* outputs);
 

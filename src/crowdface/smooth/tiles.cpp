@@ -41,8 +41,8 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
   return index;
 }
 
-/// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), so that the neighbours of
-/// consecutive rows lie in few short ranges of rows, and then stably by valence.
+/// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), then stably by valence. With
+/// this order, the neighbours of consecutive rows lie in few short ranges of rows.
 void order_within(const Tile& tile, const SmoothingOperator& smoothing,
                   const std::vector<std::uint32_t>& tile_of, std::uint32_t tile_index,
                   std::vector<bool>& seen, std::vector<std::uint32_t>& order) {
@@ -83,7 +83,7 @@ class TileBuilder {
       sort_by_valence(end, vertices_.size());
       number(end);
       add_runs(tile, begin, end);
-      tile.runs_to.push_back(static_cast<std::uint32_t>(tile.runs.size()));
+      tile.run_counts.push_back(static_cast<std::uint32_t>(tile.runs.size()));
       begin = end;
     }
     for (std::size_t l = tile.count; l < vertices_.size(); ++l) {

@@ -19,16 +19,17 @@ struct ValenceRun {
 
 /// A part of the mesh on which several steps of the recurrence run without data from other tiles,
 /// and so within one core's cache. A tile holds its own rows and a halo of neighbour rings. Local
-/// numbers begin with the tile's own rows, then ring 1 (their neighbours outside the tile), ring 2,
-/// … Each step invalidates the outermost valid ring, so with n rings the own rows are correct after
-/// n steps.
+/// rows are numbered in this order: the tile's own rows, ring 1 (the outside neighbours of own
+/// rows), ring 2, … Each step invalidates the outermost valid ring, so with n rings the tile's own
+/// rows are correct after n steps.
 struct Tile {
   std::uint32_t first = 0;          ///< first own row, in the tiling's order
   std::uint32_t count = 0;          ///< number of own rows
   std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of the local rows count, count + 1, …
-  std::vector<ValenceRun> runs;     ///< runs of the rows that move: own rows, ring 1, ring 2, …
-  /// runs_to[r]: number of leading runs that cover the rings up to r.
-  std::vector<std::uint32_t> runs_to;
+  /// runs of the rows that are not fixed: own rows, ring 1, ring 2, …
+  std::vector<ValenceRun> runs;
+  /// run_counts[r]: number of leading runs that cover own rows and rings 1 to r.
+  std::vector<std::uint32_t> run_counts;
   std::vector<std::uint32_t> rings;  ///< neighbour lists (local rows), each in the operator's order
 
   std::uint32_t local_count() const { return count + static_cast<std::uint32_t>(halo.size()); }
@@ -40,7 +41,7 @@ struct Tiling {
   std::vector<std::uint32_t> order;  ///< #V: the vertex of each row
   std::vector<std::uint32_t> row;    ///< #V: the row of each vertex
   std::vector<Tile> tiles;
-  int ring_count = 0;
+  int ring_count = 0;  ///< number of neighbour rings in each tile's halo
 };
 
 /// All vertices ordered along a space-filling curve (Hilbert 1891), so that neighbours in the order

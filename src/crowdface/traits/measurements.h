@@ -17,7 +17,7 @@ namespace crowdface {
 struct TraitLandmark {
   std::string name;         ///< as in landmark files: "eye_inner_left"
   std::string_view symbol;  ///< Farkas' abbreviation: "en"
-  std::string_view where;   ///< description for the user
+  std::string_view where;   ///< description of the position for the user
 };
 /// All landmarks of the measurements.
 const std::vector<TraitLandmark>& trait_landmarks();
@@ -25,32 +25,33 @@ const std::vector<TraitLandmark>& trait_landmarks();
 /// A measurement of a face.
 struct Measurement {
   enum class Kind {
-    kDistance,  ///< between two landmarks, in millimetres
-    kAngle,     ///< at the second of three landmarks, in degrees
+    kDistance,  ///< distance between two landmarks, in millimetres
+    kAngle,     ///< angle at the second of three landmarks, in degrees
     kSlope,     ///< inclination of the line from the first landmark to the second, in degrees
-    kRatio,     ///< of two other measurements
+    kRatio,     ///< ratio of two other measurements
   };
   std::string_view name;    ///< key in configs: "nose_width"
   std::string_view symbol;  ///< "al-al"
   Kind kind;
   std::string_view definition;
-  /// The landmarks of each side, as indices into trait_landmarks(). The value is the mean of the
-  /// sides: two for paired measurements, one for all others; none for a ratio.
+  /// The landmarks of each side, as indices into trait_landmarks(). The value is the mean over the
+  /// sides. Paired measurements have two sides, other measurements one side, ratios none.
   std::vector<std::array<std::size_t, 3>> sides = {};
   std::size_t dividend = 0, divisor = 0;  ///< for a ratio, indices into measurements()
 };
 /// All measurements, in the order of docs/traits.md. A ratio follows its dividend and divisor.
 const std::vector<Measurement>& measurements();
+/// The index of the measurement with this name; nothing if there is none.
 std::optional<std::size_t> find_measurement(std::string_view name);
 
 /// Unit of a measurement, preceded by a space: " mm", " degrees" or empty for a ratio.
 std::string_view unit_of(const Measurement& measurement);
 
-/// The landmarks that a measurement needs, as indices into trait_landmarks(), ascending.
+/// The landmarks that a measurement needs: ascending indices into trait_landmarks().
 std::vector<std::size_t> landmarks_of(const Measurement& measurement);
 
 /// The value of a measurement on a face, in millimetres, degrees or as a ratio. Angles are rounded
-/// to 10⁻⁶ degrees, because the C library's arc functions differ between versions.
+/// to 10⁻⁶ degrees, because arc functions differ between versions of the C library.
 /// \param landmarks  #landmarks by 3, positions in millimetres in the order of trait_landmarks();
 ///                   rows that the measurement does not need may hold anything.
 double measure(const Measurement& measurement, const Positions& landmarks);

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-TraitLimits with_own(const TraitLimits& common, const TraitLimits& own) {
+TraitLimits merge_limits(const TraitLimits& common, const TraitLimits& own) {
   TraitLimits all = own;
   for (const TraitLimit& limit : common) {
     if (std::ranges::find(own, limit.trait, &TraitLimit::trait) == own.end()) all.push_back(limit);

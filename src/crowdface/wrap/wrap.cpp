@@ -34,7 +34,7 @@ std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
                                   const std::vector<WrapLandmark>& landmarks) {
   std::vector<WrapLandmark> result;
   for (const WrapLandmark& landmark : landmarks) {
-    const std::uint32_t row = place_in(skin.vertices, landmark.vertex);
+    const std::uint32_t row = index_in_list(skin.vertices, landmark.vertex);
     if (row == kNoIndex) continue;
     result.push_back(landmark);
     result.back().vertex = row;
@@ -151,7 +151,7 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
   const FoundMirror mirror =
       find_mirror(shape.topology, shape.components, heads.mean, shape.axes.side());
   const ShapeModel both =
-      mirror.share() < kMirroredShare ? heads : with_mirror_images(heads, mirror.map);
+      mirror.partner_fraction() < kMirroredShare ? heads : with_mirror_images(heads, mirror.map);
   ShapeModel of_skin{shape.skin.rows_of(both.mean), {}};
   for (const Positions& mode : both.modes) of_skin.modes.push_back(shape.skin.rows_of(mode));
   return of_skin;
@@ -268,7 +268,7 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   // Landmarks found by shape may be wrong together: all those of the mouth in the crease of the
   // chin. Only a fit without them shows this.
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
-    const std::uint32_t row = place_in(shape.skin.vertices, landmark.vertex);
+    const std::uint32_t row = index_in_list(shape.skin.vertices, landmark.vertex);
     return std::ranges::any_of(doubts, [&](const FeatureAgreement& feature) {
       return feature.is_doubtful() && std::ranges::binary_search(feature.skin, row);
     });
