@@ -98,13 +98,13 @@ class PythonJob {
   std::vector<Displacements> shapes(const std::string& recipe,
                                     const Eigen::Ref<const Positions>& face) {
     if (!shapes_) shapes_.emplace(job_.config, job_.inputs);
-    return shapes_->of_face(face_of(recipe).recipe, as_written(face));
+    return shapes_->of_face(face_of(recipe).recipe, round_to_single(face));
   }
 
   std::vector<PlacedAttachment> attachments(const std::string& recipe,
                                             const Eigen::Ref<const Positions>& positions) {
     if (!attachments_) attachments_.emplace(job_.config, job_.inputs);
-    return attachments_->attachments_of(face_of(recipe), as_written(positions));
+    return attachments_->attachments_of(face_of(recipe), round_to_single(positions));
   }
 
  private:

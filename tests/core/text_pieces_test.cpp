@@ -22,13 +22,14 @@ TextPieces numbered_lines(std::size_t count, std::size_t width) {
 TEST(TextPieces, ItemsStandInTheirOrder) {
   std::string expected;
   for (std::size_t i = 0; i < 5000; ++i) expected += concat(i, ' ');
-  EXPECT_EQ(joined(text_of_items(5000, [](std::size_t i) { return concat(i, ' '); })), expected);
-  EXPECT_EQ(joined(text_of_items(0, [](std::size_t) { return std::string("none"); })), "");
+  EXPECT_EQ(whole_text(text_of_items(5000, [](std::size_t i) { return concat(i, ' '); })),
+            expected);
+  EXPECT_EQ(whole_text(text_of_items(0, [](std::size_t) { return std::string("none"); })), "");
 }
 
 TEST(TextPieces, DigestIsThatOfTheWhole) {
   const TextPieces text = numbered_lines(3000, 100);
-  const std::string whole = joined(text);
+  const std::string whole = whole_text(text);
   EXPECT_EQ(digest_of(text), (FileDigest{whole.size(), hash_bytes(whole)}));
   EXPECT_EQ(digest_of(numbered_lines(0, 1)), (FileDigest{0, hash_bytes("")}));
 }
@@ -38,7 +39,7 @@ TEST(TextPieces, FileHoldsTheWhole) {
   for (const std::size_t count : {0U, 1U, 9000U}) {
     const TextPieces text = numbered_lines(count, 400);
     const FileDigest written = write_file(folder / "file", text);
-    EXPECT_EQ(read_file(folder / "file"), joined(text)) << count;
+    EXPECT_EQ(read_file(folder / "file"), whole_text(text)) << count;
     EXPECT_TRUE(has_content(folder / "file", written)) << count;
   }
 }

@@ -201,7 +201,7 @@ TEST(PlanFile, BandsThatCannotBeAreRefusedWithTheirPlace) {
 }
 
 TEST(PlanFile, TableHasTheFinerBandsLast) {
-  const std::string table = joined(table_text({banded()}, kBandNames));
+  const std::string table = whole_text(table_text({banded()}, kBandNames));
   EXPECT_NE(table.find("group,mixture,top_skin_position_x,top_skin_position_y,top_skin_weights,"
                        "top_skin_smoothness,top_skin_iterations,top_skin_extrapolation,"
                        "low_skin_position_x,"),
@@ -247,7 +247,7 @@ TEST(PlanFile, TableTellsWhoAFaceIs) {
   names.attachments = {"cap", "bun"};
   const TableFacts facts{{{}, {"male", "old"}, {"female"}}, {"hat", "hair"}};
   const std::vector<FacePlan> crowd = {mother, child, stranger};
-  const std::string table = joined(table_text(crowd, names, kNoNeckColours, facts));
+  const std::string table = whole_text(table_text(crowd, names, kNoNeckColours, facts));
   EXPECT_NE(table.find(",mixture,attachments,family_role,age,sex,tags,hair\r\n"), table.npos)
       << table;
   EXPECT_NE(table.find("mob_smith_mother,7,smith,"), table.npos) << table;
@@ -261,7 +261,7 @@ TEST(PlanFile, TableSaysTheSame) {
   by_hand.id = "mine";
   by_hand.index.reset();
   by_hand.notes.nearest.reset();
-  EXPECT_EQ(joined(table_text({example(), by_hand}, kNames)),
+  EXPECT_EQ(whole_text(table_text({example(), by_hand}, kNames)),
             "id,index,family,target,top_position_x,top_position_y,top_weights,top_smoothness,"
             "top_iterations,top_extrapolation,low_position_x,low_position_y,low_weights,"
             "low_smoothness,low_iterations,low_extrapolation,nearest_face,nearest_face_mm,"

@@ -213,7 +213,7 @@ TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
     EXPECT_EQ(found.level.topology.corner_vertices, made.level.topology.corner_vertices);
     EXPECT_EQ(found.level.topology.face_offsets, made.level.topology.face_offsets);
     EXPECT_EQ(found.level.faces, made.level.faces);
-    EXPECT_EQ(found.heads.most, made.heads.most);
+    EXPECT_EQ(found.heads.max, made.heads.max);
     EXPECT_EQ(found.heads.root_mean_square, made.heads.root_mean_square);
   };
   expect_same(level());

@@ -94,7 +94,7 @@ TEST(ReadObjBeside, TellsAllButTheMesh) {
   const TemporaryFolder folder;
   const auto path = folder.write("head.obj", kMeshText);
   const ObjFile whole = read_obj(path);
-  const ObjFile beside = read_obj_beside(path, MappedFile(path), outline_obj(kMeshText));
+  const ObjFile beside = read_obj_of_same_mesh(path, MappedFile(path), outline_obj(kMeshText));
   EXPECT_EQ(beside.positions, whole.positions);
   EXPECT_EQ(beside.material_libraries, whole.material_libraries);
   ASSERT_EQ(beside.groups.size(), whole.groups.size());

@@ -69,7 +69,7 @@ TEST_F(CheckedWrap, RightLandmarksGiveFeaturesThatAgree) {
     EXPECT_GT(feature.agreement, 0.75) << feature.name;
   }
   EXPECT_TRUE(wrap_doubts(shape_, result).empty());
-  EXPECT_TRUE(result.dropped.empty());
+  EXPECT_TRUE(result.dropped_landmarks.empty());
 }
 
 TEST_F(CheckedWrap, FoundLandmarksThatPutTheMouthOnTheChinAreDropped) {
@@ -78,7 +78,7 @@ TEST_F(CheckedWrap, FoundLandmarksThatPutTheMouthOnTheChinAreDropped) {
   EXPECT_GT(lips_off(trusted), 5) << "the landmarks mislead the wrap";
   const WrapResult result = wrapped();
   EXPECT_LT(lips_off(result), lips_off(trusted) - 1);
-  EXPECT_THAT(result.dropped, Contains("lip_lower"));
+  EXPECT_THAT(result.dropped_landmarks, Contains("lip_lower"));
   EXPECT_GT(agreement(result, "mouth"), 0.75);
   EXPECT_TRUE(wrap_doubts(shape_, result).empty());
 }
@@ -87,7 +87,7 @@ TEST_F(CheckedWrap, PickedLandmarksStayAndTheWrongMouthIsNamed) {
   move_mouth(false);
   const WrapResult result = wrapped();
   EXPECT_GT(lips_off(result), 5);
-  EXPECT_TRUE(result.dropped.empty());
+  EXPECT_TRUE(result.dropped_landmarks.empty());
   EXPECT_LT(agreement(result, "mouth"), kDoubtfulAgreement);
   EXPECT_THAT(wrap_doubts(shape_, result), Contains(HasSubstr("the mouth is doubtful")));
 }

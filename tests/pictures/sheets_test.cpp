@@ -104,7 +104,8 @@ TEST(LikenessFile, ReadsBackWhatWasWritten) {
   const PlanNames names{{"ann", "bob"}, {"all"}};
   const std::vector<std::string> ids = {"a", "b", "c"};
   const CrowdLikeness likeness{{{0, 1}, {-0.25, 0.5}}, three_likeness()};
-  const fs::path path = folder.write("likeness.json", joined(likeness_text(likeness, names, ids)));
+  const fs::path path =
+      folder.write("likeness.json", whole_text(likeness_text(likeness, names, ids)));
   const CrowdLikeness read = read_likeness(path, names, ids);
   EXPECT_EQ(read.anchors[1], likeness.anchors[1]);
   EXPECT_EQ(read.likeness.order, likeness.likeness.order);

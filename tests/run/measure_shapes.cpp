@@ -223,7 +223,7 @@ int main(int argc, char** argv) try {
     const Recipe* recipe = &crowd_plan.crowd[f].recipe;
     Positions face;
     builder.build({&recipe, 1}, {&face, 1});
-    face = as_written(face);
+    face = round_to_single(face);
     const std::vector<TrianglePair> at_rest = crossings.of(face);
     at_rest_in_all += crossings.all(at_rest);
     const std::vector<Displacements> carried_shapes = shapes.of_face(*recipe, face);

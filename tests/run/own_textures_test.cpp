@@ -388,7 +388,7 @@ TEST_F(OwnMaps, AreNeverBlurredByJpegAndCanAllBeExr) {
   EXPECT_TRUE(fs::exists(meshes() / "blended/mob_0001.normal.png"));
   run(folder_, {"textures.formats=[exr]"}, Replace::kForce);
   const Image colour = read_image(meshes() / "blended/mob_0001.exr");
-  EXPECT_TRUE(colour.of_floats());
+  EXPECT_TRUE(colour.has_floats());
   const Image normals = read_image(meshes() / "blended/mob_0001.normal.exr");
   EXPECT_GT(normals.at(4, 4, 2), 0.9F);
   EXPECT_THAT(read_text(meshes() / "mob_0001.mtl"), HasSubstr("norm blended/mob_0001.normal.exr"));

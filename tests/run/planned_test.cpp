@@ -77,7 +77,7 @@ TEST_F(Planned, FacesReadBackAreThoseThatWereCast) {
     both.push_back(first->faces[i]);
     if (i < second->faces.size()) both.push_back(second->faces[i]);
   }
-  EXPECT_EQ(joined(annotated_plan_text(both, job.names, job.settings, table_facts(job.config))),
+  EXPECT_EQ(whole_text(annotated_plan_text(both, job.names, job.settings, table_facts(job.config))),
             testing::read_text(folder_.out() / "plan.jsonl"));
 }
 

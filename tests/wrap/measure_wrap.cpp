@@ -164,7 +164,7 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
     for (const FeatureAgreement& feature : result.features) {
       m.notes += concat(" ", feature.name, " ", format_fixed(feature.agreement, 2));
     }
-    m.notes += concat(", dropped ", result.dropped.size(), "\n");
+    m.notes += concat(", dropped ", result.dropped_landmarks.size(), "\n");
     const SkinRegions named = face_regions(shape);
     for (const std::string& warning : wrap_warnings(shape, result, named, 0)) {
       m.notes += concat("  warning: ", warning, "\n");
@@ -183,7 +183,7 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
     if (regions.face[i]) m.face.push_back(error);
     if (regions.eyes[i]) m.eyes.push_back(error);
     if (regions.lips[i]) m.lips.push_back(error);
-    if (regions.skin[i] && !result.without_data[i]) {
+    if (regions.skin[i] && !result.lacks_data[i]) {
       m.surface.push_back(result.distance_mm(static_cast<Index>(i)));
     }
   }

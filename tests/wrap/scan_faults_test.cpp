@@ -28,7 +28,7 @@ class ScanFaults : public ::testing::Test {
     result_.positions = shape_.positions;
     const auto count = shape_.skin.vertices.size();
     result_.distance_mm = Eigen::VectorXd::Zero(static_cast<Index>(count));
-    result_.without_data.assign(count, false);
+    result_.lacks_data.assign(count, false);
     regions_.names = {"brow", "nose", "mouth"};
     for (const std::uint32_t v : shape_.skin.vertices) {
       const double above_eyes = shape_.positions(v, 1) - ball().centre.y();

@@ -209,7 +209,7 @@ TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
   const WrapResult result = wrap(shape, nullptr, scan, landmarks, std::nullopt);
   double missed = 0, count = 0;
   for (std::size_t v = 0; v < shape.skin.vertices.size(); ++v) {
-    if (shape.skin.openness[v] < 0.3 || result.without_data[v]) continue;
+    if (shape.skin.openness[v] < 0.3 || result.lacks_data[v]) continue;
     missed += std::pow(result.distance_mm(static_cast<Index>(v)), 2);
     ++count;
   }

@@ -142,7 +142,7 @@ Eigen::Vector3d ScanBake::template_density(std::size_t picture, const Eigen::Vec
                                            const Eigen::Vector2d& down) const {
   const FilteredTexture* texture = target_.texture(picture);
   if (texture == nullptr) return Eigen::Vector3d::Zero();
-  return density_of(texture->at(uv, across, down));
+  return density_of(texture->mean_at(uv, across, down));
 }
 
 std::vector<double> ScanBake::measure_vertices(Positions& densities) const {

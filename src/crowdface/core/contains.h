@@ -6,6 +6,7 @@
 
 namespace crowdface {
 
+/// Whether a range contains a value.
 template <std::ranges::input_range Range, class Value>
 bool contains(const Range& range, const Value& value) {
   return std::ranges::find(range, value) != std::ranges::end(range);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linear algebra that sums in a fixed order, so that results are the same bit for bit with every
-// compiler and instruction set. A library's products are summed in an order that depends on the
-// machine.
+// compiler and instruction set. Libraries sum products in an order that depends on the machine.
 #pragma once
 
 #include <cmath>
@@ -17,7 +16,7 @@ inline double fixed_dot(std::span<const double> a, std::span<const double> b) {
   return sum;
 }
 
-/// to ← to − factor·from.
+/// Subtracts in place: to ← to − factor·from.
 inline void subtract_scaled(double factor, std::span<const double> from, std::span<double> to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] -= factor * from[i];
 }
@@ -58,7 +57,7 @@ Matrix cholesky(Matrix a, std::size_t n) {
   return a;
 }
 
-/// L⁻¹ b by forward substitution, for the first n rows.
+/// Solves L x = b by forward substitution, for the first n rows.
 template <class Matrix, class Vector>
 Vector solve_lower(const Matrix& lower, Vector b, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {

@@ -10,8 +10,8 @@ namespace crowdface {
 /// Maximum sizes of inputs. A larger input is rejected before its memory is allocated, so that a
 /// hostile or broken file causes an error message instead of exhausting the machine.
 struct InputLimits {
-  std::uint64_t vertices = 1ULL << 26U;      ///< per mesh
-  std::uint64_t faces = 1ULL << 26U;         ///< per mesh
+  std::uint64_t vertices = 1ULL << 26U;      ///< number of vertices of a mesh
+  std::uint64_t faces = 1ULL << 26U;         ///< number of polygons of a mesh
   std::uint64_t image_pixels = 1ULL << 28U;  ///< width times height of a mask or texture
   std::uint64_t image_bytes = 1ULL << 32U;   ///< memory for the pixels of all images together
   std::uint64_t textures = 1000;             ///< textures in the material files of one head

@@ -24,7 +24,7 @@ constexpr timespec kGrace = {0, 700'000'000};  ///< 0.7 s
 timer_t grace_timer;
 const int kGraceSignal = SIGRTMIN;
 
-/// Ends the program as a kill would: files under their final names are complete.
+/// Ends the program immediately, like SIGKILL; files under their final names are complete.
 extern "C" void end_program(int) {
   for (const char* text : {"error: ", kMessage, "\n"}) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));

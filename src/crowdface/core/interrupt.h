@@ -9,11 +9,11 @@ namespace crowdface {
 /// stay ignored. For programs only; uses SIGRTMIN.
 void catch_interrupts();
 
-/// Whether one of these signals has arrived.
+/// Whether a signal of catch_interrupts has arrived or work is cancelled (cancel.h).
 bool interrupted();
 
-/// \throws Interrupted if one of these signals has arrived. Long loops call it between units of
-/// work.
+/// Long loops call this function between units of work. \throws Interrupted if `interrupted` is
+/// true.
 void throw_if_interrupted();
 
 }  // namespace crowdface

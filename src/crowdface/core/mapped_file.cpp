@@ -36,7 +36,7 @@ struct Watch {
   std::array<char, 512> message = {};
 };
 
-// More entries than a process has open files. Further mappings are not watched.
+// More entries than a process has open files. Mappings beyond this number are not watched.
 std::array<Watch, 4096> watches;
 std::atomic<bool> watching = false;
 

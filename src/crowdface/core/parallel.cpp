@@ -138,8 +138,8 @@ void detail::run_items(std::ptrdiff_t count, const std::function<void(std::ptrdi
 }
 
 struct BackgroundTasks::Group {
-  // The closures. Kept here and not in TBB's tasks, so that ThreadSanitizer sees how threads
-  // receive them.
+  // The closures. This list holds them instead of TBB's tasks, so that ThreadSanitizer sees how
+  // threads receive the closures.
   std::deque<std::function<void()>> pending;
   tbb::task_group tasks;
   LoopItems items;

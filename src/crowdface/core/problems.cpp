@@ -9,7 +9,7 @@
 namespace crowdface {
 
 void Problems::add(ExitCode kind, std::string message) {
-  // The same error can be found in two ways.
+  // Two checks may find the same error.
   if (contains(messages_, message)) return;
   messages_.push_back(std::move(message));
   kinds_.push_back(kind);

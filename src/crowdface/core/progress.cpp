@@ -84,7 +84,7 @@ void Progress::step(std::size_t amount) {
   tell_listener(stage_, done, total_);
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock.owns_lock() || done >= total_) return;
-  rate_.note(clock_(), done);
+  rate_.record(clock_(), done);
   show(done);
 }
 

@@ -19,7 +19,7 @@ struct RandomKey {
 };
 
 /// Two independent numbers in [0, 1), multiples of 2⁻⁵³.
-/// \param lane  which pair of this key; < 2¹⁶.
+/// \param lane  number of the pair for this key; < 2¹⁶.
 std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane = 0);
 
 /// The first number of `random_pair`.
@@ -28,9 +28,8 @@ double random_unit(const RandomKey& key, std::uint32_t lane = 0);
 /// A uniform number in [low, high).
 double random_between(const RandomKey& key, double low, double high);
 
-/// A uniform number in [0, 1), stratified over successive indices: in each run of `strata` indices
-/// that starts at a multiple of `strata`, every index falls into a different one of `strata` equal
-/// intervals.
+/// A uniform number in [0, 1), stratified over successive indices: each run of `strata` indices
+/// that starts at a multiple of `strata` has one number in each of `strata` equal intervals.
 double random_stratified(const RandomKey& key, std::uint64_t strata);
 
 /// An approximately standard normal number: the sum of twelve uniform numbers minus 6, hence in

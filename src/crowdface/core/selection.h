@@ -8,11 +8,11 @@
 
 namespace crowdface {
 
-/// At most `most` of the items in `all`, evenly spaced, in their original order.
+/// At most `max_count` of the items in `all`, evenly spaced, in their original order.
 template <class Items>
 std::vector<std::ranges::range_value_t<Items>> evenly_spaced_items(const Items& all,
-                                                                   std::size_t most) {
-  const std::size_t count = std::min(all.size(), most);
+                                                                   std::size_t max_count) {
+  const std::size_t count = std::min(all.size(), max_count);
   std::vector<std::ranges::range_value_t<Items>> some;
   some.reserve(count);
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);

@@ -3,8 +3,8 @@
 
 namespace crowdface {
 
-void StepRate::note(double seconds, std::size_t done) {
-  // Closer samples are not kept, so that millions of steps need little memory.
+void StepRate::record(double seconds, std::size_t done) {
+  // Smallest time between stored samples, so that millions of steps need little memory.
   constexpr double kBetween = 0.05;
   if (samples_.empty()) {
     first_seconds_ = seconds;

@@ -17,7 +17,7 @@ class StepRate {
   explicit StepRate(std::size_t burst = 1) : burst_(burst) {}
 
   /// Records the number of finished steps. \param seconds  time of the call; never decreases.
-  void note(double seconds, std::size_t done);
+  void record(double seconds, std::size_t done);
   /// Returns the steps per second; nothing before the first step of the second burst.
   std::optional<double> rate() const;
 

@@ -23,7 +23,7 @@ TextPieces text_of_items(std::size_t count, std::function<std::string(std::size_
   };
 }
 
-std::string joined(const TextPieces& text) {
+std::string whole_text(const TextPieces& text) {
   std::string whole;
   text([&](std::string_view piece) { whole += piece; });
   return whole;
@@ -42,7 +42,7 @@ FileDigest digest_of(const TextPieces& text) {
 
 void read_lines(const std::filesystem::path& path,
                 const std::function<void(std::string_view line, bool ended)>& use) {
-  std::string begun;  // start of a line that continues in the next piece
+  std::string begun;  // the start of a line that continues in the next piece
   read_pieces(path, [&](std::string_view piece) {
     for (std::size_t end = 0; (end = piece.find('\n')) != piece.npos;
          piece.remove_prefix(end + 1)) {

@@ -15,14 +15,15 @@ namespace crowdface {
 
 using TakePiece = std::function<void(std::string_view)>;
 /// A function that passes the pieces of a text to `take`, the same text at every call. Everything
-/// the function refers to must outlive it.
+/// to which the function refers must outlive the function.
 using TextPieces = std::function<void(const TakePiece& take)>;
 
 /// The concatenated texts of items 0 … count − 1. Several threads call `item`. The returned
 /// function throws Interrupted after a signal.
 TextPieces text_of_items(std::size_t count, std::function<std::string(std::size_t)> item);
 
-std::string joined(const TextPieces& text);
+/// The whole text in memory.
+std::string whole_text(const TextPieces& text);
 /// Size and hash of the text.
 FileDigest digest_of(const TextPieces& text);
 /// Like `write_file` of the whole text. \return size and hash of the file.

@@ -23,6 +23,7 @@ inline constexpr LengthUnit LengthUnit::kInch{25.4};
 inline constexpr std::array kLengthUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
                                             LengthUnit::kMetre, LengthUnit::kInch};
 
+/// Millimetres in one unit.
 inline double mm_per(LengthUnit unit) {
   return unit.mm;
 }

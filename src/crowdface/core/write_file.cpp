@@ -60,7 +60,7 @@ class TemporaryFile {
       file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
       if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or a file of another machine
       if (!file_.valid()) throw_with_reason<CannotCreate>(target, "cannot be created");
-      if (still_there()) return;
+      if (is_still_own_file()) return;
     }
     throw CannotCreate(
         concat(target.string(), ": cannot be created: every temporary file name is taken"));
@@ -71,42 +71,43 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  /// Writes the bytes. After every 8 MiB, starts writing them back to disk, so that `finish` has
-  /// less to wait for.
+  /// Writes the bytes. After every 8 MiB, starts to write the bytes back to disk, so that `finish`
+  /// waits for less.
   void write(std::string_view bytes) {
     while (!bytes.empty()) {
-      const std::string_view some = bytes.substr(0, kAtATime);
+      const std::string_view some = bytes.substr(0, kWritebackSize);
       if (!write_all(file_.get(), some)) fail("writing");
       written_ += some.size();
       bytes.remove_prefix(some.size());
-      if (written_ - on_their_way_ >= kAtATime) start_writing_back();
+      if (written_ - bytes_in_writeback_ >= kWritebackSize) start_writing_back();
     }
   }
 
   /// Asynchronous; `finish` reports errors.
   void start_writing_back() {
-    ::sync_file_range(file_.get(), static_cast<off_t>(on_their_way_), 0, SYNC_FILE_RANGE_WRITE);
-    on_their_way_ = written_;
+    ::sync_file_range(file_.get(), static_cast<off_t>(bytes_in_writeback_), 0,
+                      SYNC_FILE_RANGE_WRITE);
+    bytes_in_writeback_ = written_;
   }
 
   /// Syncs and closes the file.
   void finish() {
     if (!sync(file_.get())) fail("writing to disk");
     // Large new files should not displace other data from the page cache.
-    if (written_ >= kAtATime) ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);
+    if (written_ >= kWritebackSize) ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);
     lock_ = Descriptor(::dup(file_.get()));  // keeps the lock after the file is closed
     if (!file_.close()) fail("closing");
   }
 
   /// Renames the finished file to its target.
-  void take_name() {
+  void rename_to_target() {
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail("renaming into place");
     path_.clear();
   }
 
  private:
-  /// Locks the file. False if remove_leftovers has locked or removed it before.
-  bool still_there() const {
+  /// Locks the file. Returns false if remove_leftovers locked or removed the file first.
+  bool is_still_own_file() const {
     if (claim(file_.get()) == Claim::kTaken) return false;
     struct stat status {};
     if (::fstat(file_.get(), &status) == 0) return status.st_nlink > 0;
@@ -119,13 +120,13 @@ class TemporaryFile {
     throw_with_reason<IoError>(target_, concat(what, " failed"));
   }
 
-  static constexpr std::size_t kAtATime = std::size_t{8} << 20U;
+  static constexpr std::size_t kWritebackSize = std::size_t{8} << 20U;
 
   const fs::path& target_;
   fs::path path_;
   Descriptor file_{-1}, lock_{-1};
   std::size_t written_ = 0;
-  std::size_t on_their_way_ = 0;  ///< bytes for which writing back to disk has started
+  std::size_t bytes_in_writeback_ = 0;  ///< bytes for which writing back to disk has started
 };
 
 fs::path folder_of(const fs::path& file) {
@@ -154,7 +155,7 @@ void write_files(std::span<const FileToWrite> files) {
     folders.insert(folder_of(file.path));
   }
   for (TemporaryFile& temporary : written) temporary.finish();
-  for (TemporaryFile& temporary : written) temporary.take_name();
+  for (TemporaryFile& temporary : written) temporary.rename_to_target();
   for (const fs::path& folder : folders) sync_directory(folder);
 }
 
@@ -178,7 +179,7 @@ FileDigest write_file(const fs::path& path, const TextPieces& text) {
   });
   file.write(pending);
   file.finish();
-  file.take_name();
+  file.rename_to_target();
   sync_directory(folder_of(path));
   return content;
 }

@@ -241,8 +241,8 @@ HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) {
         const ImageSize& file = sizes.at(found.heads[h].files[row].path);
         channels = std::max(channels, file.channels);
-        name.of_bytes = name.of_bytes && file.of_bytes;
-        name.of_floats = name.of_floats || file.of_floats;
+        name.of_bytes = name.of_bytes && file.has_bytes;
+        name.of_floats = name.of_floats || file.has_floats;
       }
     }
     const auto& first = found.heads[pictures[p].head].files[pictures[p].row].path;

@@ -55,13 +55,13 @@ LightRows light_of(const Image& image) {
       for (int c = 0; c < 3; ++c) {
         const float value = image.at(x, y, grey ? 0 : c);
         texels[static_cast<std::size_t>(x)][c] =
-            image.of_floats() ? std::max(value, 0.0F)
-                              : table[static_cast<std::size_t>(std::lround(65535.0F * value))];
+            image.has_floats() ? std::max(value, 0.0F)
+                               : table[static_cast<std::size_t>(std::lround(65535.0F * value))];
       }
     }
   };
   LightRows light = {image.width, image.height, row};
-  if (!image.of_floats()) {
+  if (!image.has_floats()) {
     light.densities = [&image](int y, const std::array<Density*, 3>& planes) {
       if (const auto* bytes = std::get_if<1>(&image.pixels)) {
         write_densities(image, *bytes, 257, y, planes);

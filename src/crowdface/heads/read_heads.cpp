@@ -247,7 +247,7 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   if (shelf.is_first(reading.outline.mesh)) {
     read_with_mesh(reading, shelf);
   } else {
-    head.file = read_obj_beside(path, std::move(head.file.file), reading.outline);
+    head.file = read_obj_of_same_mesh(path, std::move(head.file.file), reading.outline);
     head.mesh = nullptr;
   }
   return reading;

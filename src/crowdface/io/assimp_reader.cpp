@@ -101,10 +101,11 @@ std::optional<TextureKind> kind_of_property(std::string_view property) {
 }
 
 /// Adds a texture unless the material has one of this kind. For external textures, stores only the
-/// file names in `beside`, not the bytes.
+/// file names in `external_textures`, not the bytes.
 /// \return  whether the texture is the material's texture of this kind.
 bool add_texture(const aiScene& scene, const std::string& material, TextureKind kind,
-                 const aiString& name, FileMesh& mesh, std::vector<std::string>& beside) {
+                 const aiString& name, FileMesh& mesh,
+                 std::vector<std::string>& external_textures) {
   const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
   // A height of 0 means a compressed image file.
   const bool is_inside = texture != nullptr && texture->mHeight == 0;
@@ -116,14 +117,15 @@ bool add_texture(const aiScene& scene, const std::string& material, TextureKind 
   for (std::size_t t = 0; t < mesh.textures.size(); ++t) {
     const MeshTexture& known = mesh.textures[t];
     if (known.material != material || known.kind != kind) continue;
-    return known.bytes == added.bytes && beside[t] == file;
+    return known.bytes == added.bytes && external_textures[t] == file;
   }
-  beside.push_back(file);
+  external_textures.push_back(file);
   mesh.textures.push_back(std::move(added));
   return true;
 }
 
-void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::string>& beside) {
+void collect_textures(const aiScene& scene, FileMesh& mesh,
+                      std::vector<std::string>& external_textures) {
   constexpr std::string_view kPrefix = "$raw.", kSuffix = "|file";
   std::set<std::string> unused;
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
@@ -141,7 +143,7 @@ void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::str
       key.remove_prefix(kPrefix.size());
       key.remove_suffix(kSuffix.size());
       const auto kind = kind_of_property(key);
-      if (!kind || !add_texture(scene, material_name, *kind, name, mesh, beside)) {
+      if (!kind || !add_texture(scene, material_name, *kind, name, mesh, external_textures)) {
         unused.emplace(key.substr(key.rfind('|') + 1));
       }
     }
@@ -150,7 +152,7 @@ void collect_textures(const aiScene& scene, FileMesh& mesh, std::vector<std::str
                                      std::pair(aiTextureType_NORMALS, TextureKind::kNormal)}) {
       aiString name;
       if (material.GetTexture(type, 0, &name) != aiReturn_SUCCESS) continue;
-      add_texture(scene, material_name, kind, name, mesh, beside);
+      add_texture(scene, material_name, kind, name, mesh, external_textures);
     }
   }
   if (unused.empty()) return;
@@ -170,7 +172,7 @@ void note_shapes(const aiScene& scene, FileMesh& mesh) {
   if (!shapes.empty()) mesh.notes.push_back(note_of_shapes(shapes.size(), "blend shapes"));
 }
 
-void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& beside) {
+void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& external_textures) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
@@ -190,7 +192,7 @@ void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& besi
     mesh.topology.corner_uvs.clear();
     mesh.uvs.resize(0, 2);
   }
-  collect_textures(*scene, mesh, beside);
+  collect_textures(*scene, mesh, external_textures);
   note_shapes(*scene, mesh);
 }
 
@@ -198,10 +200,10 @@ void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& besi
 }  // namespace crowdface
 
 extern "C" __attribute__((visibility("default"))) bool crowdface_read_fbx(
-    std::string_view bytes, crowdface::FileMesh& mesh, std::vector<std::string>& beside,
+    std::string_view bytes, crowdface::FileMesh& mesh, std::vector<std::string>& external_textures,
     std::string& error) {
   try {
-    crowdface::read(bytes, mesh, beside);
+    crowdface::read(bytes, mesh, external_textures);
     return true;
   } catch (const std::exception& failure) {
     error = failure.what();

@@ -22,15 +22,15 @@ FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
                               "binary FBX, or do not embed media"));
   }
   FileMesh mesh;
-  std::vector<std::string> beside;
+  std::vector<std::string> external_textures;
   std::string error;
-  if (!read(bytes, mesh, beside, error)) {
+  if (!read(bytes, mesh, external_textures, error)) {
     throw InvalidInput(concat(
         path.string(),
         ": expected an FBX file that Assimp reads (FBX 2011 or later), found another: ", error,
         "; export it again, or as OBJ or GLB"));
   }
-  read_texture_files(std::move(beside), path, mesh);
+  read_texture_files(std::move(external_textures), path, mesh);
   return mesh;
 }
 

@@ -19,19 +19,19 @@ struct GlbMaterial {
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
   /// Index of the base colour image, multiplied by `colour`.
   std::optional<std::size_t> image = {};
-  bool overlay = false;  ///< base colour comes from the overlay image, opaque
+  bool overlay = false;  ///< whether the base colour comes from the overlay image, opaque
   std::optional<std::size_t> normal_image = {};  ///< index of the tangent-space normal map
   /// Index of the roughness map; roughness is in the green channel.
   std::optional<std::size_t> roughness_image = {};
 };
 
 /// An image that all files share, such as an iris, with texture coordinates for each vertex. Files
-/// without embedded images refer to `kFile`.
+/// that do not embed images refer to the image file `kFile`.
 struct GlbOverlay {
   static constexpr const char* kFile = "topology/iris.png";
 
   std::string png;
-  /// #V texture coordinates; 65535 is the right or lower edge
+  /// #V: texture coordinates of each vertex; 65535 is the right or lower edge
   std::vector<std::array<std::uint16_t, 2>> places;
 };
 
@@ -54,18 +54,18 @@ struct GlbOptions {
   /// Front axis of the positions; the node rotates it to +Z, glTF's front.
   Axis front = {2, 1};
   std::vector<GlbMaterial> materials;
-  bool colours = false;  ///< each file has its own vertex colours
-  /// #F indices into `materials`; empty: no materials
+  bool colours = false;  ///< whether each file has its own vertex colours
+  /// #F: the material of each face, as index into `materials`; empty if there are no materials
   std::vector<std::uint32_t> face_materials;
   std::vector<GlbTarget> targets;
-  /// Names of child nodes of the face's node; positions differ per face.
+  /// Names of the points: child nodes of the face's node, whose positions differ per face.
   std::vector<std::string> points;
   GlbSkin skin;  ///< joints under the face's node; positions differ per face
   std::vector<std::uint32_t> vertex_ids;  ///< #V values of `_VERTEX_ID`; empty: 0, 1, 2, …
   std::vector<GlbOwnImage> images;        ///< the images embedded in every file
   std::optional<GlbOverlay> overlay = {};
   /// Folder relative to which files without embedded images refer to `GlbOverlay::kFile`.
-  std::string shared = ".";
+  std::string shared_folder = ".";
 };
 
 }  // namespace crowdface

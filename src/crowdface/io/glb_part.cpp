@@ -34,7 +34,7 @@ void add_targets(std::span<const Displacements> moves, std::span<const std::uint
                  Index vertex_count, Json& scene, GlbBuffer& buffer) {
   for (const Displacements& target : moves) {
     const GlbTargetRows moved = target_rows(target.vertices, split, vertex_count);
-    const auto [least, most] = target_bounds(target, moved.whole);
+    const auto [least, most] = target_bounds(target, moved.moves_all_vertices);
     buffer.add_zeros(split.size());
     scene["accessors"].back()["min"] = vector_json(least);
     scene["accessors"].back()["max"] = vector_json(most);

@@ -140,7 +140,7 @@ GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
   std::vector<std::uint32_t> row_of(static_cast<std::size_t>(count), kNoIndex);
   for (std::uint32_t row = 0; row < vertices.size(); ++row) row_of[vertices[row]] = row;
   GlbTargetRows rows;
-  rows.whole = vertices.size() == row_of.size();
+  rows.moves_all_vertices = vertices.size() == row_of.size();
   for (std::uint32_t i = 0; i < split.size(); ++i) {
     if (row_of[split[i]] == kNoIndex) continue;
     rows.rows.push_back(row_of[split[i]]);
@@ -150,12 +150,12 @@ GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
 }
 
 std::pair<Eigen::RowVector3d, Eigen::RowVector3d> target_bounds(const Displacements& moves,
-                                                                bool whole) {
+                                                                bool moves_all_vertices) {
   Eigen::RowVector3d least = Eigen::RowVector3d::Zero(), most = least;
   if (moves.moves.rows() == 0) return {least, most};
   least = moves.moves.colwise().minCoeff();
   most = moves.moves.colwise().maxCoeff();
-  if (whole) return {least, most};
+  if (moves_all_vertices) return {least, most};
   return {least.cwiseMin(0), most.cwiseMax(0)};
 }
 

@@ -20,7 +20,7 @@ namespace crowdface {
 /// A JSON array of the components in single precision.
 nlohmann::ordered_json vector_json(const Eigen::RowVector3d& vector);
 
-/// \param overlay  index of the overlay among the file's images.
+/// The glTF description of a material. \param overlay index of the overlay among the file's images.
 nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay);
 
 /// The root node of a face, without a name: converts unit and axes. With a rig this node belongs to
@@ -46,14 +46,15 @@ class GlbBuffer {
 
   std::size_t size() const { return size_; }
 
-  /// \return index of the new buffer view.
+  /// Adds a buffer view at the end. \return index of the new buffer view.
   std::size_t add_view(std::size_t size, int target = 0);
 
   /// Aligns the start of the next view to four bytes.
   /// \return number of padding bytes.
   std::size_t pad();
 
-  /// \param offset  bytes from the start of the last view.
+  /// Adds an accessor to the last buffer view.
+  /// \param offset  bytes from the start of the view.
   /// \return index of the new accessor.
   std::size_t add_accessor(int component, const char* type, std::size_t count,
                            std::size_t offset = 0);
@@ -61,7 +62,7 @@ class GlbBuffer {
   /// Adds an accessor of `count` zero vectors.
   void add_zeros(std::size_t count);
   /// Makes the last accessor sparse, with `some` non-zero elements.
-  /// \param indices, values  indices of the views that hold them.
+  /// \param indices, values  the buffer views that hold the elements' indices and values.
   void make_sparse(std::size_t some, std::size_t indices, std::size_t values);
 
   /// Writes the buffer's length to the scene.
@@ -72,7 +73,7 @@ class GlbBuffer {
   std::size_t size_;
 };
 
-/// Two numbers for each split vertex.
+/// The texture coordinates of all split vertices, as bytes: two numbers for each vertex.
 /// \param uvs  v upwards as in OBJ.
 std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
 
@@ -80,17 +81,20 @@ std::string texture_coordinates(const SplitVertices& split, const TextureCoordin
 struct GlbTargetRows {
   std::vector<std::uint32_t> rows;      ///< indices into the target's displacements
   std::vector<std::uint32_t> vertices;  ///< #rows split vertices, ascending
-  bool whole = false;                   ///< the target moves every vertex of the mesh
+  /// whether the target moves every vertex of the mesh
+  bool moves_all_vertices = false;
 };
 
+/// Finds the split vertices that a target moves.
 /// \param vertices  original vertices that the target moves
 /// \param split  original vertex of each split vertex
 /// \param count  number of original vertices
 GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
                           std::span<const std::uint32_t> split, Index count);
 
-/// Minimum and maximum of a target's displacements, including zero unless `whole`.
+/// Minimum and maximum of a target's displacements. They include zero unless the target moves all
+/// vertices.
 std::pair<Eigen::RowVector3d, Eigen::RowVector3d> target_bounds(const Displacements& moves,
-                                                                bool whole);
+                                                                bool moves_all_vertices);
 
 }  // namespace crowdface

@@ -43,7 +43,7 @@ struct GlbSkinAttribute {
 };
 /// Builds as many pairs of JOINTS_n and WEIGHTS_n (four influences each) as the vertex with the
 /// most influences needs.
-/// \param vertices  for each vertex of the file the row of `influences`
+/// \param vertices  #vertices of the file: the row of `influences` of each vertex
 std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices);
 

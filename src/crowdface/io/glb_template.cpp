@@ -276,7 +276,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   scene["accessors"][0]["max"] = vector_json(positions.colwise().maxCoeff());
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     require_finite(moves[t].moves, moves[t].moves.rows(), name);
-    const auto [least, most] = target_bounds(moves[t], targets_[t].whole);
+    const auto [least, most] = target_bounds(moves[t], targets_[t].moves_all_vertices);
     Json& accessor = scene["accessors"][first_target_ + t];
     accessor["min"] = vector_json(least);
     accessor["max"] = vector_json(most);
@@ -329,7 +329,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   char* const values = vectors + vertex_bytes();
   if (colours_) put_vectors(vectors + 2 * vector_bytes(), linear_light(colours), split_);
   if (tangents_) {
-    tangents_->put(values - tangents_->count() * Tangents::kSize, positions, normals);
+    tangents_->write(values - tangents_->count() * Tangents::kSize, positions, normals);
   }
   file.refer_to({vectors, static_cast<std::size_t>(values - vectors)});
   file.refer_to(shared_);

@@ -82,7 +82,7 @@ Eigen::Matrix4d matrix_from(const std::vector<double>& columns) {
   return matrix;
 }
 
-Eigen::Matrix4d times(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b) {
+Eigen::Matrix4d matrix_product(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b) {
   Eigen::Matrix4d product;
   for (Index r = 0; r < 4; ++r) {
     for (Index c = 0; c < 4; ++c) {
@@ -92,10 +92,11 @@ Eigen::Matrix4d times(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b) {
   return product;
 }
 
-Eigen::Vector3d moved(const Eigen::Matrix4d& by, const double* point) {
+Eigen::Vector3d transform_point(const Eigen::Matrix4d& matrix, const double* point) {
   Eigen::Vector3d to;
   for (Index r = 0; r < 3; ++r) {
-    to[r] = by(r, 0) * point[0] + by(r, 1) * point[1] + by(r, 2) * point[2] + by(r, 3);
+    to[r] =
+        matrix(r, 0) * point[0] + matrix(r, 1) * point[1] + matrix(r, 2) * point[2] + matrix(r, 3);
   }
   return to;
 }
@@ -315,7 +316,7 @@ std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
     for (; !above.empty(); above.pop_back()) {
       const std::uint32_t n = above.back(), parent = parents[n];
       const Eigen::Matrix4d local = local_matrix(nodes[n]);
-      worlds[n] = parent == kNoIndex ? local : times(worlds[parent], local);
+      worlds[n] = parent == kNoIndex ? local : matrix_product(worlds[parent], local);
       if (!(worlds[n].array().abs() < kFarthestNode).all()) {
         fail(concat("the position of its node ", n, " is out of range"));
       }

@@ -20,11 +20,12 @@ class GltfFile {
   using Json = nlohmann::ordered_json;
 
   /// \param bytes  a GLB file or JSON text; must outlive this object.
-  /// \param path  of the file; external buffers are searched beside it.
+  /// \param path  path of the file; external buffers are searched beside this file.
   /// \throws InvalidInput
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
   const Json& scene() const { return scene_; }
+  /// \throws InvalidInput with a message that names the file.
   [[noreturn]] void fail(const std::string& what) const;
 
   /// The values of an accessor in row-major order. Normalized integers become the fractions they
@@ -60,10 +61,10 @@ class GltfFile {
 
 /// A matrix from 16 numbers in column-major order.
 Eigen::Matrix4d matrix_from(const std::vector<double>& columns);
-/// The product of two matrices with a fixed order of operations. Eigen chooses the order by
+/// The product of two matrices, with a fixed order of operations. Eigen's order depends on the
 /// machine, which changes the last bits.
-Eigen::Matrix4d times(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b);
+Eigen::Matrix4d matrix_product(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b);
 /// A point (three numbers) transformed by a matrix, with a fixed order of operations.
-Eigen::Vector3d moved(const Eigen::Matrix4d& by, const double* point);
+Eigen::Vector3d transform_point(const Eigen::Matrix4d& matrix, const double* point);
 
 }  // namespace crowdface

@@ -234,7 +234,7 @@ class GltfMeshReader {
     const bool has_colours = part.colours.size() == part.colour_width * count;
     const double cos = std::cos(uv.rotation), sin = std::sin(uv.rotation);
     for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3d point = moved(place, &part.places[3 * i]);
+      const Eigen::Vector3d point = transform_point(place, &part.places[3 * i]);
       points_.insert(points_.end(), point.data(), point.data() + 3);
       mesh_.pieces.push_back(piece_);
       uv_rows_.push_back(has_uvs ? static_cast<std::uint32_t>(uvs_.size() / 2) : kNoIndex);

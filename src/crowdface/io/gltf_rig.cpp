@@ -94,12 +94,12 @@ class RigReader {
     }
     const Eigen::Matrix4d& place = worlds_[node];
     for (std::size_t p = 0; p < count; ++p) {
-      points_.push_back(moved(place, &places[3 * p]));
+      points_.push_back(transform_point(place, &places[3 * p]));
       rig_.influences.add_group(std::array{Influence{joint, 1}});
     }
   }
 
-  /// The joints that the indices in JOINTS_n refer to.
+  /// The joints to which the indices in JOINTS_n refer.
   struct Skin {
     std::vector<std::uint32_t> joints;
     /// #joints: transforms from the mesh's axes in the rest pose
@@ -123,7 +123,7 @@ class RigReader {
       skin.at_rest.push_back(rig_.joints[skin.joints[j]].rest);
       if (inverses.empty()) continue;
       const auto first = inverses.begin() + static_cast<std::ptrdiff_t>(16 * j);
-      skin.at_rest.back() = times(skin.at_rest.back(), matrix_from({first, first + 16}));
+      skin.at_rest.back() = matrix_product(skin.at_rest.back(), matrix_from({first, first + 16}));
     }
     return skin;
   }
@@ -155,7 +155,7 @@ class RigReader {
               concat("a vertex is bound to the joint ", joint, ", which its skin does not have"));
         }
         of_point[skin.joints[joint]] += weight;
-        place += weight * moved(skin.at_rest[joint], &places[3 * p]);
+        place += weight * transform_point(skin.at_rest[joint], &places[3 * p]);
         sum += weight;
       }
       if (!(sum > 0)) file_.fail(concat("its vertex ", p, " is bound to no joint"));

@@ -149,7 +149,7 @@ std::uint64_t free_of(std::uint64_t most) {
 }
 
 void check_finite(const path& file, const Image& image) {
-  if (!image.of_floats()) return;
+  if (!image.has_floats()) return;
   const auto& pixels = std::get<std::vector<float>>(image.pixels);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     if (std::isfinite(pixels[i])) continue;
@@ -282,7 +282,8 @@ Image read_image(const path& file, const ImageLimits& limits) {
   try {
     return decode(file, mapped, limits);
   } catch (const InvalidInput&) {
-    // Decoders report a lack of memory as damage. Decode again: damaged data fails again.
+    // Decoders report a lack of memory as damage. Decode a second time, to distinguish damaged
+    // data.
     try {
       return decode(file, mapped, limits);
     } catch (const InvalidInput& again) {

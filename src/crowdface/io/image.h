@@ -36,10 +36,11 @@ struct Image {
   ImageMemory memory = {};
   std::vector<std::string> channel_names = {};  ///< #channels, if the format has any
 
-  bool of_floats() const { return pixels.index() == 0; }
+  /// Whether the values are single-precision numbers.
+  bool has_floats() const { return pixels.index() == 0; }
 
-  /// A value; integers as fractions of their maximum. The code divides, because multiplication by a
-  /// rounded 1/255 gives other values.
+  /// The value of a channel of a pixel; integers as fractions of their maximum. The code divides,
+  /// because multiplication by a rounded 1/255 gives other values.
   float at(int x, int y, int channel) const {
     const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                            static_cast<std::size_t>(x)) *
@@ -86,8 +87,8 @@ struct ImageSize {
   int width = 0;
   int height = 0;
   int channels = 0;
-  bool of_bytes = false;   ///< 8 bits per value
-  bool of_floats = false;  ///< if neither is set: 16 bits per value
+  bool has_bytes = false;   ///< 8 bits per value
+  bool has_floats = false;  ///< single precision; 16 bits per value if neither flag is set
 };
 ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& limits = {});
 

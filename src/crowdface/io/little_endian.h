@@ -32,6 +32,7 @@ inline std::uint32_t big_endian_at(const char* bytes) {
   return __builtin_bswap32(number_at<std::uint32_t>(bytes));
 }
 
+/// Appends the number's bytes to a text.
 template <class Number>
 void append_number(std::string& out, Number number) {
   char bytes[sizeof number];

@@ -145,8 +145,8 @@ class Collector {
     return true;
   }
 
-  /// The file that a path with backslashes or from another machine means: the same path with
-  /// slashes, or else the file of this name beside the mesh.
+  /// The existing file for a path that has backslashes or comes from another machine: the same path
+  /// with slashes, or else the file of this name beside the mesh.
   std::optional<fs::path> library_beside(std::string_view text) const {
     for (const std::string& name : readings_of(text)) {
       const fs::path path = with_forward_slashes(name);
@@ -228,7 +228,7 @@ class Collector {
     return known->second;
   }
 
-  /// A name as it stands in the file, after its readings in other encodings.
+  /// Possible readings of a name: in other encodings, then as it stands in the file.
   static std::vector<std::string> readings_of(std::string_view text) {
     std::vector<std::string> names = legacy_readings(text);
     names.emplace_back(text);
@@ -251,13 +251,14 @@ class Collector {
   fs::path mesh_, folder_;
   std::set<std::string> materials_;  ///< materials defined in all libraries
   Names libraries_, textures_;
-  static constexpr int kMaxSearches = 64;  ///< each lists the folder and its subfolders
+  /// largest number of searches, each of which lists the folder and its subfolders
+  static constexpr int kMaxSearches = 64;
   int searches_ = 0;
   std::set<fs::path> destinations_;
   /// Texture path for the text of each statement; valid within one library.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;
-  /// The uses and files of one texture name.
+  /// The kinds and files of one texture name.
   struct Taken {
     /// Kinds of the statements that name the texture; nothing for unknown statements.
     std::set<std::optional<TextureKind>> kinds;

@@ -17,7 +17,7 @@ enum class MeshFormat {
   kObj,     ///< the text of the target's file with other positions
   kPly,     ///< binary
   kGlb,     ///< binary glTF 2.0
-  kPoints,  ///< positions alone, .npy
+  kPoints,  ///< only positions, .npy
   kUsd,     ///< a USD text layer, .usda
 };
 inline constexpr std::size_t kMeshFormats = 5;
@@ -25,8 +25,8 @@ inline constexpr std::size_t kMeshFormats = 5;
 /// Where a format stores shapes, attachments or textures.
 enum class DataStorage {
   kNowhere,
-  kInside,    ///< in the face's own file
-  kOneFile,   ///< in one more file of the same format
+  kInside,    ///< stored in the face's own file
+  kOneFile,   ///< stored together in one more file of the same format
   kOwnFiles,  ///< one file for each shape or texture, one OBJ file for each attachment
 };
 
@@ -34,7 +34,7 @@ enum class DataStorage {
 enum class FileNormals {
   kNone,
   kOnLevels,    ///< only for levels of detail; the full mesh has the normals of the target's file
-  kLikeTarget,  ///< if the target's file has normals
+  kLikeTarget,  ///< only if the target's file has normals
   kAlways,
 };
 
@@ -63,11 +63,11 @@ inline bool names_attachment_textures(const MeshFormatTraits& format) {
 /// All formats, in the order in which messages list them.
 const std::vector<MeshFormat>& all_mesh_formats();
 /// Whether any of the formats satisfies a predicate.
-/// \param is  predicate of `MeshFormatTraits`.
-template <class Formats, class Is>
-bool any_format(const Formats& formats, const Is& is) {
+/// \param predicate  called with the MeshFormatTraits of a format.
+template <class Formats, class Predicate>
+bool any_format(const Formats& formats, const Predicate& predicate) {
   for (const MeshFormat format : formats) {
-    if (is(traits_of(format))) return true;
+    if (predicate(traits_of(format))) return true;
   }
   return false;
 }

@@ -151,8 +151,8 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
   return result;
 }
 
-ObjFile read_obj_beside(const std::filesystem::path& path, MappedFile file,
-                        const ObjOutline& outline) {
+ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file,
+                              const ObjOutline& outline) {
   ObjFile result;
   result.path = path;
   result.file = std::move(file);

@@ -25,8 +25,8 @@ struct ObjFile {
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;
   std::vector<std::string> notes;  ///< repairs and ignored statements, one sentence each
-  bool is_mended = false;          ///< the text differs from the file on disk
-  /// Path beside which the material files are, if different from `path`.
+  bool is_mended = false;          ///< whether repairs changed the text
+  /// Path of a file in the folder of the material files, if not in the folder of `path`.
   std::filesystem::path textures_at;
 
   const std::filesystem::path& material_path() const {
@@ -38,15 +38,16 @@ struct ObjFile {
 /// a text that fails the check (see `mend_obj`).
 /// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
 ObjFile read_obj(const std::filesystem::path& path);
-/// \param file  mapped content of the file at `path`.
-/// \param outline  of the text.
+/// Reads an OBJ file whose content is mapped.
+/// \param file  content of the file at `path`.
+/// \param outline  outline of this content.
 ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOutline& outline);
 
 /// Reads an OBJ file whose polygons and texture coordinates equal those of an earlier file. The
 /// result's topology, texture coordinates and corner normals stay empty.
-/// \param outline  of the text; its `mesh` equals that of the earlier file.
-ObjFile read_obj_beside(const std::filesystem::path& path, MappedFile file,
-                        const ObjOutline& outline);
+/// \param outline  outline of the file, with the same `mesh` hash as the earlier file.
+ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file,
+                              const ObjOutline& outline);
 
 /// The material of each polygon.
 struct FaceMaterials {
@@ -55,6 +56,7 @@ struct FaceMaterials {
   std::vector<std::uint32_t> of_face;  ///< #F indices into `names`
 };
 
+/// Returns the material of each polygon.
 /// \param ranges  materials of an OBJ file.
 FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index face_count);
 

@@ -43,15 +43,15 @@ ObjOutline outline_obj(std::string_view text);
 /// Which lines `scan_obj` checks.
 enum class ObjLines {
   kAll,
-  kAllButMesh,  ///< all but `f` and `vt` lines, which equal those of an already checked text
+  kAllButMesh,  ///< all but `f` and `vt` lines, which are equal in a text that was checked before
 };
 
 /// Checks an OBJ text line by line, because the loader accepts errors: words in place of numbers,
 /// numbers that overflow, indices out of range or wrapping around, polygons with more than 255
 /// corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
 /// vertex colours are valid; statements of other programs are ignored.
-/// \param name  of the file, for messages.
-/// \param outline  of the text.
+/// \param name  name of the file, for messages.
+/// \param outline  outline of the text.
 /// \param lines  with kAllButMesh the result has no texture coordinates and no corners.
 /// \throws InvalidInput naming file, line, what was expected and what was found.
 ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,

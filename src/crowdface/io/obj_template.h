@@ -22,8 +22,8 @@ namespace crowdface {
 /// needs 16 bytes per line besides the text.
 class ObjTemplate {
  public:
-  /// \param target  its mapped text must outlive this object and the files it encodes; the rest of
-  /// the target is not needed afterwards.
+  /// \param target  the file to copy. Its mapped text must outlive this object and the encoded
+  ///                files; the rest of the target need not.
   /// \param topology  the faces, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
   /// \param fixed  vertices with given normals. Files have the given normals in the `vn` lines that
@@ -32,8 +32,8 @@ class ObjTemplate {
               const FixedNormals& fixed = {});
 
   /// The file with these positions. Each number is the shortest text that reads back as the same
-  /// single-precision value. A normal is recomputed from the faces whose corners use it; an unused
-  /// normal keeps its text. The bytes do not depend on the number of threads.
+  /// single-precision value. Normals are recomputed from the faces whose corners use them; an
+  /// unused normal keeps its text. The bytes do not depend on the number of threads.
   /// \param positions  #V by 3, in the file's unit.
   /// \param what  names the mesh in messages.
   /// \param colours  #V if files have colours: red, green and blue from 0 to 1 with four digits.
@@ -48,7 +48,7 @@ class ObjTemplate {
   std::size_t encode_bytes() const;
 
  private:
-  /// The location of the numbers of one `v` or `vn` line.
+  /// The location, in the text, of the numbers of a `v` or `vn` line.
   struct NumberRange {
     std::uint64_t begin = 0;
     std::uint32_t length = 0;
@@ -79,7 +79,7 @@ class ObjTemplate {
   Index vertices_ = 0;
   bool colours_;
   std::vector<Block> blocks_;
-  /// Rows of normals with given values.
+  /// Rows of the normals that have given values, and these values.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> fixed_;
   std::optional<NormalFans> fans_;  ///< polygons around each `vn`; empty if no face uses normals
   std::size_t buffer_size_ = 0;

@@ -13,7 +13,7 @@ namespace crowdface {
 /// The material files of a mesh merged into one, in which textures can be replaced.
 class OwnMaterials {
  public:
-  /// \param mesh, libraries  as for `find_material_files`; unreadable files are skipped.
+  /// \param mesh, libraries  as in `find_material_files`; unreadable files are skipped.
   /// \param shared  path from the new file to the textures that are not replaced, such as "..";
   ///                empty: the same folder.
   OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
@@ -25,8 +25,8 @@ class OwnMaterials {
 
   /// The text of a material file to be written beside the mesh. Every `map_Kd` of a material with a
   /// replacement is replaced; a material without `map_Kd` gets one and a white `Kd`. A texture of
-  /// another kind is replaced where the material names it, keeping its options, or added. All other
-  /// lines stay.
+  /// another kind is replaced where the material names the texture, with the same options, or else
+  /// added. All other lines stay.
   std::string text(const Replacements& textures) const;
 
  private:

@@ -79,14 +79,14 @@ class StartOfLibraries {
   std::terminate_handler end_before_ = nullptr;
 };
 
-void* open_library(const std::string& name, int flags, const char* needs, const char* without) {
+void* open_library(const std::string& name, int flags, const char* needs, const char* failure) {
   std::optional<StartOfLibraries> start;
   if (guarded) start.emplace(needs);
   try {
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);
   } catch (...) {  // the dynamic loader stays locked, so recovery is impossible
     if (guarded) end_without_libraries(0);
-    throw IoError(concat(without, ": their libraries failed to start"));
+    throw IoError(concat(failure, ": their libraries failed to start"));
   }
 }
 
@@ -97,22 +97,22 @@ void guard_library_loading() {
 }
 
 void* project_library_function(const char* library, const char* function, const char* needs,
-                               const char* without) {
+                               const char* failure) {
   // Third-party programs are linked with the library. This program loads the library from its
   // folder relative to the executable.
-  void* opened = open_library(library, RTLD_NOLOAD, needs, without);
+  void* opened = open_library(library, RTLD_NOLOAD, needs, failure);
   std::string why;
   if (opened == nullptr) {
     std::error_code ignored;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
     const auto file = program.parent_path() / CROWDFACE_LIBRARIES / library;
-    opened = open_library(file.lexically_normal().string(), 0, needs, without);
+    opened = open_library(file.lexically_normal().string(), 0, needs, failure);
     if (opened == nullptr) why = ::dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread
   }
-  if (opened == nullptr) opened = open_library(library, 0, needs, without);
+  if (opened == nullptr) opened = open_library(library, 0, needs, failure);
   if (opened == nullptr) {
     throw IoError(concat(
-        without, ", because a library cannot be loaded (is the installation complete?): ", why));
+        failure, ", because a library cannot be loaded (is the installation complete?): ", why));
   }
   void* found = ::dlsym(opened, function);
   if (found == nullptr) throw IoError(concat(library, ": belongs to another version of crowdface"));

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-Positions as_written(const Positions& positions) {
+Positions round_to_single(const Positions& positions) {
   return positions.unaryExpr([](double value) -> double { return to_single(value); });
 }
 

@@ -33,7 +33,7 @@ inline char* write_single(char* out, double value) {
 
 /// Positions rounded as every mesh format stores them, so that results computed from them equal
 /// results computed from the file.
-Positions as_written(const Positions& positions);
+Positions round_to_single(const Positions& positions);
 
 /// Writes the three numbers of a row in binary.
 /// \return the end of the output.
@@ -44,11 +44,12 @@ inline char* put_row(char* out, const Positions& rows, Index i) {
 
 /// Reads rows of three single-precision numbers.
 /// \param bytes  start of the first row.
-/// \param stride  bytes from row to row.
+/// \param stride  distance in bytes between the starts of consecutive rows.
 /// \param what  names the mesh in messages.
 /// \throws InvalidInput if a number is not finite.
 Positions read_singles(const char* bytes, Index rows, std::size_t stride, const std::string& what);
 
+/// Checks positions before they are written.
 /// \param what  names the mesh in messages.
 /// \throws BrokenPrecondition unless there are `vertices` rows; InvalidInput unless all numbers are
 /// finite in single precision.

@@ -25,14 +25,15 @@ double uv_area(const Topology& topology, Index face, const TextureCoordinates& u
   return area;
 }
 
-/// The part of a vector in the plane of a unit normal, with length 1; zero if there is none.
+/// The unit vector of the part of a vector that lies in the plane of a unit normal; zero if this
+/// part vanishes.
 Eigen::Vector3d in_plane(const Eigen::Vector3d& vector, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d flat = vector - normal * normal.dot(vector);
   const double length = flat.norm();
   return length > 0 ? Eigen::Vector3d(flat / length) : Eigen::Vector3d::Zero();
 }
 
-/// The angle with this cosine, rounded, because acos differs between versions of the C library.
+/// The rounded arc cosine, because acos differs between versions of the C library.
 double angle_of(double cosine) {
   constexpr double kSteps = 1e9;
   return std::round(kSteps * std::acos(std::clamp(cosine, -1.0, 1.0))) / kSteps;
@@ -71,7 +72,7 @@ Tangents::Tangents(const SplitVertices& split, const TextureCoordinates& uvs)
   }
 }
 
-void Tangents::put(char* out, const Positions& positions, const Positions& normals) const {
+void Tangents::write(char* out, const Positions& positions, const Positions& normals) const {
   Positions sums = Positions::Zero(static_cast<Index>(vertices_.size()), 3);
   for (const UvTriangle& triangle : triangles_) {
     std::array<Eigen::Vector3d, 3> at;

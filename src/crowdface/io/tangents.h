@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Like split_vertices, but polygons whose texture coordinates are mirrored share no split vertex
-/// with those whose texture coordinates are not.
+/// Like split_vertices, but polygons with mirrored texture coordinates share no split vertex with
+/// other polygons.
 SplitVertices split_at_mirrored_uvs(const Topology& topology, const TextureCoordinates& uvs);
 
 /// The tangents in which normal maps are read, by the rules of MikkTSpace (Mikkelsen 2008,
@@ -21,13 +21,13 @@ class Tangents {
  public:
   static constexpr std::size_t kSize = 4 * sizeof(float);  ///< bytes of a tangent
 
-  /// \param split  of split_at_mirrored_uvs.
+  /// \param split  result of split_at_mirrored_uvs.
   /// \param uvs    #T by 2, v upwards as in OBJ.
   Tangents(const SplitVertices& split, const TextureCoordinates& uvs);
 
   /// Writes #S unit vectors, each followed by 1, or -1 where the texture coordinates are mirrored.
   /// \param positions, normals  #V by 3.
-  void put(char* out, const Positions& positions, const Positions& normals) const;
+  void write(char* out, const Positions& positions, const Positions& normals) const;
 
   std::size_t count() const { return vertices_.size(); }
   std::size_t memory_bytes() const;
@@ -35,11 +35,11 @@ class Tangents {
  private:
   struct UvTriangle {
     std::array<std::uint32_t, 3> corners;  ///< split vertices
-    double along_first, along_second;      ///< share of two edges in the direction of growing u
+    double along_first, along_second;      ///< weights of two edges in the direction of growing u
   };
   std::vector<std::uint32_t> vertices_;  ///< #S: original vertex
-  std::vector<float> signs_;             ///< #S
-  std::vector<UvTriangle> triangles_;    ///< without those that cover no part of the texture
+  std::vector<float> signs_;  ///< #S: −1 where the texture coordinates are mirrored, else 1
+  std::vector<UvTriangle> triangles_;  ///< the triangles that cover an area of the texture
 };
 
 }  // namespace crowdface

@@ -13,7 +13,7 @@ enum class TextureKind { kColour, kNormal, kRoughness, kSpecular, kDisplacement,
 struct TextureStatement {
   TextureKind kind;
   std::string_view word;  ///< statement in material files, as this program writes it
-  std::string_view name;  ///< in file names
+  std::string_view name;  ///< name of the kind in file names
 };
 
 /// One row for each TextureKind, in order. `map_Bump`, also spelled `map_bump` and `bump`, names
@@ -31,6 +31,7 @@ constexpr bool is_shown(TextureKind kind) {
   return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
 }
 
+/// The row of a kind in kTextureStatements.
 constexpr const TextureStatement& statement_of(TextureKind kind) {
   return kTextureStatements[static_cast<std::size_t>(kind)];
 }

@@ -46,7 +46,7 @@ class UsdaPart {
   void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
                 std::span<const Displacements> moves, const std::string& what) const;
   /// Adds the part's materials below the root prim.
-  /// \param look  its name replaces kLookName in the names of files.
+  /// \param look  the name of the look replaces kLookName in file names.
   void add_materials(EncodedFile& file, const std::string& root, const PartLook& look) const;
 
   std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }

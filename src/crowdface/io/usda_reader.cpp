@@ -89,7 +89,7 @@ Eigen::Matrix4d place_of(const Prim& prim) {
     const PrimProperty* value = prim.find(name);
     if (value == nullptr) continue;
     const Eigen::Matrix4d matrix = matrix_of(name, value->numbers);
-    place = times(place, is_inverse ? Eigen::Matrix4d(matrix.inverse()) : matrix);
+    place = matrix_product(place, is_inverse ? Eigen::Matrix4d(matrix.inverse()) : matrix);
   }
   return place;
 }
@@ -141,7 +141,7 @@ class UsdaReader {
     }
     std::optional<Eigen::Matrix4d> place;
     const auto placed = [&] {
-      if (!place) place = times(above, place_of(prim));
+      if (!place) place = matrix_product(above, place_of(prim));
       return *place;
     };
     std::vector<std::string_view> words;
@@ -286,7 +286,7 @@ class UsdaReader {
     const std::size_t vertices = points->numbers.size() / 3, first = points_.size() / 3,
                       first_uv = uvs_.size() / 2, faces = counts->numbers.size();
     for (std::size_t v = 0; v < vertices; ++v) {
-      const Eigen::Vector3d point = moved(place, &points->numbers[3 * v]);
+      const Eigen::Vector3d point = transform_point(place, &points->numbers[3 * v]);
       points_.insert(points_.end(), point.data(), point.data() + 3);
     }
     std::vector<std::uint32_t> all;

@@ -65,7 +65,7 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
 }
 
 /// \param images  paths of the images.
-/// \param shared  see `GlbOptions::shared`.
+/// \param shared  see `GlbOptions::shared_folder`.
 UsdaSurface surface_of(const GlbMaterial& material, std::span<const std::string> images,
                        const std::string& shared) {
   const auto file = [&](const std::optional<std::size_t>& image) {
@@ -117,7 +117,7 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
       frame_(usda_frame(options.unit, options.up)),
       turn_(turn_of(options)),
       surfaces_(options.materials),
-      shared_(options.shared) {
+      shared_(options.shared_folder) {
   UsdaNames names;
   for (const std::string& point : options.points) points_.push_back(names.add(point));
 }

@@ -54,7 +54,7 @@ class UsdaTemplate {
   std::string frame_;  ///< the layer's unit and up axis
   std::string turn_;   ///< transform of the mesh if the stage's axes differ from the heads' axes
   std::vector<GlbMaterial> surfaces_;
-  std::string shared_;               ///< see `GlbOptions::shared`
+  std::string shared_;               ///< see `GlbOptions::shared_folder`
   std::vector<std::string> points_;  ///< prim names of the points
 };
 

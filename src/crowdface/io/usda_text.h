@@ -17,6 +17,7 @@ std::string usda_name(std::string_view text);
 /// Makes valid prim names unique by adding numbers to repeated names.
 class UsdaNames {
  public:
+  /// Returns a unique prim name for a text.
   std::string add(std::string_view text);
 
  private:

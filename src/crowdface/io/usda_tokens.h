@@ -18,12 +18,13 @@ struct UsdaToken {
 /// Tokeniser for USD text layers (usda).
 class UsdaTokens {
  public:
-  /// \param name  of the file, for messages.
+  /// \param name  name of the file, for messages.
   /// \throws InvalidInput if the text does not begin like a USD layer.
   UsdaTokens(std::string_view text, const std::string& name);
 
+  /// Consumes and returns the next token.
   UsdaToken next();
-  /// Consumes this punctuation character if it comes next.
+  /// Consumes a punctuation character if it is the next token. \return whether it was.
   bool pass(char sign);
   /// Consumes everything up to the closing bracket of an open group.
   /// \return the interpolation named in the group.
@@ -35,7 +36,7 @@ class UsdaTokens {
 
  private:
   void skip_blanks();
-  /// The text before `end`; consumes both.
+  /// Returns the text before `end`. Consumes this text and `end`.
   std::string_view up_to(std::string_view end, bool escapes);
 
   std::string_view text_;

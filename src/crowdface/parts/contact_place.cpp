@@ -58,7 +58,7 @@ double ContactPlace::gap(const Positions& positions) const {
   return lowest - highest;
 }
 
-std::vector<ContactPlace> spread_places(const FacingGroup& group, double spacing) {
+std::vector<ContactPlace> distribute_places(const FacingGroup& group, double spacing) {
   std::vector<double> nearest(group.size(), std::numeric_limits<double>::max());
   std::vector<ContactPlace> places;
   // the pair farthest from all places so far

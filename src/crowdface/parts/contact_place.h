@@ -41,7 +41,7 @@ struct ContactPlace {
 ///
 /// \param spacing  Minimum distance between two places; every pair of the group is within this
 ///                 distance of some place.
-std::vector<ContactPlace> spread_places(const FacingGroup& group, double spacing);
+std::vector<ContactPlace> distribute_places(const FacingGroup& group, double spacing);
 
 /// Cuts the two profiles of a place; one or both may stay empty.
 ///

@@ -141,7 +141,7 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
   Sides sides = find_sides(group, adjacency, mean, kSide * extent);
   Contact contact;
   contact.begin = places_.size();
-  for (ContactPlace& place : spread_places(group, kPlaceSpacing * extent)) {
+  for (ContactPlace& place : distribute_places(group, kPlaceSpacing * extent)) {
     cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, place);
     if (place.low.empty() || place.high.empty()) continue;
     clearances_.emplace_back(place, adjacency);

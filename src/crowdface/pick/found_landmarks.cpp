@@ -45,7 +45,8 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
   while (landmarks.size() > kMinLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));
     const auto off = [&](const WrapLandmark& landmark) {
-      return (carried(back, landmark.place) - row3(shape.positions, landmark.vertex)).norm();
+      return (apply_similarity(back, landmark.place) - row3(shape.positions, landmark.vertex))
+          .norm();
     };
     const auto worst = std::ranges::max_element(landmarks, {}, off);
     if (off(*worst) <= kOffMm) return;

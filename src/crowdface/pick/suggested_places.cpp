@@ -62,7 +62,7 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   std::vector<double> residuals;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Similarity pose = fit(pairs, used, i).value_or(whole);
-    residuals.push_back((carried(pose, pairs[i].from) - pairs[i].to).norm() / pose.scale);
+    residuals.push_back((apply_similarity(pose, pairs[i].from) - pairs[i].to).norm() / pose.scale);
   }
   return residuals;
 }
@@ -96,7 +96,7 @@ Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& p
   for (const Pair& pair : pairs) {
     if (pose.residuals.at(pair.name).outlier) continue;
     const double weight = std::exp(-(pair.from - place).squaredNorm() / (2 * kReachMm * kReachMm));
-    sum += weight * (pair.to - carried(pose.pose, pair.from));
+    sum += weight * (pair.to - apply_similarity(pose.pose, pair.from));
     weights += weight;
   }
   return sum / weights;
@@ -174,7 +174,7 @@ SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
   const Similarity& pose = suggested.pose->pose;
   for (const auto& [name, place] : wanted) {
     const Eigen::Vector3d point =
-        carried(pose, place.point) + correction(pairs, *suggested.pose, place.point);
+        apply_similarity(pose, place.point) + correction(pairs, *suggested.pose, place.point);
     const auto near = outermost(
         of_scan,
         of_scan.nearest(point, pose.rotation * place.normal, kMinFacing, kReachMm * pose.scale),

@@ -70,7 +70,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
   } catch (const MissingInput& error) {  // removed by another program: it existed a moment ago
     throw IoError(error.what());
   }
-  hasher.add(joined(plan_text(crowd_plan.founders, job.names, job.settings)));
+  hasher.add(whole_text(plan_text(crowd_plan.founders, job.names, job.settings)));
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < crowd_plan.crowd.size(); ++i) {
     ids.push_back(crowd_plan.crowd[i].id);

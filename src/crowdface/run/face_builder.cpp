@@ -161,7 +161,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   if (turn) move_rows(inverse(*turn), judged);
   SkinDefects defects =
       mixed ? check.compare(judged, *mixed) : check.compare(judged, recipe.target);
-  defects.wider_mm = contacts_->wider(judged) * mm_per_unit_;
+  defects.wider_mm = contacts_->max_excess(judged) * mm_per_unit_;
   return defects;
 }
 
@@ -215,7 +215,7 @@ void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) con
 
 double FaceBuilder::wider_mm(const Recipe& recipe, const Positions& face) const {
   const double units =
-      recipe.mirrored ? contacts_->wider(mirrored(mirror(), face)) : contacts_->wider(face);
+      recipe.mirrored ? contacts_->max_excess(mirrored(mirror(), face)) : contacts_->max_excess(face);
   return units * mm_per_unit_;
 }
 

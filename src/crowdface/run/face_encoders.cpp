@@ -180,9 +180,9 @@ EncodedFile FaceEncoders::mesh(const FinishedFace& face, MeshFormat format, std:
   face.moves[*shape].add_to(positions);
   if (needs_normals(format, level, acting.target)) {
     normals = normals_of(positions);
-    if (level > 0) normals = levels_[level].face->of(normals);
+    if (level > 0) normals = levels_[level].face->restrict_rows(normals);
   }
-  if (level > 0) positions = levels_[level].face->of(positions);
+  if (level > 0) positions = levels_[level].face->restrict_rows(positions);
   acting.positions = &positions;
   acting.normals = &normals;
   return encoder.encode(acting);

@@ -55,7 +55,7 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   // shapes, attachments and renders.
   Positions single;
   if (with_shapes || renders != nullptr || !face.face.attachments.empty()) {
-    single = as_written(face.positions);
+    single = round_to_single(face.positions);
   }
   if (with_shapes) {
     const StageTimer timer(busy.encode);

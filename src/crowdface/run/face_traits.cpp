@@ -159,9 +159,9 @@ void FaceTraits::mirror_wanted(Positions& face) const {
       point += mirror_->shares[v][c] * row3(face, mirror_->corners[v][c]);
     }
     point = mirror_->plane.image(point);
-    const auto kept = std::ranges::lower_bound(mirror_->without, v);
-    if (kept != mirror_->without.end() && *kept == v) {
-      point += row3(mirror_->kept, kept - mirror_->without.begin());
+    const auto kept = std::ranges::lower_bound(mirror_->unpaired, v);
+    if (kept != mirror_->unpaired.end() && *kept == v) {
+      point += row3(mirror_->unpaired_offsets, kept - mirror_->unpaired.begin());
     }
     images.row(static_cast<Index>(i)) = point.transpose();
   }

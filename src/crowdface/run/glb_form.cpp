@@ -135,7 +135,7 @@ void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
 
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared) {
   GlbOptions options;
-  if (!shared.empty()) options.shared = shared;
+  if (!shared.empty()) options.shared_folder = shared;
   options.unit = config.faces.units;
   options.up = config.faces.up;
   options.front = config.faces.front;

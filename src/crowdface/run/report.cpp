@@ -91,7 +91,7 @@ Json bands_to_json(const Job& job, const std::vector<FacePlan>& crowd) {
 }
 
 Json error_to_json(const LevelError& error) {
-  return {{"rms", rounded(error.root_mean_square)}, {"max", rounded(error.most)}};
+  return {{"rms", rounded(error.root_mean_square)}, {"max", rounded(error.max)}};
 }
 
 Json lods_to_json(const Inputs& inputs) {

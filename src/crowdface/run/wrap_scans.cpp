@@ -289,11 +289,13 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
     log_warning(concat(task.scan.string(), ": ", warning));
   }
   const WrapDistances distances = distances_of(shared.shape, result);
-  log_info(
-      concat(task.scan.string(), ": ", task.head.string(), ", ", format_fixed(distances.median, 2),
-             " mm from the scan (95 %: ", format_fixed(distances.percentile_95, 2), "), ",
-             result.landmarks.size(), " landmarks",
-             result.dropped.empty() ? "" : concat("; wrong and not used: ", join(result.dropped))));
+  log_info(concat(task.scan.string(), ": ", task.head.string(), ", ",
+                  format_fixed(distances.median, 2),
+                  " mm from the scan (95 %: ", format_fixed(distances.percentile_95, 2), "), ",
+                  result.landmarks.size(), " landmarks",
+                  result.dropped_landmarks.empty()
+                      ? ""
+                      : concat("; wrong and not used: ", join(result.dropped_landmarks))));
 }
 
 /// Writes the page over all scans of the batch, including the scans of other shards.

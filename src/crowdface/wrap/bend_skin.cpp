@@ -107,7 +107,7 @@ class Bending {
   }
 
   /// Adds data terms that align the skin's boundary with the scan's boundary where they are close.
-  void ask_rims(const Positions& current, double reach, DataTerms& data_terms) const {
+  void add_rim_terms(const Positions& current, double reach, DataTerms& data_terms) const {
     if (!scan_end_grid_) return;
     for (const std::uint32_t v : skin_end_) {
       const Eigen::Vector3d point = row3(current, v);
@@ -135,9 +135,9 @@ class Bending {
     for (int i = 0; i < kBendSteps; ++i) {
       const Positions current = base_ + displacements_;
       DataTerms data_terms(base_.rows());
-      ask_scan(current, reach, tangential, data_terms);
-      ask_rims(current, std::min(reach, kRimReachMm), data_terms);
-      ask_skin(current, reach, tangential, data_terms);
+      add_scan_terms(current, reach, tangential, data_terms);
+      add_rim_terms(current, std::min(reach, kRimReachMm), data_terms);
+      add_skin_terms(current, reach, tangential, data_terms);
       for (const WrapLandmark& landmark : landmarks_) {
         data_terms.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
                        landmark.place - base_.row(landmark.vertex).transpose());
@@ -147,7 +147,8 @@ class Bending {
   }
 
   /// Adds data terms from each vertex of the skin to the closest point of the scan.
-  void ask_scan(const Positions& current, double reach, double tangential, DataTerms& data_terms) {
+  void add_scan_terms(const Positions& current, double reach, double tangential,
+                      DataTerms& data_terms) {
     const Positions normals = vertex_normals_or_zero(skin_.triangles, current);
     std::vector<Correspondence> correspondences(visible_.size());
     parallel_for_each(
@@ -172,7 +173,8 @@ class Bending {
   }
 
   /// Adds data terms from sampled points of the scan to the closest point of the skin.
-  void ask_skin(const Positions& current, double reach, double tangential, DataTerms& data_terms) {
+  void add_skin_terms(const Positions& current, double reach, double tangential,
+                      DataTerms& data_terms) {
     const SurfaceTree tree(current, skin_.triangles);
     std::vector<Correspondence> correspondences(scan_points_.size());
     std::vector<SurfaceHit>& hits = found_on_skin_;

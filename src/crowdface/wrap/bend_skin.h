@@ -16,6 +16,7 @@ struct BendOptions {
   /// Weight of offsets along the surface, relative to 1 for offsets along the normal, in the first
   /// and in the last round.
   double tangential_first = 0.2, tangential_last = 0.8;
+  /// Weight of the landmarks in the first and in the last round.
   double landmarks_first = 1, landmarks_last = 0.3;
 };
 

@@ -6,7 +6,7 @@
 
 namespace crowdface {
 
-CentredScan centred(const Scan& scan, std::vector<WrapLandmark> landmarks) {
+CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks) {
   constexpr int kBits = 20;
   CentredScan result{scan, std::move(landmarks), Eigen::Vector3d::Zero()};
   Positions& positions = result.scan.positions;

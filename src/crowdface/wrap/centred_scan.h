@@ -17,6 +17,6 @@ struct CentredScan {
   std::vector<WrapLandmark> landmarks;
   Eigen::Vector3d middle;  ///< centre of the bounding box in the scan file
 };
-CentredScan centred(const Scan& scan, std::vector<WrapLandmark> landmarks);
+CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks);
 
 }  // namespace crowdface

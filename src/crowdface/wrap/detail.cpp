@@ -21,14 +21,14 @@ constexpr double kReachMm = 3;
 /// Smallest relief that is kept, in edge lengths of the skin; finer relief is treated as noise.
 constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
-constexpr double kNoWall = 0.7;  // least cosine between the normals of scan and skin
+constexpr double kMinNormalCosine = 0.7;  // least cosine between the normals of scan and skin
 constexpr double kMinOpenness = 0.15;
-constexpr double kUnasked = 1e-4;  ///< weight of a zero offset at vertices without scan data
+constexpr double kNoDataWeight = 1e-4;  ///< weight of a zero offset at vertices without scan data
 constexpr int kSteps = 30;
 constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
 /// Least ratio of a moved triangle's area, projected on its previous normal, to its previous area.
-constexpr double kMinLeft = 0.05;
+constexpr double kMinAreaRatio = 0.05;
 /// Least cosine between a triangle's normal and the template's.
 constexpr double kMinFaceCosine = 0.05;
 
@@ -90,20 +90,20 @@ class SmoothFit {
 };
 
 /// Target offset of each vertex along its normal.
-struct AskedOfSkin {
+struct TargetOffsets {
   Eigen::VectorXd weights, values;  ///< #skin
 };
 
-AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Positions& normals,
-                     const ScanSurface& scan) {
-  AskedOfSkin asked{Eigen::VectorXd::Constant(positions.rows(), kUnasked),
-                    Eigen::VectorXd::Zero(positions.rows())};
+TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const Positions& normals,
+                       const ScanSurface& scan) {
+  TargetOffsets asked{Eigen::VectorXd::Constant(positions.rows(), kNoDataWeight),
+                      Eigen::VectorXd::Zero(positions.rows())};
   parallel_blocks(positions.rows(), 256, [&](Index begin, Index end) {
     std::uint32_t before = kNoIndex;
     for (Index v = begin; v < end; ++v) {
       if (skin.openness[static_cast<std::size_t>(v)] < kMinOpenness) continue;
       const Eigen::Vector3d point = row3(positions, v), normal = row3(normals, v);
-      const auto place = scan.nearest(point, normal, kNoWall, kReachMm, before);
+      const auto place = scan.nearest(point, normal, kMinNormalCosine, kReachMm, before);
       before = place.triangle;
       if (!place.found) continue;
       const double off = (place.point - point).dot(place.normal) / normal.dot(place.normal);
@@ -116,30 +116,30 @@ AskedOfSkin ask_scan(const SkinMesh& skin, const Positions& positions, const Pos
 }
 
 /// Whether a triangle flips relative to its state before the offsets, or relative to the template
-/// unless it was already flipped there.
-bool turns_over(const Positions& rest, const Positions& before, const Positions& normals,
-                const Eigen::VectorXd& along, const Triangle& t) {
+/// unless it was already flipped relative to the template.
+bool flips(const Positions& rest, const Positions& before, const Positions& normals,
+           const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
     return row3(before, v) + along(v) * row3(normals, v);
   };
   const Eigen::Vector3d was = area_vector(before, t), first = moved(t[0]);
   const Eigen::Vector3d is = (moved(t[1]) - first).cross(moved(t[2]) - first);
-  if (was.dot(is) <= kMinLeft * was.squaredNorm()) return true;
+  if (was.dot(is) <= kMinAreaRatio * was.squaredNorm()) return true;
   const Eigen::Vector3d of_rest = area_vector(rest, t);
   const double least = kMinFaceCosine * of_rest.norm();
   return of_rest.dot(is) <= least * is.norm() && of_rest.dot(was) > least * was.norm();
 }
 
 /// Triangles that the offsets flip, among the triangles with a changed vertex.
-std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& rest,
-                                       const Positions& before, const Positions& normals,
-                                       const Eigen::VectorXd& along,
-                                       const std::vector<char>& changed) {
+std::vector<std::uint32_t> flipped_triangles(const SkinMesh& skin, const Positions& rest,
+                                             const Positions& before, const Positions& normals,
+                                             const Eigen::VectorXd& along,
+                                             const std::vector<char>& changed) {
   std::vector<char> is_turned(skin.triangles.size(), 0);
   parallel_for_each(skin.triangles.size(), kDetailBlock, [&](std::size_t i) {
     const Triangle& t = skin.triangles[i];
     if (changed[t[0]] + changed[t[1]] + changed[t[2]] == 0) return;
-    is_turned[i] = turns_over(rest, before, normals, along, t) ? 1 : 0;
+    is_turned[i] = flips(rest, before, normals, along, t) ? 1 : 0;
   });
   std::vector<std::uint32_t> turned;
   for (std::uint32_t i = 0; i < is_turned.size(); ++i) {
@@ -150,12 +150,10 @@ std::vector<std::uint32_t> turned_over(const SkinMesh& skin, const Positions& re
 
 /// Reduces offsets around flipped triangles: to zero at the triangle, and gradually less towards
 /// the border of the patch.
-void hold_back(const Positions& rest, const Positions& before, const Positions& normals,
-               std::span<const std::uint32_t> turned, const PatchMender& mender,
-               Eigen::VectorXd& along) {
-  const auto is_bad = [&](const Triangle& t) {
-    return turns_over(rest, before, normals, along, t);
-  };
+void reduce_offsets(const Positions& rest, const Positions& before, const Positions& normals,
+                    std::span<const std::uint32_t> turned, const PatchMender& mender,
+                    Eigen::VectorXd& along) {
+  const auto is_bad = [&](const Triangle& t) { return flips(rest, before, normals, along, t); };
   Eigen::VectorXd asked;
   const PatchChange change{
       .make =
@@ -168,14 +166,15 @@ void hold_back(const Positions& rest, const Positions& before, const Positions& 
   mender.mend(turned, is_bad, change);
 }
 
-/// Removes folds between neighbouring vertices that found different layers of the scan. There, and
-/// in a neighbourhood that grows as needed, each offset is replaced by the mean of its neighbours.
+/// Removes folds between neighbouring vertices that found different layers of the scan. At these
+/// vertices and in a neighbourhood that grows as needed, the mean of the neighbours replaces each
+/// offset.
 /// \param mender  repairs the skin; created on first use.
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
                     const Positions& normals, std::optional<PatchMender>& mender,
                     Eigen::VectorXd& along) {
   std::vector<char> uneven(skin.vertices.size(), 1);
-  const auto find = [&] { return turned_over(skin, rest, before, normals, along, uneven); };
+  const auto find = [&] { return flipped_triangles(skin, rest, before, normals, along, uneven); };
   std::vector<std::uint32_t> turned = find();
   std::fill(uneven.begin(), uneven.end(), 0);
   std::vector<std::uint32_t> evened;  // ascending
@@ -191,7 +190,8 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
       }
     }
     std::ranges::sort(evened);
-    // In a crease, even equal offsets cross; therefore shrink the offsets a little with each sweep.
+    // In a crease, even equal offsets make normals cross; so shrink the offsets a little in each
+    // sweep.
     const double kept = round < kEvenOnly ? 1 : kKeptOffset;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {
@@ -205,7 +205,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
   }
   if (turned.empty()) return;
   if (!mender) mender.emplace(skin, rest);
-  hold_back(rest, before, normals, turned, *mender, along);
+  reduce_offsets(rest, before, normals, turned, *mender, along);
 }
 
 void move_along(const Positions& normals, const Eigen::VectorXd& along, Positions& positions) {
@@ -225,7 +225,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     normals = iterate(lazy, normals, times);
     for (Index v = 0; v < normals.rows(); ++v)
       normals.row(v) = row3(normals, v).normalized().transpose();
-    const AskedOfSkin asked = ask_scan(skin, result, normals, scan);
+    const TargetOffsets asked = ask_scan(skin, result, normals, scan);
     Columns sums(result.rows(), 2);
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;
     sums = iterate(lazy, sums, times);
@@ -238,7 +238,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
   const SmoothFit fit(skin.adjacency, 16 * std::pow(kStiffnessEdges, 4));
   for (int round = 0; round < kDetailRounds; ++round) {
     if (smoothings == 0) normals = vertex_normals_or_zero(skin.triangles, result);
-    const AskedOfSkin asked = ask_scan(skin, result, normals, scan);
+    const TargetOffsets asked = ask_scan(skin, result, normals, scan);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
     even_out_folds(skin, rest, result, normals, mender, along);
     move_along(normals, along, result);

@@ -9,11 +9,11 @@ namespace crowdface {
 /// Moves a skin that is close to the scan onto the scan. Each vertex moves only along its normal,
 /// so that the correspondence does not slide along the surface. The result keeps relief down to
 /// about twice the skin's edge length.
-/// \param rest  #skin by 3, of the template; no triangle becomes flipped relative to it.
+/// \param rest  #skin by 3, of the template; no triangle becomes flipped relative to `rest`.
 /// \param positions  #skin by 3, in millimetres, in the scan's frame.
 /// \param smoothings  0, or, if the bending step used a much coarser skin: number of smoothing
-///                    steps of normals and offsets in a preliminary round. That round corrects
-///                    coarse errors as a whole, without crossing normals in creases.
+///                    steps of normals and offsets in a preliminary round. The preliminary round
+///                    corrects coarse errors, without crossing normals in creases.
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
                         const ScanSurface& scan, int smoothings);
 

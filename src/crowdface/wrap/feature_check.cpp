@@ -45,7 +45,7 @@ double distance_to_outline(const Eigen::Vector3d& p, const std::vector<Eigen::Ve
   return least;
 }
 
-/// Areas around the vertices of the skin, a third of each triangle's.
+/// The area of each vertex of the skin: a third of the areas of its triangles.
 Eigen::VectorXd areas_at_vertices(const SkinMesh& skin, const Positions& positions) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
   for (const Triangle& t : skin.triangles) {

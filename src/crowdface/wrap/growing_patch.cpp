@@ -18,8 +18,8 @@ GrowingPatch::GrowingPatch(const SkinMesh& skin, const Triangle& triangle)
     : skin_(skin),
       vertices_(triangle.begin(), triangle.end()),
       rings_(vertices_.size(), 0),
-      is_in_(skin.vertices.size(), false) {
-  for (const std::uint32_t v : vertices_) is_in_[v] = true;
+      is_member_(skin.vertices.size(), false) {
+  for (const std::uint32_t v : vertices_) is_member_[v] = true;
 }
 
 void GrowingPatch::grow() {
@@ -27,8 +27,8 @@ void GrowingPatch::grow() {
   for (std::size_t i = 0, known = vertices_.size(); i < known; ++i) {
     if (rings_[i] < ring_ - 1) continue;
     for (const std::uint32_t n : skin_.adjacency.of(vertices_[i])) {
-      if (is_in_[n]) continue;
-      is_in_[n] = true;
+      if (is_member_[n]) continue;
+      is_member_[n] = true;
       vertices_.push_back(n);
       rings_.push_back(ring_);
     }

@@ -17,10 +17,11 @@ class GrowingPatch {
  public:
   GrowingPatch(const SkinMesh& skin, const Triangle& triangle);
 
+  /// Adds the next ring of vertices.
   void grow();
   std::span<const std::uint32_t> vertices() const { return vertices_; }
-  /// Weight of vertex `i` of the patch: 1 at the triangle, 0 beyond the last ring; `steepness`
-  /// steepens the slope at the patch's border.
+  /// Weight of vertex `i` of the patch: 1 at the triangle, 0 beyond the last ring. A larger
+  /// steepness makes the slope at the patch's border steeper.
   double share(std::size_t i) const {
     return std::min(1.0, steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
   }
@@ -30,7 +31,7 @@ class GrowingPatch {
   const SkinMesh& skin_;
   std::vector<std::uint32_t> vertices_;
   std::vector<int> rings_;  ///< ring of each vertex in `vertices_`
-  std::vector<bool> is_in_;
+  std::vector<bool> is_member_;
   int ring_ = 0;
   double steepness_ = 1;
 };

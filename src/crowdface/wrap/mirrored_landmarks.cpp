@@ -21,7 +21,7 @@ double residual_of(const Positions& positions, const std::vector<WrapLandmark>& 
   const Similarity pose = pose_of_landmarks(positions, landmarks);
   std::vector<double> off;
   for (const WrapLandmark& landmark : landmarks) {
-    const Eigen::Vector3d there = carried(pose, row3(positions, landmark.vertex));
+    const Eigen::Vector3d there = apply_similarity(pose, row3(positions, landmark.vertex));
     off.push_back((there - landmark.place).norm() / pose.scale);
   }
   const std::size_t middle = off.size() / 2;

@@ -45,7 +45,7 @@ std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& 
   std::vector<double> distances;
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
     if (regions != nullptr && regions->of_vertex[static_cast<std::size_t>(v)] != region) continue;
-    if (seen(shape, v) && !result.without_data[static_cast<std::size_t>(v)]) {
+    if (seen(shape, v) && !result.lacks_data[static_cast<std::size_t>(v)]) {
       distances.push_back(result.distance_mm(v));
     }
   }
@@ -129,7 +129,7 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result) {
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
     if (!seen(shape, v)) continue;
     ++visible;
-    if (result.without_data[static_cast<std::size_t>(v)]) ++without;
+    if (result.lacks_data[static_cast<std::size_t>(v)]) ++without;
   }
   return visible == 0 ? 0 : static_cast<double>(without) / static_cast<double>(visible);
 }
@@ -274,7 +274,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
   for (const FeatureAgreement& feature : result.features) {
     report["features"][feature.name] = rounded(feature.agreement);
   }
-  if (!result.dropped.empty()) report["dropped_landmarks"] = result.dropped;
+  if (!result.dropped_landmarks.empty()) report["dropped_landmarks"] = result.dropped_landmarks;
   report["warnings"] = warnings;
   return report.dump(2) + "\n";
 }

@@ -42,9 +42,9 @@ struct WrapFacts {
   /// Distance of each landmark, in mm, from its position predicted by a similarity fitted to the
   /// other landmarks. Has no entry for landmarks without a prediction.
   std::map<std::string, double> left_out_mm;
-  /// See `unseen_landmarks`; empty: not requested.
+  /// Result of `unseen_landmarks`; empty if the user did not request it.
   std::map<std::string, double> unseen_mm = {};
-  /// Share of the textures, 0 to 1, that the scan does not show and that is therefore filled.
+  /// Share of the textures, from 0 to 1, that is filled because the scan does not show it.
   std::optional<double> filled_share = {};
 };
 

@@ -14,7 +14,7 @@ std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<
   } else {
     for (const Orientation& orientation : all_orientations()) axes.push_back(axes_of(orientation));
   }
-  const CentredScan moved = centred(scan, {});
+  const CentredScan moved = centre_scan(scan, {});
   const Index vertices = scan.positions.rows();
   const std::vector<bool> all(static_cast<std::size_t>(vertices), true);
   const Positions samples =

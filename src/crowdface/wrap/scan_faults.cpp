@@ -66,7 +66,7 @@ void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const Sk
                    std::vector<std::string>& faults) {
   std::vector<std::uint32_t> of_mouth;
   for (std::uint32_t v = 0; v < shape.skin.vertex_count(); ++v) {
-    if (regions.is(v, "mouth")) of_mouth.push_back(shape.skin.vertices[v]);
+    if (regions.contains(v, "mouth")) of_mouth.push_back(shape.skin.vertices[v]);
   }
   const HeadSet faces{shape.topology, {}, {{"template", shape.positions}}};
   const SkinContacts contacts(faces, shape.adjacency, of_mouth);
@@ -86,9 +86,9 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
                   wrapped = shape.skin.rows_of(result.positions);
   std::vector<std::uint32_t> face, skull;
   for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
-    if (shape.skin.openness[v] <= kSeen || result.without_data[v]) continue;
-    if (regions.is(v, "nose") || regions.is(v, "mouth")) face.push_back(v);
-    if (regions.is(v, "brow")) skull.push_back(v);
+    if (shape.skin.openness[v] <= kSeen || result.lacks_data[v]) continue;
+    if (regions.contains(v, "nose") || regions.contains(v, "mouth")) face.push_back(v);
+    if (regions.contains(v, "brow")) skull.push_back(v);
   }
   if (face.size() < kMin || skull.size() < kMin) return;
   const Similarity faces_meet =
@@ -113,7 +113,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
 
 }  // namespace
 
-bool SkinRegions::is(std::uint32_t vertex, const std::string& name) const {
+bool SkinRegions::contains(std::uint32_t vertex, const std::string& name) const {
   return vertex < of_vertex.size() && names[of_vertex[vertex]] == name;
 }
 

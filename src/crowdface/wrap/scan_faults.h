@@ -18,7 +18,7 @@ struct SkinRegions {
   std::vector<std::size_t> of_vertex;  ///< #skin indices into `names`; empty: no regions
 
   /// Whether a vertex of the skin belongs to the region `name`.
-  bool is(std::uint32_t vertex, const std::string& name) const;
+  bool contains(std::uint32_t vertex, const std::string& name) const;
 };
 
 /// Finds defects of a scan from the wrapped template: closed eyes (lids that meet in front of an

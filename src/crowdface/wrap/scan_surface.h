@@ -25,8 +25,8 @@ class ScanSurface {
     /// Interpolated from the vertex normals, unit.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     double distance = 0;
-    bool found = false;  ///< a point is within reach and not on the scan's boundary
-    bool on_rim = false;
+    bool found = false;   ///< whether a point is within reach and not on the scan's boundary
+    bool on_rim = false;  ///< whether the point lies on the scan's boundary
     std::uint32_t triangle = kNoIndex;
   };
   /// The closest point whose surface normal is within `min_cosine` of the unit vector `facing`.
@@ -39,6 +39,7 @@ class ScanSurface {
 
   const Scan& scan() const { return scan_; }
   const Positions& normals() const { return normals_; }
+  /// #V: whether the vertex lies on the scan's boundary.
   const std::vector<bool>& rim() const { return rim_; }
 
  private:

@@ -174,8 +174,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   if (modes > 0) {  // the model, not the pose, explains differences in size
     equations.hold(6, 1 - fit.pose.scale / first_scale, 1 / (kGrowth * kGrowth));
   }
-  // A small weight keeps rotations at zero that the surface does not determine (for example on a
-  // sphere).
+  // A small weight keeps rotations at zero where the surface does not determine them, as on a
+  // sphere.
   for (Index k = 0; k < kPoseUnknowns; ++k) equations.hold(k, 0, 1e-9);
   apply(equations.solve(), middle, fit);
   return matches.size();
@@ -194,8 +194,8 @@ Similarity pose_of_landmarks(const Positions& positions,
   return fit_similarity(from, to, ScaleFit::kUniform);
 }
 
-Eigen::Vector3d carried(const Similarity& by, const Eigen::Vector3d& point) {
-  return by.scale * (by.rotation * point) + by.translation;
+Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vector3d& point) {
+  return similarity.scale * (similarity.rotation * point) + similarity.translation;
 }
 
 ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,

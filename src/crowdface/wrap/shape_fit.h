@@ -19,9 +19,10 @@ struct WrapLandmark {
   std::string name;
   std::uint32_t vertex = 0;  ///< row of the skin; before wrapping, row of the template
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< position on the scan
-  bool by_shape = false;  ///< found by the program, not picked by the user
-  /// Uncertainty of the place, one standard deviation along each axis. The squared distance of a
-  /// landmark has the weight 1/error_mm².
+  /// whether the program found the landmark by its shape; else the user picked it
+  bool by_shape = false;
+  /// Uncertainty of `place`: standard deviation along each axis. The squared distance of a landmark
+  /// has the weight 1/error_mm².
   double error_mm = kPickedErrorMm;
 
   /// The weight relative to a picked landmark.
@@ -35,7 +36,7 @@ Similarity pose_of_landmarks(const Positions& positions,
                              const std::vector<WrapLandmark>& landmarks);
 
 /// Applies a similarity to a point.
-Eigen::Vector3d carried(const Similarity& by, const Eigen::Vector3d& point);
+Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vector3d& point);
 
 /// The pose of a head in a scan, and its coefficients in the shape model.
 struct ShapeFit {

@@ -41,9 +41,9 @@ ShapeModel make_model(const std::vector<Positions>& heads) {
   }
   const SymmetricEigen eigen = symmetric_eigen(gram);
   // relative to the largest eigenvalue: identical heads give no mode
-  constexpr double kNothing = 1e-9;
+  constexpr double kMinEigenvalue = 1e-9;
   for (Index k = 0; k + 1 < count; ++k) {
-    if (eigen.values(k) <= kNothing * eigen.values(0)) break;
+    if (eigen.values(k) <= kMinEigenvalue * eigen.values(0)) break;
     Positions mode = Positions::Zero(model.mean.rows(), 3);
     // Σ_i v_i difference_i has length √λ; a standard deviation is √(λ / (count − 1)).
     for (Index i = 0; i < count; ++i) {

@@ -20,7 +20,7 @@ constexpr double kTurn = 0.05, kShiftMm = 5, kPoseGrowth = 0.02;
 constexpr Index kPose = 7;
 
 /// A measured displacement of a vertex along a direction, from the scan or a landmark.
-struct Asked {
+struct Observation {
   std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d direction;
   double value, variance;
@@ -54,13 +54,13 @@ class Regression {
 
   /// Derivative of a vertex with respect to translation, rotation and scale of the head, each
   /// scaled by its standard deviation.
-  Positions displacements(const std::vector<Asked>& asked) const {
-    const auto count = static_cast<Index>(asked.size()),
+  Positions displacements(const std::vector<Observation>& observations) const {
+    const auto count = static_cast<Index>(observations.size()),
                modes = static_cast<Index>(model_.modes.size());
     Eigen::MatrixXd along(modes, count), pose(kPose, count), directions(3, count), places(3, count);
     Eigen::VectorXd values(count), variances(count);
     for (Index i = 0; i < count; ++i) {
-      const Asked& one = asked[static_cast<std::size_t>(i)];
+      const Observation& one = observations[static_cast<std::size_t>(i)];
       for (Index k = 0; k < modes; ++k) {
         along(k, i) =
             row3(model_.modes[static_cast<std::size_t>(k)], one.vertex).dot(one.direction);
@@ -132,28 +132,28 @@ class Regression {
 };
 
 /// Measures displacements from sampled skin vertices to the scan.
-std::vector<Asked> ask_scan(const SkinMesh& skin, const ShapeModel& model,
-                            const Positions& positions, const ScanSurface& scan,
-                            const std::vector<std::uint32_t>& places, double reach,
-                            double noise_mm) {
+std::vector<Observation> observe_scan(const SkinMesh& skin, const ShapeModel& model,
+                                      const Positions& positions, const ScanSurface& scan,
+                                      const std::vector<std::uint32_t>& places, double reach,
+                                      double noise_mm) {
   const Positions normals = vertex_normals_or_zero(skin.triangles, positions);
-  std::vector<Asked> asked(places.size());
+  std::vector<Observation> observations(places.size());
   parallel_for_each(places.size(), 64, [&](std::size_t i) {
     const std::uint32_t v = places[i];
     const auto place = scan.nearest(row3(positions, v), row3(normals, v), kMinCosine, reach);
     if (!place.found) return;
     const double off = place.normal.dot(place.point - row3(positions, v));
-    asked[i] = {v, place.normal, place.normal.dot(place.point - row3(model.mean, v)), off};
+    observations[i] = {v, place.normal, place.normal.dot(place.point - row3(model.mean, v)), off};
   });
-  std::erase_if(asked, [](const Asked& one) { return one.vertex == kNoIndex; });
+  std::erase_if(observations, [](const Observation& one) { return one.vertex == kNoIndex; });
   std::vector<double> distances;
-  for (const Asked& one : asked) distances.push_back(std::abs(one.variance));
+  for (const Observation& one : observations) distances.push_back(std::abs(one.variance));
   const double spread = outlier_distance(std::move(distances), reach);
-  for (Asked& one : asked) {  // outliers get a large variance
+  for (Observation& one : observations) {  // outliers get a large variance
     const double share = 1 + one.variance * one.variance / (spread * spread);
     one.variance = noise_mm * noise_mm * share * share;
   }
-  return asked;
+  return observations;
 }
 
 }  // namespace
@@ -166,16 +166,16 @@ Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Pos
   Positions current = positions;
   for (const double reach : options.search_mm) {
     throw_if_interrupted();
-    std::vector<Asked> asked =
-        ask_scan(skin, model, current, scan, places, reach, options.noise_mm);
+    std::vector<Observation> observations =
+        observe_scan(skin, model, current, scan, places, reach, options.noise_mm);
     for (const WrapLandmark& landmark : landmarks) {
       for (Index k = 0; k < 3; ++k) {
-        asked.push_back({landmark.vertex, Eigen::Vector3d::Unit(k),
-                         landmark.place(k) - model.mean(landmark.vertex, k),
-                         landmark.error_mm * landmark.error_mm});
+        observations.push_back({landmark.vertex, Eigen::Vector3d::Unit(k),
+                                landmark.place(k) - model.mean(landmark.vertex, k),
+                                landmark.error_mm * landmark.error_mm});
       }
     }
-    current = model.mean + regression.displacements(asked);
+    current = model.mean + regression.displacements(observations);
   }
   return current;
 }

@@ -30,8 +30,8 @@ constexpr double kMinOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier: × median
 
 /// Converts landmarks from rows of the template to rows of the skin; drops landmarks outside the
 /// skin.
-std::vector<WrapLandmark> on_skin(const SkinMesh& skin,
-                                  const std::vector<WrapLandmark>& landmarks) {
+std::vector<WrapLandmark> landmarks_on_skin(const SkinMesh& skin,
+                                            const std::vector<WrapLandmark>& landmarks) {
   std::vector<WrapLandmark> result;
   for (const WrapLandmark& landmark : landmarks) {
     const std::uint32_t row = index_in_list(skin.vertices, landmark.vertex);
@@ -48,7 +48,8 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   std::vector<LandmarkResidual> result;
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = skin.row(landmark.vertex).transpose();
-    result.push_back({landmark.name, (carried(pose, point) - landmark.place).norm() / pose.scale});
+    result.push_back(
+        {landmark.name, (apply_similarity(pose, point) - landmark.place).norm() / pose.scale});
     result.back().by_shape = landmark.by_shape;
     result.back().error_mm = landmark.error_mm;
   }
@@ -72,7 +73,7 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
 
 void move(std::vector<WrapLandmark>& landmarks, const Similarity& motion) {
   for (WrapLandmark& landmark : landmarks) {
-    landmark.place = carried(motion, landmark.place);
+    landmark.place = apply_similarity(motion, landmark.place);
   }
 }
 
@@ -88,21 +89,22 @@ void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& resu
       on_rim[static_cast<std::size_t>(v)] = place.on_rim ? 1 : 0;
     }
   });
-  result.without_data.assign(on_rim.begin(), on_rim.end());
+  result.lacks_data.assign(on_rim.begin(), on_rim.end());
 }
 
 /// The reduced skin's shape, model and landmarks.
-struct Small {
+struct ReducedInputs {
   Positions rest;
   std::optional<ShapeModel> model;
-  /// Shifted by the offset between the original vertex and the nearest reduced vertex.
+  /// The landmarks, shifted by the offset between the original vertex and the nearest reduced
+  /// vertex.
   std::vector<WrapLandmark> landmarks;
 };
 
-Small reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel* model,
-             const std::vector<WrapLandmark>& landmarks, const Similarity& pose) {
+ReducedInputs reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel* model,
+                     const std::vector<WrapLandmark>& landmarks, const Similarity& pose) {
   const SkinMesh& mesh = shape.reduced->mesh;
-  Small small{mesh.rows_of(rest), std::nullopt, landmarks};
+  ReducedInputs small{mesh.rows_of(rest), std::nullopt, landmarks};
   if (model != nullptr) {
     small.model = ShapeModel{mesh.rows_of(model->mean), {}};
     for (const Positions& mode : model->modes) small.model->modes.push_back(mesh.rows_of(mode));
@@ -163,11 +165,11 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   const std::optional<ReliefMatch> face = hint ? hint->face : std::nullopt;
   const SkinMesh& skin = shape.skin;
   const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
-  std::vector<WrapLandmark> landmarks = on_skin(skin, all_landmarks);
+  std::vector<WrapLandmark> landmarks = landmarks_on_skin(skin, all_landmarks);
   const Positions rest = skin.rows_of(shape.positions);
   WrapResult result;
   ShapeFit fit;
-  std::optional<Small> small;
+  std::optional<ReducedInputs> small;
   const ShapeModel* used = nullptr;
   {
     const ScanSurface surface(scan);
@@ -219,7 +221,8 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
         .rowwise()
         .squaredNorm()
         .minCoeff(&between);
-    result.face_off_mm = (row3(wrapped, between) - carried(back, face->between_eyes)).norm();
+    result.face_off_mm =
+        (row3(wrapped, between) - apply_similarity(back, face->between_eyes)).norm();
   }
 
   result.positions = shape.positions;
@@ -233,7 +236,7 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
 
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint) {
-  const CentredScan moved = centred(scan, landmarks);
+  const CentredScan moved = centre_scan(scan, landmarks);
   std::optional<PoseHint> standing = hint;
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
   if (standing && picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) {
@@ -265,8 +268,8 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
     return result;
   };
   WrapResult best = wrapped_with(all_landmarks);
-  // Landmarks found by shape may be wrong together: all those of the mouth in the crease of the
-  // chin. Only a fit without them shows this.
+  // All landmarks that are found by shape may be wrong together, for example if the landmarks of
+  // the mouth lie in the crease of the chin. Only a fit without these landmarks shows the error.
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = index_in_list(shape.skin.vertices, landmark.vertex);
     return std::ranges::any_of(doubts, [&](const FeatureAgreement& feature) {
@@ -284,7 +287,7 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
     if (worst(other) <= worst(best)) continue;
     for (const WrapLandmark& landmark : all_landmarks) {
       if (std::ranges::find(landmarks, landmark.name, &WrapLandmark::name) == landmarks.end()) {
-        other.dropped.push_back(landmark.name);
+        other.dropped_landmarks.push_back(landmark.name);
       }
     }
     best = std::move(other);
@@ -309,7 +312,7 @@ std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const 
     const Similarity back = inverse(result.pose);
     for (const WrapLandmark& landmark : left_out) {
       unseen[landmark.name] =
-          (row3(result.positions, landmark.vertex) - carried(back, landmark.place)).norm();
+          (row3(result.positions, landmark.vertex) - apply_similarity(back, landmark.place)).norm();
     }
   }
   return unseen;

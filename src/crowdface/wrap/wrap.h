@@ -20,11 +20,12 @@ struct LandmarkResidual {
   double pose_mm = 0;     ///< distance after the similarity
   double final_mm = 0;    ///< distance after the wrap
   bool by_shape = false;  ///< see `WrapLandmark::by_shape`
-  bool outlier = false;   ///< final distance far above the others: probably misplaced
-  double error_mm = 0;    ///< see `WrapLandmark::error_mm`
+  /// whether the final distance is far above the others; the landmark is probably misplaced
+  bool outlier = false;
+  double error_mm = 0;  ///< see `WrapLandmark::error_mm`
 };
 
-/// A feature with less agreement is doubtful.
+/// Smallest agreement of a feature that is not doubtful.
 inline constexpr double kDoubtfulAgreement = 0.7;
 
 /// Agreement of a feature's relief on the wrapped template with the relief on the template; see
@@ -41,12 +42,14 @@ struct WrapResult {
   Similarity pose;      ///< transform from the template's frame (mm) to the scan's
   std::vector<LandmarkResidual> landmarks;
   std::vector<FeatureAgreement> features;  ///< set by `wrap_checked` only
-  /// Landmarks that `wrap_checked` found and did not use, because a feature was doubtful with them.
-  std::vector<std::string> dropped;
-  double pose_residual_mm = 0;     ///< median distance after the similarity
-  Eigen::VectorXd distance_mm;     ///< #skin: distance from the wrapped skin to the scan
-  std::vector<bool> without_data;  ///< #skin: no scan data nearby, or only the scan's boundary
-  Index flipped = 0;               ///< number of flipped triangles in the skin
+  /// Names of the landmarks that `wrap_checked` found but did not use, because they made a feature
+  /// doubtful.
+  std::vector<std::string> dropped_landmarks;
+  double pose_residual_mm = 0;  ///< median distance after the similarity
+  Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
+  /// #skin: whether no scan data is nearby, or only the scan's boundary
+  std::vector<bool> lacks_data;
+  Index flipped = 0;  ///< number of flipped triangles in the skin
   /// Distance in mm from the point between the eyes of the wrapped template to the same point of
   /// the face that the scan's relief shows. Nothing if one of the two faces was not found, or if
   /// enough landmarks were picked.
