@@ -88,8 +88,8 @@ inline bool write_all(int fd, std::string_view bytes) {
   return true;
 }
 
-/// Flushes the file to disk (fsync). Returns true for files that have no disk, such as pipes.
-/// \return whether it succeeded.
+/// Flushes the file to disk (fsync).
+/// \return whether the flush succeeded; true for files that are not on a disk, such as pipes.
 inline bool sync(int fd) {
   while (::fsync(fd) != 0) {
     if (errno == EINTR) continue;

@@ -30,7 +30,7 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
   for (;;) {
     throw_if_interrupted();
     if (::flock(file_.get(), operation) == 0) {
-      // False if the previous holder has removed this file: then open a new one.
+      // The previous holder may have removed this file. If so, open a new file.
       if (path_leads_to(path, file_)) return;
       file_ = open_lock_file(path);
       continue;

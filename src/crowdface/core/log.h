@@ -38,7 +38,7 @@ class LogMemory {
   std::unique_ptr<Lines> lines_;
 };
 
-/// Log one or more lines. Control characters and the like are escaped (see `printable`).
+/// Log one or more lines, with unprintable characters escaped (see `printable`).
 void log_debug(std::string_view text);
 void log_info(std::string_view text);
 void log_warning(std::string_view text);

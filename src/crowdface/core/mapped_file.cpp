@@ -60,7 +60,7 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
     }
     break;
   }
-  // Not one of our mappings: let the access fault again and end the process.
+  // The address is in no watched mapping: let the access fault again and end the process.
   std::signal(signal, SIG_DFL);
 }
 

@@ -54,7 +54,7 @@ class LoopItems {
  public:
   ~LoopItems() { after_.take(); }
 
-  /// Call before the loop; with tasks that are added one by one, before each task.
+  /// Call this before the loop, or before each task if tasks are added one by one.
   void begin() { before_.give(); }
 
   template <class Body>

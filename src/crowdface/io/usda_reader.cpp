@@ -205,7 +205,7 @@ class UsdaReader {
         tokens_.skip_rest();
       }
     }
-    if (tokens_.pass('(')) property.interpolation = tokens_.skip_rest();
+    if (tokens_.consume('(')) property.interpolation = tokens_.skip_rest();
     const bool are_uvs = type.starts_with("texCoord2") || type.starts_with("float2");
     if (is_primvar && are_uvs && prim.uvs.empty()) prim.uvs = name;
     if (name == "primvars:displayColor") prim.colours = name;

@@ -27,25 +27,25 @@ void UsdaTokens::fail(std::string_view what) const {
 }
 
 void UsdaTokens::skip_blanks() {
-  while (at_ < text_.size()) {
-    if (text_[at_] == '#') {
-      at_ = std::min(text_.find('\n', at_), text_.size());
-    } else if (static_cast<unsigned char>(text_[at_]) <= ' ') {
-      ++at_;
+  while (position_ < text_.size()) {
+    if (text_[position_] == '#') {
+      position_ = std::min(text_.find('\n', position_), text_.size());
+    } else if (static_cast<unsigned char>(text_[position_]) <= ' ') {
+      ++position_;
     } else {
       return;
     }
   }
 }
 
-std::string_view UsdaTokens::up_to(std::string_view end, bool escapes) {
-  const std::size_t begin = at_;
-  for (; at_ < text_.size(); ++at_) {
-    if (escapes && text_[at_] == '\\') {
-      ++at_;
-    } else if (text_.substr(at_).starts_with(end)) {
-      const std::string_view inside = text_.substr(begin, at_ - begin);
-      at_ += end.size();
+std::string_view UsdaTokens::text_before(std::string_view end, bool escapes) {
+  const std::size_t begin = position_;
+  for (; position_ < text_.size(); ++position_) {
+    if (escapes && text_[position_] == '\\') {
+      ++position_;
+    } else if (text_.substr(position_).starts_with(end)) {
+      const std::string_view inside = text_.substr(begin, position_ - begin);
+      position_ += end.size();
       return inside;
     }
   }
@@ -54,19 +54,19 @@ std::string_view UsdaTokens::up_to(std::string_view end, bool escapes) {
 
 UsdaToken UsdaTokens::next() {
   skip_blanks();
-  if (at_ >= text_.size()) return {};
-  const std::string_view rest = text_.substr(at_);
+  if (position_ >= text_.size()) return {};
+  const std::string_view rest = text_.substr(position_);
   for (const std::string_view quote : {"\"\"\"", "'''", "@@@", "\"", "'", "@"}) {
     if (!rest.starts_with(quote)) continue;
-    at_ += quote.size();
-    return {UsdaToken::Kind::kQuoted, up_to(quote, quote.front() != '@')};
+    position_ += quote.size();
+    return {UsdaToken::Kind::kQuoted, text_before(quote, quote.front() != '@')};
   }
   if (rest.front() == '<') {
-    ++at_;
-    return {UsdaToken::Kind::kQuoted, up_to(">", false)};
+    ++position_;
+    return {UsdaToken::Kind::kQuoted, text_before(">", false)};
   }
   if (kSigns.find(rest.front()) != kSigns.npos) {
-    ++at_;
+    ++position_;
     return {UsdaToken::Kind::kSign, rest.substr(0, 1)};
   }
   std::size_t length = 0;
@@ -76,14 +76,14 @@ UsdaToken UsdaTokens::next() {
     length += is_array ? 2 : 1;
   }
   length = std::max<std::size_t>(length, 1);
-  at_ += length;
+  position_ += length;
   return {UsdaToken::Kind::kWord, rest.substr(0, length)};
 }
 
-bool UsdaTokens::pass(char sign) {
+bool UsdaTokens::consume(char sign) {
   skip_blanks();
-  if (at_ >= text_.size() || text_[at_] != sign) return false;
-  ++at_;
+  if (position_ >= text_.size() || text_[position_] != sign) return false;
+  ++position_;
   return true;
 }
 
@@ -106,24 +106,24 @@ std::vector<double> UsdaTokens::numbers() {
   int open = 0;
   do {
     skip_blanks();
-    if (at_ >= text_.size()) fail("it ends within a list");
-    const char c = text_[at_];
+    if (position_ >= text_.size()) fail("it ends within a list");
+    const char c = text_[position_];
     if (c == '[' || c == '(' || c == ']' || c == ')' || c == ',') {
       open += c == '[' || c == '(' ? 1 : c == ',' ? 0 : -1;
-      ++at_;
+      ++position_;
       continue;
     }
-    if (text_.substr(at_).starts_with("None")) {
-      at_ += 4;
+    if (text_.substr(position_).starts_with("None")) {
+      position_ += 4;
       continue;
     }
     double number = 0;
     const auto [after, error] =
-        std::from_chars(text_.data() + at_, text_.data() + text_.size(), number);
+        std::from_chars(text_.data() + position_, text_.data() + text_.size(), number);
     if (error != std::errc() || !std::isfinite(number)) {
       fail("expected a list of numbers, found something else in it");
     }
-    at_ = static_cast<std::size_t>(after - text_.data());
+    position_ = static_cast<std::size_t>(after - text_.data());
     numbers.push_back(number);
     if (numbers.size() % 1024 == 0) throw_if_interrupted();
   } while (open > 0);

@@ -25,7 +25,7 @@ class UsdaTokens {
   /// Consumes and returns the next token.
   UsdaToken next();
   /// Consumes a punctuation character if it is the next token. \return whether it was.
-  bool pass(char sign);
+  bool consume(char sign);
   /// Consumes everything up to the closing bracket of an open group.
   /// \return the interpolation named in the group.
   std::string skip_rest();
@@ -37,11 +37,11 @@ class UsdaTokens {
  private:
   void skip_blanks();
   /// Returns the text before `end`. Consumes this text and `end`.
-  std::string_view up_to(std::string_view end, bool escapes);
+  std::string_view text_before(std::string_view end, bool escapes);
 
   std::string_view text_;
   const std::string& name_;
-  std::size_t at_ = 0;
+  std::size_t position_ = 0;
 };
 
 }  // namespace crowdface

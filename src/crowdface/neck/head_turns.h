@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// The motion, of scale 1, that brings points of a head closest to the same points of another head. It
-/// minimises the sum of the distances, not of their squares, so that a long chin or a large nose
-/// hardly rotates a head (iteratively reweighted least squares).
+/// The motion, of scale 1, that brings points of a head closest to the same points of another head.
+/// The motion minimises the sum of the distances, not of their squares, so that a long chin or a
+/// large nose hardly rotates a head (iteratively reweighted least squares).
 /// \param from, to  #points by 3; at least three points that are not collinear
 RigidMotion head_motion(const Positions& from, const Positions& to);
 

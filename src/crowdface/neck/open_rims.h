@@ -17,7 +17,8 @@ using Rim = std::vector<std::uint32_t>;
 /// lowest vertices. Two rims that touch at a vertex are omitted, because neither is a simple loop.
 std::vector<Rim> open_rims(const Topology& topology, const Adjacency& adjacency);
 
-/// The closed loop that the edges among these vertices form; empty if they do not form exactly one.
+/// The closed loop that the edges between the given vertices form; empty if the edges do not form
+/// exactly one loop.
 Rim rim_through(std::span<const std::uint32_t> vertices, const Adjacency& adjacency);
 
 }  // namespace crowdface

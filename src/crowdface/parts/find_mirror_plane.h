@@ -29,7 +29,7 @@ class PlaneFit {
 
 /// Finds the plane in which a surface is most nearly symmetric, by iterative closest points (Besl &
 /// McKay 1992) with a reflection. The iteration runs twice: from the given plane, and from the
-/// plane that matching of nearest vertices gives. The latter plane is exact for a symmetric mesh.
+/// plane that matching of nearest vertices gives. The second plane is exact for a symmetric mesh.
 /// Returns the best plane of all steps.
 ///
 /// \param mean   #V by 3.

@@ -51,8 +51,8 @@ struct MaskFiles {
 
 /// Encodes mask images as PNG.
 /// \param path  path of the first image; may contain <UDIM>. If there are several tiles and the
-///              path has no <UDIM>, it is added before the extension. The numbers _2, _3, … of
-///              further images go before <UDIM>.
+///              path has no <UDIM>, the function adds <UDIM> before the extension. The numbers _2,
+///              _3, … of further images go before <UDIM>.
 MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& path);
 
 }  // namespace crowdface

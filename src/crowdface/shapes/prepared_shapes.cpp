@@ -25,7 +25,7 @@ constexpr double kEyeSkin = 3;
 /// skin's extent; about 5 mm.
 constexpr double kFarThrough = 0.012;
 
-std::vector<std::uint32_t> used_vertices(const ShapeSet& set) {
+std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& set) {
   std::vector<std::uint32_t> used;
   for (const Shape& shape : set.shapes) {
     std::vector<std::uint32_t> both;
@@ -81,7 +81,7 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
       axes(head_axes),
       vertex_faces(faces.topology),
       skin(skin_of(parts, vertex_faces)),
-      used(used_vertices(set)),
+      moved_vertices(all_moved_vertices(set)),
       contacts(faces, adjacency, skin),
       extent(extent_of(set.neutral, skin)),
       crossings(faces.topology, skin, extent, axes) {
@@ -92,7 +92,7 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
     if (part.eyeball) add_eye(part, parts.shapes[part.ball], mean);
   }
   find_inner(parts);
-  field = FrameField(set.neutral, skin, extent, used);
+  field = FrameField(set.neutral, skin, extent, moved_vertices);
   if (!set.of_head.empty()) look_up_regions(regions);
   shapes.resize(set.shapes.size());
   const auto companions = companions_of(set, contacts, extent);
@@ -145,7 +145,7 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
 void PreparedShapes::find_inner(const PartList& parts) {
   for (const Part& part : parts.parts) {
     if (part.eyeball) continue;
-    std::ranges::copy_if(part.vertices, std::back_inserter(inner), [&](std::uint32_t v) {
+    std::ranges::copy_if(part.vertices, std::back_inserter(inner_vertices), [&](std::uint32_t v) {
       return std::ranges::none_of(eyes, [&](const ActingEye& eye) {
         const BallMap& ball = eye.of_template.ball;
         return (row3(set.neutral, v) - ball.centre()).norm() < kEyeSkin * ball.radius();
@@ -161,9 +161,9 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   const auto nearest = [&](std::uint32_t v) {
     return std::ranges::binary_search(skin, v) ? v : grid.nearest(row3(set.neutral, v)).vertex;
   };
-  alpha.resize(static_cast<Index>(used.size()), regions.alpha.cols());
-  parallel_for_each(used.size(), [&](std::size_t i) {
-    alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(used[i]));
+  alpha.resize(static_cast<Index>(moved_vertices.size()), regions.alpha.cols());
+  parallel_for_each(moved_vertices.size(), [&](std::size_t i) {
+    alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(moved_vertices[i]));
   });
   contact_alpha = regions.alpha(contacts.vertices(), kAllColumns);
   for (const RigidPart& part : rigid) {
@@ -181,7 +181,8 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
 
 void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency,
                           PreparedShape& state) const {
-  for (const std::uint32_t v : moves.vertices) state.used.push_back(index_in_list(used, v));
+  for (const std::uint32_t v : moves.vertices)
+    state.vertex_indices.push_back(index_in_list(moved_vertices, v));
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     PartMove part{p, {}, {}, {}};
     for (const std::uint32_t v : rigid[p].vertices) {
@@ -198,7 +199,8 @@ void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency
   Positions shaped = set.neutral;
   if (state.companion) set.shapes[*state.companion].moves.add_to(shaped);
   moves.add_to(shaped);
-  state.over_parts = SkinOverParts(shaped, crossings.mesh(), inner, moves.vertices, axes, extent);
+  state.over_parts =
+      SkinOverParts(shaped, crossings.mesh(), inner_vertices, moves.vertices, axes, extent);
 }
 
 SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
@@ -257,16 +259,17 @@ void PreparedShapes::bind_lids(const Displacements& moves, const Adjacency& adja
 }
 
 PreparedShapes::Carrier PreparedShapes::carrier_for(const Positions& face) const {
-  Carrier carrier{face, field.frames(face), std::vector<Eigen::Matrix3d>(used.size()),
+  Carrier carrier{face, field.frames(face), std::vector<Eigen::Matrix3d>(moved_vertices.size()),
                   contacts.gaps(face), crossings.crossing_at_rest(face, watched)};
-  for (std::size_t i = 0; i < used.size(); ++i) carrier.maps[i] = field.map_at(i, carrier.frames);
+  for (std::size_t i = 0; i < moved_vertices.size(); ++i)
+    carrier.maps[i] = field.map_at(i, carrier.frames);
   return carrier;
 }
 
 Eigen::Matrix3d PreparedShapes::map_of(const PartMove& part, const PreparedShape& state,
                                        std::span<const Eigen::Matrix3d> maps) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t row : part.rows) map += maps[state.used[row]];
+  for (const std::uint32_t row : part.rows) map += maps[state.vertex_indices[row]];
   return map / static_cast<double>(part.rows.size());
 }
 
@@ -328,7 +331,7 @@ SingleRows PreparedShapes::normalised(const Carrier& carrier, const PreparedShap
                                       const Positions& moves) const {
   SingleRows rows(moves.rows(), 3);
   for (Index i = 0; i < moves.rows(); ++i) {
-    const Eigen::Matrix3d& map = carrier.maps[state.used[static_cast<std::size_t>(i)]];
+    const Eigen::Matrix3d& map = carrier.maps[state.vertex_indices[static_cast<std::size_t>(i)]];
     rows.row(i) = apply3(inverse3(map), row3(moves, i)).cast<float>().transpose();
   }
   return rows;

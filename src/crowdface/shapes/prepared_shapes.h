@@ -66,7 +66,8 @@ struct PreparedShape {
   /// only for a corrective shape: the shape with which it is applied. Lips and intersections are
   /// corrected in the sum of both shapes.
   std::optional<std::size_t> companion;
-  std::vector<std::uint32_t> used;  ///< #rows: indices into PreparedShapes::used
+  std::vector<std::uint32_t>
+      vertex_indices;  ///< #rows: indices into PreparedShapes::moved_vertices
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
   std::vector<SingleRows> of_head;
@@ -97,14 +98,15 @@ struct PreparedShapes {
   /// #rigid by #regions: mean weights of the skin at each part
   std::vector<std::vector<double>> rigid_alpha;
   std::vector<ActingEye> eyes;
-  std::vector<std::uint32_t> used;  ///< vertices that any shape moves, ascending
-  /// #used by #regions: weights of the skin nearest to each vertex
+  std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
+  /// #moved_vertices by #regions: weights of the skin nearest to each vertex
   RegionWeights::Alpha alpha;
   GapPreserver contacts;
   RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
   FrameField field;
-  double extent = 0;                 ///< diagonal of the template's skin's bounding box
-  std::vector<std::uint32_t> inner;  ///< vertices of parts away from the eyes: gums and teeth
+  double extent = 0;  ///< diagonal of the template's skin's bounding box
+  std::vector<std::uint32_t>
+      inner_vertices;  ///< vertices of parts away from the eyes: gums and teeth
   SkinCrossings crossings;
   CrossingSearch watched;  ///< search over the skin that at least one shape may bring into contact
   std::vector<PreparedShape> shapes;
@@ -113,7 +115,7 @@ struct PreparedShapes {
   struct Carrier {
     const Positions& mesh;
     FrameField::Frames frames;
-    std::vector<Eigen::Matrix3d> maps;  ///< #used: linear map at each vertex
+    std::vector<Eigen::Matrix3d> maps;  ///< #moved_vertices: linear map at each vertex
     std::vector<double> gaps;           ///< #contacts
     /// #V: whether the vertex is at a self-intersection of the face at rest
     std::vector<bool> crosses_at_rest;

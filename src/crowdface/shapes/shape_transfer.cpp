@@ -51,7 +51,7 @@ class CarriedShape {
         rest_(rest),
         mesh_(mesh),
         result_{prepared.set.shapes[number].moves.vertices,
-                Positions(static_cast<Index>(shape_.used.size()), 3)} {
+                Positions(static_cast<Index>(shape_.vertex_indices.size()), 3)} {
     if (has_own_sets()) {
       move_skin(mixed_moves());
     } else {
@@ -108,8 +108,8 @@ Positions CarriedShape::mixed_moves() const {
     for (const SetShare& of_set : shares_[k]) {
       const SingleRows& own = shape_.of_head[of_set.set];
       for (Index i = 0; i < moves.rows(); ++i) {
-        const double part =
-            prepared_.alpha(shape_.used[static_cast<std::size_t>(i)], static_cast<Index>(k));
+        const double part = prepared_.alpha(shape_.vertex_indices[static_cast<std::size_t>(i)],
+                                            static_cast<Index>(k));
         if (part == 0) continue;
         const double share = part * of_set.share;
         for (Index c = 0; c < 3; ++c) moves(i, c) += share * static_cast<double>(own(i, c));
@@ -120,9 +120,10 @@ Positions CarriedShape::mixed_moves() const {
 }
 
 void CarriedShape::move_skin(const Positions& moves) {
-  for (std::size_t i = 0; i < shape_.used.size(); ++i) {
+  for (std::size_t i = 0; i < shape_.vertex_indices.size(); ++i) {
     const auto row = static_cast<Index>(i);
-    result_.moves.row(row) = apply3(carrier_.maps[shape_.used[i]], row3(moves, row)).transpose();
+    result_.moves.row(row) =
+        apply3(carrier_.maps[shape_.vertex_indices[i]], row3(moves, row)).transpose();
   }
 }
 

@@ -73,7 +73,7 @@ std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Position
 /// result differs from `iterate` by less than 10⁻⁸ of the head's size.
 Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level);
 
-/// Smooths to several levels in one pass.
+/// Computes S_L x for several levels L in one filter pass.
 std::vector<Positions> smooth(const ChebyshevFilter& filter, const Positions& positions,
                               std::span<const std::uint64_t> levels);
 

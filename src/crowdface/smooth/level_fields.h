@@ -29,7 +29,8 @@ struct LevelFields {
   Index rank = 0;  ///< R
   /// #tiles + 1: index of each tile's first field in the concatenated fields of all tiles.
   std::span<const std::uint32_t> first;
-  std::span<const float> steps;  ///< one per stored field, in the unit of the positions
+  /// #stored fields: quantization steps, in the unit of the positions
+  std::span<const float> steps;
   /// kFieldTile by 3 per stored field; zero beyond the last vertex.
   std::span<const std::int16_t> numbers;
   std::shared_ptr<const void> owner;  ///< keeps the three lists alive

@@ -118,7 +118,7 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
 /// #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
 Eigen::MatrixXd max_errors(const Directions& directions, const NodeDisplacements& sample) {
   const Index nodes = sample.nodes, levels = directions.functions.rows();
-  // Transposed, so that the functions of one level are contiguous.
+  // Transpose the matrix, so that the functions of one level are contiguous.
   const Eigen::MatrixXf functions = directions.functions.transpose().cast<float>();
   Eigen::MatrixXf most = Eigen::MatrixXf::Zero(nodes + 1, levels);
   std::mutex mutex;

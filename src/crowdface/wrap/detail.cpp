@@ -29,7 +29,7 @@ constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
 /// Least ratio of a moved triangle's area, projected on its previous normal, to its previous area.
 constexpr double kMinAreaRatio = 0.05;
-/// Least cosine between a triangle's normal and the template's.
+/// Smallest cosine between the normals of a triangle on the skin and on the template.
 constexpr double kMinFaceCosine = 0.05;
 
 constexpr std::ptrdiff_t kDetailBlock = 8192;

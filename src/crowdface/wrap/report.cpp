@@ -106,7 +106,7 @@ Surfaces surfaces_of(const WrapTemplate& shape) {
   return surfaces;
 }
 
-/// Paints the doubtful features red. Nothing if there are none.
+/// Returns colours in which the doubtful features are red; nothing if no feature is doubtful.
 std::optional<VertexColours> doubt_colours(const WrapTemplate& shape, const WrapResult& result) {
   if (std::ranges::none_of(result.features, &FeatureAgreement::is_doubtful)) return std::nullopt;
   Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(shape.topology.vertex_count);

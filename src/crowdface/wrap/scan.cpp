@@ -54,7 +54,8 @@ double largest(const std::vector<double>& areas) {
   return areas.empty() ? 0 : std::ranges::max(areas);
 }
 
-/// If the scan has eyeballs, keeps only the components whose class is wanted.
+/// Keeps only the components with a wanted class if the scan has eyeballs; otherwise returns the
+/// scan unchanged.
 Scan of_modelled_head(const Scan& scan, const std::function<bool(PartClass)>& is_wanted) {
   const Topology topology = topology_of(scan.triangles, scan.positions.rows());
   const Adjacency adjacency = build_adjacency(topology);

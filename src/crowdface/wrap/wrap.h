@@ -39,7 +39,7 @@ struct FeatureAgreement {
 
 struct WrapResult {
   Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
-  Similarity pose;      ///< transform from the template's frame (mm) to the scan's
+  Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
   std::vector<LandmarkResidual> landmarks;
   std::vector<FeatureAgreement> features;  ///< set by `wrap_checked` only
   /// Names of the landmarks that `wrap_checked` found but did not use, because they made a feature
