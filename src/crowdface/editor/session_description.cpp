@@ -255,7 +255,7 @@ std::string EditSession::head(Index head) const {
   const std::size_t of_field = 3 * preview_.vertices.size();
   for (std::size_t at = 0; at < values.size(); at += of_field) {
     steps.push_back(
-        in_16_bits(std::span(std::as_const(values)).subspan(at, of_field), fields.data() + at));
+        quantize(std::span(std::as_const(values)).subspan(at, of_field), fields.data() + at));
   }
   std::vector<float> functions;
   for (int step = 0; step <= kLevels; ++step) {
