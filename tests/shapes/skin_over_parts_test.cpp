@@ -15,7 +15,7 @@ constexpr double kFlatExtent = 430, kDepth = 0.43;
 class SkinOverPartsTest : public ::testing::Test {
  protected:
   SkinOverPartsTest() {
-    skin_.around = compressed_rows<std::uint32_t>(kInner + 1, [&](const auto& put) {
+    skin_.vertex_triangles = compressed_rows<std::uint32_t>(kInner + 1, [&](const auto& put) {
       for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
         for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
           const std::uint32_t a = y * kSide + x;
