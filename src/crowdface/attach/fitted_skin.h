@@ -55,6 +55,7 @@ class FittedSkin {
   /// from the skin. Weights and reach are continuous in the point, so neighbouring points get
   /// almost the same patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
+  /// Like patch_around(point), with a given minimum reach.
   /// \param min_reach  Minimum reach of the patch.
   Patch patch_around(const Eigen::Vector3d& point, double min_reach) const;
 

@@ -17,6 +17,7 @@ class SmoothBend {
   /// \param points  #P by 3, on the fitted mesh; must outlive this object.
   SmoothBend(const FittedSkin& skin, const Positions& points);
 
+  /// Moves the points with the skin of a face.
   /// \param face  #V by 3.
   /// \return      Points on the face, #P by 3.
   Positions bend(const Positions& face) const;

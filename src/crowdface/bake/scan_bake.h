@@ -69,6 +69,7 @@ class ScanBake {
   std::vector<double> measure_vertices(Positions& densities) const;
   void find_trust(const std::vector<double>& confidence);
   void estimate_shading(const std::vector<double>& confidence, const Positions& densities);
+  /// Computes tone_ from the differences at the vertices.
   /// \param differences  #skin by 3: density of the scan minus that of the template.
   void match_tone(const std::vector<double>& confidence, const Positions& differences);
 

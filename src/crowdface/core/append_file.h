@@ -16,6 +16,7 @@ class AppendFile {
   /// Creates the file if it does not exist. \throws CannotCreate.
   explicit AppendFile(const std::filesystem::path& path);
 
+  /// Appends the bytes and syncs the file.
   /// \throws IoError.
   void append(std::string_view bytes);
 

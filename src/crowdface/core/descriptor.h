@@ -66,6 +66,7 @@ struct OpenedFile {
   Descriptor descriptor;
   std::size_t size;
 };
+/// Opens a regular file.
 /// \throws MissingInput if `path` is not a regular file or cannot be opened; IoError if the cause
 /// is the machine (disk error, out of memory, too many open files).
 OpenedFile open_for_reading(const std::filesystem::path& path);

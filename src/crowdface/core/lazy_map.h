@@ -14,6 +14,7 @@ namespace crowdface {
 template <class Key, class Value>
 class LazyMap {
  public:
+  /// Returns the value of a key; computes it at the first request.
   /// \param make  returns a std::unique_ptr to the value.
   /// \return     a reference that stays valid as long as this object.
   template <class Make>

@@ -14,6 +14,7 @@ struct FixedNormals {
   std::vector<std::uint32_t> vertices;
   Positions normals;  ///< #vertices by 3
 
+  /// Writes the given normals into `all`.
   /// \param all  #V by 3
   void set(Positions& all) const {
     for (std::size_t i = 0; i < vertices.size(); ++i) {

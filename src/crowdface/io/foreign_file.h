@@ -11,8 +11,8 @@ namespace crowdface {
 /// \throws InvalidInput with the kind of file found and how to obtain the mesh.
 void refuse_foreign_file(std::string_view bytes, const std::filesystem::path& path);
 
-/// Advice for a word in a text mesh that should be a finite number: decimal comma, not a number.
-/// Empty for other words.
+/// Advice for a word where a text mesh should have a finite number, such as a number with a decimal
+/// comma or "nan". Empty for other words.
 std::string_view advice_on_number(std::string_view word);
 
 }  // namespace crowdface

@@ -34,11 +34,13 @@ struct PictureToEncode {
 /// consists of function pointers and has no virtual functions, because OpenImageIO is behind a
 /// shared library and type identity across libraries is unreliable.
 struct ImageCodec {
+  /// Opens an image and reads its header.
   /// \param format  name of the reader in OpenImageIO.
   /// \param bytes  of the file; must outlive the picture.
   /// \return null if the picture cannot be opened; `error` gives the reason.
   void* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
                 PictureFacts& facts, std::string& error);
+  /// Reads all pixels of an open image.
   /// \param pixels  buffer for all pixels, of the type given by `PictureFacts::values`.
   /// \return whether the pixels could be read.
   bool (*read)(void* picture, void* pixels, std::string& error);

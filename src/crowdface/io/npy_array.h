@@ -23,6 +23,7 @@ struct NpyArray {
 /// \param name  of the file, for messages.
 /// \throws InvalidInput.
 NpyArray parse_npy(std::string_view bytes, const std::string& name);
+/// Reads a file in NumPy's format.
 /// \throws MissingInput, InvalidInput.
 NpyArray read_npy_array(const std::filesystem::path& path);
 

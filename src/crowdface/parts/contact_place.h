@@ -73,6 +73,7 @@ class Clearance {
     std::array<std::uint32_t, 2> low, high;
     std::array<double, 2> low_shares, high_shares;  ///< interpolation weights, with sum one
 
+    /// Returns the height of the high point above the low point.
     /// \param heights  Heights of all points.
     double gap(std::span<const double> heights) const {
       return high_shares[0] * heights[high[0]] + high_shares[1] * heights[high[1]] -

@@ -63,6 +63,7 @@ class EyeSocket {
     Eigen::Vector3d point;
     std::uint32_t number;
   };
+  /// Returns `motion` improved by one step of the optimisation.
   /// \param far  The function removes lid points that are farther away than this fraction of the
   ///             radius.
   RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,

@@ -31,6 +31,7 @@ struct FaceEye {
 
   BallMap::Gap gap_at(const Eigen::Vector3d& point) const;
 };
+/// Makes the FaceEye of one eye of a face.
 /// \param mesh  The face at rest, #V by 3.
 FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
                  const Positions& mesh);

@@ -33,6 +33,7 @@ class PointCarrier {
   /// \param skin    Vertices of the skin; at least three that are not collinear.
   PointCarrier(const PointSet& points, const PartList& parts, std::span<const std::uint32_t> skin);
 
+  /// Returns the positions of all points on a face.
   /// \param target  The head that the face is built on. Its own points are used if each head has
   ///                points.
   /// \param face    #V by 3.

@@ -136,6 +136,7 @@ struct PreparedShapes {
   SkinCrossings::Watched watch(const Displacements& moves, const PreparedShape& state) const;
   void add_sets();
   Displacements shape_of_set(std::size_t number, std::size_t shape) const;
+  /// Adds one set's data of a shape to `state`.
   /// \param rest  The mesh to which the shape is added.
   void add_set(const Carrier& carrier, const Positions& rest, const Displacements& shape,
                std::span<const FaceEye> at_eyes, PreparedShape& state) const;

@@ -41,6 +41,7 @@ class SkinCrossings {
     /// is arranged as on the template.
     bool joins_distant_skin = false;
   };
+  /// Finds the skin in which intersections of a shape are searched.
   /// \param neutral  The mesh to which the shape is added, #V by 3.
   /// \param side     See Watched::side.
   Watched watch(const Positions& neutral, const Displacements& shape,

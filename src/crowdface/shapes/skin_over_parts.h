@@ -54,6 +54,7 @@ class SkinOverParts {
   struct Push {
     Eigen::Vector3d position, displacement;
   };
+  /// Returns the pushes that move skin in front of covered vertices.
   /// \param max_push  #covered: the largest push that each covered vertex may still cause; reduced
   ///                  by each push.
   std::vector<Push> pushes_in(const Positions& mesh, const RigidMotion& whole,

@@ -52,6 +52,7 @@ struct FieldTiles {
   std::vector<float> steps;
   std::vector<std::int16_t> numbers;
 
+  /// Quantizes and appends the fields of one tile.
   /// \param values  the first `count` fields by kTileValues, finite; more values are ignored.
   void add(std::span<const float> values, std::size_t count);
 };

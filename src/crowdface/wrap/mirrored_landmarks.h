@@ -7,6 +7,7 @@
 
 namespace crowdface {
 
+/// Rejects mirrored landmarks.
 /// \throws InvalidInput if the landmarks fit several times better after a reflection, because the
 ///     scan is mirrored or because left and right names are exchanged; the message names the better
 ///     explanation. Fewer than five landmarks cannot show a reflection and pass.
