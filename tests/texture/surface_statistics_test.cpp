@@ -74,7 +74,7 @@ TEST(SurfaceStatistics, AreMeansSmoothedByIteration) {
     const TextureMap& map = *sheet.textures.maps[0][head];
     Eigen::RowVector3d row;
     for (std::size_t c = 0; c < 3; ++c) {
-      row[static_cast<Index>(c)] = map.number(map.stored()[c * map.texels() + texel]);
+      row[static_cast<Index>(c)] = map.decode(map.stored()[c * map.texels() + texel]);
     }
     return row;
   };

@@ -21,7 +21,7 @@ std::vector<float> values_of(const MapCoding& coding) {
   std::vector<float> values(65536);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = coding.content == MapContent::kColours ? light_of_density(static_cast<float>(i))
-                                                       : coding.number(static_cast<Density>(i));
+                                                       : coding.decode(static_cast<Density>(i));
   }
   return values;
 }

@@ -144,7 +144,8 @@ class AttachmentDrawing {
         matching_items(placed, [&](const auto& item) { return contains(names, item.name); });
     if (face.family) {
       for (const AttachmentItem* item : placed_[face.id]) {
-        if (!item->colour.empty()) families_.try_emplace({*face.family, item->kind}, item->colour);
+        if (!item->colour.empty())
+          family_colours_.try_emplace({*face.family, item->kind}, item->colour);
       }
     }
     return {std::move(names), hair};
@@ -271,8 +272,9 @@ class AttachmentDrawing {
                     [&](const auto* item) { return take(item->colour); }))
       return;
     if (face.parents.empty()) {
-      const auto found = face.family ? families_.find({*face.family, kind}) : families_.end();
-      if (found != families_.end()) take(found->second);
+      const auto found =
+          face.family ? family_colours_.find({*face.family, kind}) : family_colours_.end();
+      if (found != family_colours_.end()) take(found->second);
       return;
     }
     const Index head = heads_.at(face.id);
@@ -362,7 +364,7 @@ class AttachmentDrawing {
   std::map<std::string, Items> placed_;  ///< attachments of the faces so far, by the face's id
   std::map<std::string, Index> heads_;   ///< by the face's id: the head whose tags the face has
   /// the family's colour, by family and kind
-  std::map<std::pair<std::string, std::string>, std::string> families_;
+  std::map<std::pair<std::string, std::string>, std::string> family_colours_;
   /// the Turns of each set of similar faces, by the set's name
   std::map<std::string, Turns> turns_;
   Turns all_turns_;                                             ///< the Turns of all sampled faces

@@ -12,7 +12,7 @@ namespace {
 
 /// number of points up to which a search of a list is as fast as a search of a tree
 constexpr Index kNewest = 2048;
-constexpr std::uint32_t kLeaf = 2 * PointBlocks::kLanes;
+constexpr std::uint32_t kLeafSize = 2 * PointBlocks::kLanes;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
     const auto& [blocks, at] = sources[row];
     for (Index d = 0; d < leading.cols(); ++d) leading(row, d) = blocks->value(at, d);
   }
-  tree_ = MedianSplitTree(std::move(rows), leading, kLeaf);
+  tree_ = MedianSplitTree(std::move(rows), leading, kLeafSize);
   std::vector<float> values(static_cast<std::size_t>(points_.padded_dimensions()));
   for (const std::uint32_t row : tree_.order) {
     const auto& [blocks, at] = sources[row];

@@ -52,7 +52,7 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   std::optional<HairColour> colour = inherited_colour(face, person);
   if (!colour) colour = scheduled_colour(face);
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
-  if (face.family && face.parents.empty()) families_.try_emplace(*face.family, *colour);
+  if (face.family && face.parents.empty()) family_colours_.try_emplace(*face.family, *colour);
   // Scatter the colours a little, so that not all brown hair is the same brown.
   const std::string purpose = key("hair/scatter");
   const auto scatter = random_pair({options_.seed, is_twin ? 0 : face.index.value_or(0), purpose});
@@ -103,8 +103,8 @@ std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
 std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
                                                         const std::string& person) const {
   if (face.parents.empty()) {
-    const auto found = face.family ? families_.find(*face.family) : families_.end();
-    return found == families_.end() ? std::nullopt : std::optional(found->second);
+    const auto found = face.family ? family_colours_.find(*face.family) : family_colours_.end();
+    return found == family_colours_.end() ? std::nullopt : std::optional(found->second);
   }
   std::vector<HairColour> known;
   for (const std::string& parent : face.parents) {

@@ -140,7 +140,7 @@ std::shared_ptr<const TextureMap> compose(
     float high = coding.low;
     for (const auto& [row, map] : maps) {
       coding.low = std::min(coding.low, map->coding.low);
-      high = std::max(high, map->number(65535));
+      high = std::max(high, map->decode(65535));
     }
     coding = MapCoding::values(coding.channels, coding.low, high);
   }
@@ -151,7 +151,7 @@ std::shared_ptr<const TextureMap> compose(
       for (int c = 0; c < coding.channels; ++c) {
         std::transform(from.row(c, y) + span.begin, from.row(c, y) + span.end,
                        composed->row(c, y) + span.begin,
-                       [&](Density number) { return coding.stored(from.number(number)); });
+                       [&](Density number) { return coding.stored(from.decode(number)); });
       }
     }
   }

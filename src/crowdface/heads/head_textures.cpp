@@ -77,7 +77,7 @@ Texture finish_of(const TextureMap& map, int max_px) {
   return shrunk_texture(map.width, map.height, max_px, [&](int y, std::span<Light> texels) {
     for (std::size_t x = 0; x < texels.size(); ++x) {
       texels[x] = Light::Zero();
-      for (int c = 0; c < map.coding.channels; ++c) texels[x][c] = map.number(map.row(c, y)[x]);
+      for (int c = 0; c < map.coding.channels; ++c) texels[x][c] = map.decode(map.row(c, y)[x]);
     }
   });
 }

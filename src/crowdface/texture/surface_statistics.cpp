@@ -34,7 +34,7 @@ Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   const std::span<const Density> stored = map.stored();
   Eigen::Array3f numbers = Eigen::Array3f::Zero();
   for (std::size_t c = 0; c < channels; ++c) {
-    numbers[static_cast<Index>(c)] = map.number(stored[c * map.texels() + texel]);
+    numbers[static_cast<Index>(c)] = map.decode(stored[c * map.texels() + texel]);
   }
   return numbers;
 }

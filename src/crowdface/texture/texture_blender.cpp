@@ -113,7 +113,7 @@ MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& ma
   float high = 0;
   for (const auto& map : maps) {
     if (!map) continue;
-    const float top = map->number(65535);
+    const float top = map->decode(65535);
     if (!common) {
       common = map->coding;
       high = top;

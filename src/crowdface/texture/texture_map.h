@@ -31,7 +31,7 @@ struct MapCoding {
   float step = 1;
 
   /// The number that a stored value encodes.
-  float number(Density stored) const { return low + step * static_cast<float>(stored); }
+  float decode(Density stored) const { return low + step * static_cast<float>(stored); }
   /// The nearest stored value of a number, clamped to 0 … 65,535.
   Density stored(float number) const;
 
@@ -52,7 +52,7 @@ struct TextureMap {
   MapCoding coding = {};
   std::shared_ptr<const MappedFile> scratch = {};  ///< holds the planes after move_to_disk
 
-  float number(Density stored) const { return coding.number(stored); }
+  float decode(Density stored) const { return coding.decode(stored); }
   std::size_t texels() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }

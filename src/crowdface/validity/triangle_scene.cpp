@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kLeaf = TriangleTree::kLeaf;
+constexpr std::uint32_t kLeafSize = TriangleTree::kLeafSize;
 
 /// Whether a ray hits a triangle.
 /// Source: Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
@@ -92,7 +92,7 @@ void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const
   if (left != 0) left &= ~shared_vertex_mask(tree_.corners[one], tree_.corners[other]);
   for (; left != 0; left &= left - 1) {
     const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-    const std::uint32_t a = ones[bit / kLeaf], b = others[bit % kLeaf];
+    const std::uint32_t a = ones[bit / kLeafSize], b = others[bit % kLeafSize];
     const TrianglePair pair(std::min(a, b), std::max(a, b));
     if (keep(pair)) found.push_back(pair);
   }
@@ -165,7 +165,7 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
     const std::uint32_t n = waiting.back();
     waiting.pop_back();
     const TriangleTree::Node& node = tree_.nodes[n];
-    if (node.end <= leaf * kLeaf || !overlap(boxes_[n], here)) continue;
+    if (node.end <= leaf * kLeafSize || !overlap(boxes_[n], here)) continue;
     if (node.is_leaf()) {
       near.push_back(TriangleTree::leaf_number(node));
     } else {

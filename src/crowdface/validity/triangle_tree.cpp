@@ -38,7 +38,7 @@ MedianSplitTree split_triangles(const std::vector<Triangle>& triangles, const Po
     }
     if (!left_out[t]) rows.push_back(t);
   }
-  return {std::move(rows), middles, TriangleTree::kLeaf};
+  return {std::move(rows), middles, TriangleTree::kLeafSize};
 }
 
 }  // namespace
@@ -46,8 +46,9 @@ MedianSplitTree split_triangles(const std::vector<Triangle>& triangles, const Po
 TriangleTree::TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
                            double apart)
     : MedianSplitTree(split_triangles(triangles, positions, apart)) {
-  corners.reserve((order.size() + kLeaf - 1) / kLeaf);
-  for (std::size_t l = 0; kLeaf * l < order.size(); ++l) corners.emplace_back(leaf(l), triangles);
+  corners.reserve((order.size() + kLeafSize - 1) / kLeafSize);
+  for (std::size_t l = 0; kLeafSize * l < order.size(); ++l)
+    corners.emplace_back(leaf(l), triangles);
 }
 
 }  // namespace crowdface

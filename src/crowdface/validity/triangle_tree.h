@@ -17,7 +17,7 @@ namespace crowdface {
 /// the boxes stay tight if the positions are similar to the constructor's.
 struct TriangleTree : MedianSplitTree {
   /// Triangles per leaf; the last leaf may have fewer.
-  static constexpr std::uint32_t kLeaf = LeafBoxes::kCount;
+  static constexpr std::uint32_t kLeafSize = LeafBoxes::kCount;
   std::vector<LeafCorners> corners;  ///< corners of each leaf's triangles
 
   TriangleTree() = default;
@@ -28,11 +28,11 @@ struct TriangleTree : MedianSplitTree {
                double apart = 0);
 
   std::size_t leaf_count() const { return corners.size(); }
-  static std::uint32_t leaf_number(const Node& node) { return node.begin / kLeaf; }
+  static std::uint32_t leaf_number(const Node& node) { return node.begin / kLeafSize; }
   /// The triangle indices of a leaf.
   std::span<const std::uint32_t> leaf(std::size_t number) const {
-    const std::size_t begin = number * kLeaf;
-    return std::span(order).subspan(begin, std::min<std::size_t>(kLeaf, order.size() - begin));
+    const std::size_t begin = number * kLeafSize;
+    return std::span(order).subspan(begin, std::min<std::size_t>(kLeafSize, order.size() - begin));
   }
 };
 
