@@ -124,7 +124,9 @@ MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& ma
     high = std::max(high, top);
   }
   if (!common) return {};
-  if (common->content == MapContent::kValues) common->step = (high - common->low) / 65535;
+  if (common->content == MapContent::kValues) {
+    common = MapCoding::values(common->channels, common->low, high);
+  }
   return *common;
 }
 

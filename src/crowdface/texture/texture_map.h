@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -38,9 +40,11 @@ struct MapCoding {
   /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
   /// representable.
   static MapCoding slopes() { return {MapContent::kSlopes, 2, -8, 16.0F / 65534}; }
-  /// A coding of plain numbers. \param channels  1 or 3. \param low, high  range of all numbers.
+  /// A coding of plain numbers. \param channels  1 or 3. \param low, high  range of all numbers; if
+  ///     they are equal, every stored value encodes this number.
   static MapCoding values(int channels, float low = 0, float high = 1) {
-    return {MapContent::kValues, channels, low, high > low ? (high - low) / 65535 : 1};
+    constexpr float kSmallestStep = std::numeric_limits<float>::min();
+    return {MapContent::kValues, channels, low, std::max((high - low) / 65535, kSmallestStep)};
   }
 };
 
