@@ -146,7 +146,7 @@ const Keys<FaceChange>& change_keys() {
   return keys;
 }
 
-/// Complains about keys that contradict each other, or the face.
+/// Adds a complaint about keys that contradict each other or do not suit the face.
 void check_change(const YamlEntry& entry, const FaceChange& change, ConfigDraft& draft) {
   const YamlNode& node = entry.value;
   if (node.entries.empty()) {

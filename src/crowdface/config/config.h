@@ -56,7 +56,7 @@ enum class TextureBlend {
 };
 /// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };
-/// Whether pictures show textures.
+/// Whether rendered images show textures.
 enum class SheetTexture {
   kAuto,  ///< if any head has textures
   kYes,
@@ -70,13 +70,13 @@ enum class Levels {
   kCubic,  ///< the paper's cubic polynomial in the level L per vertex (§5.1)
 };
 
-/// How pictures show a material. Overrides the kind that the material's name suggests.
+/// How rendered images show a material. Overrides the kind that the material's name suggests.
 struct SurfaceChoice {
   SurfaceKind kind = SurfaceKind::kSkin;
   std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: the colour of `kind`
 };
 
-/// A line of text below a picture.
+/// A line of text below a rendered image.
 enum class SheetLabel {
   kId,
   kFamily,

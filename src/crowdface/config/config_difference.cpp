@@ -70,7 +70,7 @@ bool is_same(const YamlNode& a, const YamlNode& b) {
   return paths.empty();
 }
 
-/// Removes the keys that a group has from `sampling`, so that a difference there is told once.
+/// Removes the keys that a group has from `sampling`, so that a difference in such a key is reported once.
 void remove_inherited_keys(YamlNode& root) {
   const YamlEntry* sampling = root.find("sampling");
   const auto groups = std::ranges::find(root.entries, "groups", &YamlEntry::key);
@@ -137,7 +137,7 @@ std::optional<KeptDistances> distances_of(const YamlNode& root) {
   return distances;
 }
 
-/// Returns whether all faces of the old crowd, and its families, have the same smallest distances.
+/// Returns whether the same smallest distances are required of the old crowd's faces and families.
 bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   const auto before = distances_of(old), now = distances_of(root);
   const auto count = number_at(old, kCount);

@@ -23,7 +23,7 @@ std::vector<std::string> config_differences(const std::string& old_text, const s
 /// Returns the whole number at a key of a config, such as "crowd.count"; nothing if there is none.
 std::optional<std::uint64_t> number_in_config(const std::string& text, std::string_view key_path);
 
-/// The smallest distances between the faces of a crowd.
+/// The smallest distances that a config requires between the faces of a crowd.
 struct KeptDistances {
   double min_distance_mm = 0;
   std::map<std::uint64_t, double> of_first_mm;  ///< DiversityOptions::min_distance_of_first_mm

@@ -266,7 +266,7 @@ Key<Config> attachments_key();
 Key<Config> believability_key();
 Key<Config> recipes_key();
 Key<Config> groups_key();
-/// Returns the number of heads in the smaller of the groups of a starter config, women and men; 0 if
+/// Returns the number of heads in the smaller of a starter config's two groups, women and men; 0 if
 /// the starter has no groups.
 std::size_t heads_of_smaller_group(const StarterFacts& facts);
 Key<Config> families_key();

@@ -7,8 +7,7 @@
 
 namespace crowdface {
 
-/// Appends the heads of `also` in the section `faces` of the edits to the heads of a config's
-/// section.
+/// Appends the heads listed under `faces.also` of the edits to the heads of the config's `faces`.
 void merge_faces(const YamlNode& faces, YamlNode& own);
 
 /// Replaces each section of `root` by the section in `edits`, except `faces`, see merge_faces, and

@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-/// Reads a mapping from heads to tags. Refuses tags with another meaning.
+/// Reads a mapping from heads to tags. Refuses tags that already mean something else in a config.
 void read_head_tags(const YamlNode& node, Config::Faces& faces, ConfigDraft& draft);
 
 /// Reads the tags from `faces.tags` of each tags.yaml in a folder of heads; `crowdface synth` and

@@ -133,7 +133,7 @@ bool looks_sampled(std::string_view id, std::string_view crowd) {
          id.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 
-/// \param places  places of the earlier ids.
+/// \param places  locations of the earlier ids in the files.
 void check_id(const YamlNode& node, const std::string& id, std::map<std::string, YamlPlace>& places,
               ConfigDraft& draft) {
   if (looks_sampled(id, draft.config.crowd.name)) {

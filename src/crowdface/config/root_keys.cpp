@@ -191,7 +191,7 @@ void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
       "GLB files cannot hold EXR textures; add png or jpeg to textures.formats");
 }
 
-/// Limits of the crowd, from which groups and families start.
+/// The crowd's limits on measurements. Groups and families start from these limits.
 Key<Config> traits_key() {
   const Codec<TraitLimits> codec = trait_limits();
   return Key<Config>{"traits",

@@ -32,7 +32,7 @@ bool is_plain(std::string_view text) {
                             "_-./") == std::string_view::npos;
 }
 
-/// Sets the place of every node of a command-line value to the place of the option.
+/// Sets the location of every node of a command-line value to the location of the option.
 void place_at(YamlNode& node, const YamlPlace& place, const std::string& path) {
   node.place = place;
   node.path = path;
