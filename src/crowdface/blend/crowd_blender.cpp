@@ -88,9 +88,9 @@ void CrowdBlender::find_regions() {
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
   std::vector<double> sums(field_count(), 0.0);
   for (const LevelShares& at : level_shares(recipe, region)) {
-    // A head may be both target and source, or lend to adjacent bands. Add its weights before
-    // multiplying by the functions, so that weights that cancel give exactly zero and a target
-    // blended with itself does not change.
+    // A head may be both target and source, or lend detail to adjacent bands. Add its weights
+    // before multiplying by the functions, so that weights that cancel give exactly zero and a
+    // target blended with itself does not change.
     std::vector<double> shares(levels_.size(), 0.0);
     for (const SourceWeight& part : at.shares) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;

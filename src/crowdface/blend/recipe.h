@@ -11,7 +11,8 @@
 
 namespace crowdface {
 
-/// A head and its weight in a blend. The weights of the heads that lend detail are the normalised ω̂.
+/// A head and its weight in a blend. The weights of the heads that lend detail are the normalised
+/// ω̂.
 struct SourceWeight {
   Index head = 0;
   double weight = 0;
@@ -29,7 +30,7 @@ struct BandRecipe {
   double extrapolation = 1;           ///< e_k, the factor of Fig. 6
 };
 
-/// The recipe of one region: its coarsest band (all that Eq. 7 needs) and its finer bands.
+/// The recipe of one region: its coarsest band (Eq. 7 has only this band) and its finer bands.
 struct RegionRecipe : BandRecipe {
   std::vector<BandRecipe> finer;  ///< coarse to fine, at non-increasing levels
   /// The weights of the heads in the region's textures, by ascending head, none zero. If empty, the
@@ -61,7 +62,7 @@ struct Recipe {
   bool mirrored = false;  ///< mirrors the whole face including its parts
 };
 
-/// Returns whether the face is used as blended: not mirrored, and with asymmetry 1.
+/// Returns whether the blended face stays unchanged: not mirrored, and with asymmetry 1.
 bool is_unmirrored(const Recipe& recipe);
 /// Returns the weight of the mirror image in the face, see mirror_share(double, bool).
 double mirror_share(const Recipe& recipe);

@@ -205,7 +205,8 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   }
 }
 
-/// Writes a mapping from words to shares. An empty mapping gives an empty text, which leaves the key out.
+/// Writes a mapping from words to shares. An empty mapping gives an empty text, which leaves the
+/// key out.
 auto write_shares(std::map<std::string, double> Attachments::*shares) {
   return [=](const Attachments& attachments, const WriteContext&) {
     const auto entries = texts_of(attachments.*shares, [](const auto& share) {
@@ -314,7 +315,8 @@ const Keys<Attachments>& attachments_keys() {
   return keys;
 }
 
-/// Warns if the config's `none` or `quotas` replace shares that the folder of attachments sets for kinds that the config does not mention.
+/// Warns if the config's `none` or `quotas` replace shares that the folder of attachments sets for
+/// kinds that the config does not mention.
 /// \param from  the shares of the folder.
 void warn_of_lost_shares(const YamlNode& node, const Attachments& from, ConfigDraft& draft) {
   const Attachments& own = draft.config.attachments;

@@ -70,7 +70,8 @@ bool is_same(const YamlNode& a, const YamlNode& b) {
   return paths.empty();
 }
 
-/// Removes the keys that a group has from `sampling`, so that a difference in such a key is reported once.
+/// Removes the keys that a group has from `sampling`, so that a difference in such a key is
+/// reported once.
 void remove_inherited_keys(YamlNode& root) {
   const YamlEntry* sampling = root.find("sampling");
   const auto groups = std::ranges::find(root.entries, "groups", &YamlEntry::key);

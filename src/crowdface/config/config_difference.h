@@ -12,8 +12,9 @@ namespace crowdface {
 
 /// Compares the config.yaml of a crowd with the config of a run. Ignores comments, layout and the
 /// keys on which no recipe depends (Key::after_casting). Unless `diversity.mode` is `spread`, also
-/// ignores a larger `crowd.count`, and smallest distances of faces that the crowd does not have. A key that is missing from the old config counts as its default,
-/// because an older version that did not know the key may have written that config.
+/// ignores a larger `crowd.count`, and smallest distances of faces that the crowd does not have. A
+/// key that is missing from the old config counts as its default, because an older version that did
+/// not know the key may have written that config.
 /// \param old_text  the crowd's config.yaml.
 /// \param text      the config of the run.
 /// \return the keys that decide who the faces are and differ, such as "sampling.age"; none if both

@@ -28,7 +28,8 @@ struct ConfigOverrides {
   std::vector<std::filesystem::path> kept_reviews = {};
   /// The crowd's number of sampled faces, for kept reviews that do not state it.
   std::optional<std::uint64_t> kept_count = {};
-  /// The crowd's `diversity.min_distance`, for kept reviews that do not state a distance, if the config's distance differs.
+  /// The crowd's `diversity.min_distance`, for kept reviews that do not state a distance, if the
+  /// config's distance differs.
   std::optional<double> kept_min_distance_mm = {};
   /// Reviews in this folder are not read; empty: all reviews are read.
   std::filesystem::path ignored_reviews = {};

@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Faces = Config::Faces;
 
-/// Adds a head. Refuses a missing file, an invalid name, and a name that already means something else in a config.
+/// Adds a head. Refuses a missing file, an invalid name, and a name that already means something
+/// else in a config.
 void add_head(const fs::path& file, const std::string& name, const YamlNode& node, Faces& faces,
               ConfigDraft& draft) {
   const std::string shown = quoted(file.string());

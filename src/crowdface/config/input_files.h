@@ -51,7 +51,9 @@ std::vector<std::filesystem::path> input_files(const Config& config);
 /// cannot store such a path.
 void refuse_path_no_config_can_hold(const std::filesystem::path& path);
 
-/// Adds a problem for each path that a config cannot store (see refuse_path_no_config_can_hold), among the absolute paths of the input files and the crowd's folder. The crowd's config.yaml stores these paths.
+/// Adds a problem for each path that a config cannot store (see refuse_path_no_config_can_hold),
+/// among the absolute paths of the input files and the crowd's folder. The crowd's config.yaml
+/// stores these paths.
 void check_paths(const Config& config, Problems& problems);
 
 }  // namespace crowdface

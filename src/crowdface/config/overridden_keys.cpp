@@ -101,7 +101,8 @@ class OverriddenKeys {
     }
   }
 
-  /// Finds what a group with tags takes from heads that lack these tags, and the keys that the group's tags replace.
+  /// Finds what a group with tags takes from heads that lack these tags, and the keys that the
+  /// group's tags replace.
   void find_beside_tags(const YamlNode& node, std::size_t g, const std::vector<std::string>& tags) {
     const SamplingOptions &own = config_.groups[g].sampling, &all = config_.sampling;
     const auto take = [&](const std::string& key, const Heads& heads, const char* what,

@@ -10,10 +10,10 @@
 
 namespace crowdface {
 
-/// Maps each vertex of the whole mesh that a level lacks to the nearest triangle of the level. A
-/// walk along the surface of one head finds this triangle.
+/// For each vertex of the whole mesh that is missing in a level: the nearest triangle of the level.
+/// A walk along the surface of one head finds this triangle.
 struct LevelMap {
-  /// The vertices of the whole mesh that faces use but the level lacks, ascending.
+  /// The vertices that faces of the whole mesh use but that are missing in the level, ascending.
   std::vector<std::uint32_t> vertices;
   /// #vertices: the nearest triangle, as indices of the level's vertices
   std::vector<Triangle> triangles;

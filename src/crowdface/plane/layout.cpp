@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Rounds to 10⁻⁹; the differences between C libraries are far smaller.
+/// Rounds to 10⁻⁹, because results differ between C libraries by far less than that.
 double rounded(double value) {
   const double result = std::round(value * 1e9) / 1e9;
   return result == 0 ? 0.0 : result;  // no negative zero in a plan

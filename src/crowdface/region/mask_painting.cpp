@@ -89,7 +89,7 @@ class Canvas {
   }
 
   /// Adjusts texels iteratively until the samples at given texture coordinates match given weights.
-  /// Each round distributes the error of every sample over its texels.
+  /// Each round distributes the error of every sample over the four texels of the sample.
   /// \param weights  #places: the weights that each sample should have.
   void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
     std::vector<float> sum(value_.size()), share(count());

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// Number of regions in one mask image: red, green and blue hold one region each.
+/// Number of regions in one mask image: each of the channels red, green and blue holds one region.
 inline constexpr Index kRegionsOfImage = 3;
 
 /// The mask images of all tiles. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to

@@ -9,22 +9,22 @@
 
 namespace crowdface {
 
-/// The source of a mask's pixels: one picture, or a set of UDIM tiles if the path contains <UDIM>.
-/// Reads a picture only on request, so tiles that no texture coordinate uses may be missing.
+/// The source of a mask's pixels: one image, or a set of UDIM tiles if the path contains <UDIM>.
+/// Reads an image only on request, so tiles that no texture coordinate uses may be missing.
 class MaskSource {
  public:
   /// \param path  may contain <UDIM> (one or more times), which stands for a tile's number.
   explicit MaskSource(std::string path);
-  /// A picture in memory.
+  /// An image in memory.
   /// \param name  used in messages instead of a path.
   MaskSource(std::string name, Image image);
 
   const std::string& path() const { return path_; }
   /// Whether the mask is a set of UDIM tiles.
   bool is_tiled() const;
-  /// The path of a tile, or of the single picture.
+  /// The path of a tile, or of the single image.
   std::string tile_path(int tile) const;
-  /// Reads a tile, or the single picture.
+  /// Reads a tile, or the single image.
   /// \throws InvalidInput naming the pixel, if a value outside the alpha channel is negative; also
   ///         throws the errors of read_image.
   Image read(int tile) const;

@@ -33,7 +33,7 @@ struct LoadedTile {
 /// A mask in memory: its tiles, or vertex weights.
 struct LoadedMask {
   bool tiled = false;
-  /// tiles by UDIM number; a single picture has number kFirstTile
+  /// tiles by UDIM number; a single image has number kFirstTile
   std::map<int, LoadedTile> tiles;
   std::optional<VertexWeights> weights;  ///< vertex weights, instead of tiles
   std::vector<std::string> names;        ///< #channels, if the file has channel names
@@ -127,7 +127,7 @@ void use_alpha_of_constant_colours(LoadedMask& mask) {
   take_one_channel(mask, alpha());
 }
 
-/// Makes an image the mask of one region. Uses the grey value if all channels are equal, or else
+/// Makes an image the mask of one region. Uses the grey value if all channels are equal, otherwise
 /// alpha.
 /// \throws InvalidInput if the image is coloured and alpha does not vary.
 void use_grey_or_alpha(LoadedMask& mask, const std::string& path) {

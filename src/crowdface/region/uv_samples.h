@@ -27,7 +27,7 @@ using UvSamples = CompressedRows<UvSample>;
 /// of the corner's polygon decides.
 double tile_index(double coordinate, double polygon_mean);
 
-/// How a mask covers the texture coordinates. kOne: with one picture; every sample's tile is
+/// How a mask covers the texture coordinates. kOne: with one image; every sample's tile is
 /// kFirstTile. kUdim: with UDIM tiles.
 enum class Tiles { kOne, kUdim };
 
