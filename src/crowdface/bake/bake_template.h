@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// The texture layout and the colours of a template, for baking any number of scans.
 ///
-/// Each texture file that the template's skin uses gives a picture. Skin without a texture gets a
-/// picture for each material and UDIM tile.
+/// Each texture file that the template's skin uses gives a picture (an image to bake). Skin without
+/// a texture gets a picture for each material and UDIM tile.
 class BakeTemplate {
  public:
   /// \param file, shape  the file and the shape of the template; must outlive this object.

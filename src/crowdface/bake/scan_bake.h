@@ -42,7 +42,7 @@ class ScanBake {
   ScanBake(const BakeTemplate& target, const Positions& wrapped, const ScanSurface& surface,
            const ScanColours& colours, const BakeOptions& options);
 
-  /// Bakes one picture. The bytes do not depend on the number of threads.
+  /// Bakes one picture (texture image). The bytes do not depend on the number of threads.
   BakedPicture picture(std::size_t number) const;
 
  private:

@@ -40,8 +40,8 @@ FileDigest hash_file(const std::filesystem::path& path);
 bool has_content(const std::filesystem::path& path, const FileDigest& content);
 
 /// After this call, each new MappedFile maps its file instead of copying it, and a SIGBUS handler
-/// deals with files that are truncated while mapped. Call it at program start: the handler applies
-/// to the whole process. A SIGBUS handler that is already installed stays in place.
+/// deals with files that are truncated while mapped. Call this function at program start: the
+/// handler applies to the whole process. A SIGBUS handler that is already installed stays in place.
 void watch_mapped_files();
 
 /// What happens when a mapped file is truncated.
@@ -70,8 +70,8 @@ class MappedFile {
   /// Wraps a text in memory, for code that expects a file.
   static MappedFile of_text(std::string text);
   std::string_view bytes() const;
-  /// With kFill: whether the file was truncated, so that some bytes read as zeros although the file
-  /// held other values. Without kFill always false.
+  /// With kFill: whether the file became shorter while it was mapped; the missing bytes then read
+  /// as zeros. Without kFill always false.
   bool was_truncated() const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calls read() once and returns the number of bytes read; 0 at the end of the file.
+/// Calls POSIX read() once and returns the number of bytes read; 0 at the end of the file.
 std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
                       const fs::path& path) {
   for (;;) {

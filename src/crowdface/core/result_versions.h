@@ -24,7 +24,7 @@ inline constexpr int kCastVersion = 2;
 inline constexpr int kSharedVersion = 1;
 /// Pictures, measurements of a skin, and mesh files of unchanged positions.
 inline constexpr int kFaceFilesVersion = 25;
-/// Shapes transferred to a face of unchanged positions, and their pictures.
+/// Shapes transferred to a face whose positions are unchanged, and rendered images of these shapes.
 inline constexpr int kShapesVersion = 9;
 /// Points that follow a face of unchanged positions.
 inline constexpr int kPointsVersion = 2;
@@ -38,7 +38,7 @@ inline constexpr int kAttachmentsVersion = 6;
 inline constexpr int kLevelsVersion = 1;
 /// Blended textures of faces.
 inline constexpr int kTextureVersion = 3;
-/// Contact sheets and galleries of unchanged pictures.
+/// Contact sheets and galleries whose rendered images are unchanged.
 inline constexpr int kSheetVersion = 17;
 
 }  // namespace crowdface

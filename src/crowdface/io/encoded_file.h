@@ -15,7 +15,7 @@ namespace crowdface {
 
 /// The complete content of a file to be written, as a list of byte ranges. Data that all faces
 /// share (texture coordinates, polygons) is referenced in place; the object allocates memory only
-/// for the rest.
+/// for the other ranges.
 class EncodedFile {
  public:
   EncodedFile() = default;

@@ -40,8 +40,8 @@ struct FileMesh : Mesh {
   std::vector<std::string> notes;  ///< repairs and omissions, one sentence each
 };
 
-/// Gives a mesh its vertices, texture coordinates and vertex colours. Without texture coordinates,
-/// clears those of the corners.
+/// Gives a mesh its vertices, texture coordinates and vertex colours. If there are no texture
+/// coordinates, clears the texture coordinates of the corners.
 /// \param points, colours  three numbers per vertex; `colours` may be empty
 /// \param uvs              two numbers per texture coordinate
 void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vector<double>& uvs,

@@ -71,7 +71,8 @@ class GlbTemplate {
   std::optional<Tangents> tangents_;    ///< if a material has a normal map
   std::string shared_;                  ///< the part of the buffer that all faces share
   std::vector<GlbTargetRows> targets_;  ///< without the lists of vertices
-  /// Accessor of the first target's displacements; those of further targets follow.
+  /// Accessor of the first morph target's displacements; the accessors of further morph targets
+  /// follow.
   std::size_t first_target_ = 0;
   GlbSkin skin_;                  ///< without influences
   std::size_t target_bytes_ = 0;  ///< bytes of the displacements of all targets

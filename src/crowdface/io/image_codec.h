@@ -36,8 +36,8 @@ struct PictureToEncode {
 struct ImageCodec {
   /// Opens an image and reads its header.
   /// \param format  name of the reader in OpenImageIO.
-  /// \param bytes  of the file; must outlive the picture.
-  /// \return null if the picture cannot be opened; `error` gives the reason.
+  /// \param bytes  content of the file; must outlive the opened image.
+  /// \return null if the image cannot be opened; `error` gives the reason.
   void* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
                 PictureFacts& facts, std::string& error);
   /// Reads all pixels of an open image.

@@ -146,7 +146,7 @@ class Collector {
   }
 
   /// The existing file for a path that has backslashes or comes from another machine: the same path
-  /// with slashes, or else the file of this name beside the mesh.
+  /// with slashes, otherwise the file with this name in the mesh's folder.
   std::optional<fs::path> library_beside(std::string_view text) const {
     for (const std::string& name : readings_of(text)) {
       const fs::path path = with_forward_slashes(name);

@@ -90,7 +90,7 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
   }
 }
 
-/// Replaces the values of the loader by those of the scan where these are better.
+/// Replaces values of the loader by values of the scan wherever the scan's values are better.
 void take_places(ObjScan scan, ObjFile& result) {
   // Scanned positions are rounded correctly; the loader's positions are not.
   result.positions = std::move(scan.positions);

@@ -81,7 +81,8 @@ void check_row_counts(const ObjFile& target, std::uint32_t vertices, Index expec
                             normals));
 }
 
-/// Writes the three numbers of a row in place of three others, keeping the old blanks.
+/// Writes the three numbers of a row in place of three old numbers, and keeps the blanks between
+/// the old numbers.
 char* write_like(std::string_view old, char* out, const Positions& rows, Index i) {
   std::size_t at = 0;
   for (Index c = 0; c < 3; ++c) {

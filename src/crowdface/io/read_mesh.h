@@ -12,8 +12,8 @@ namespace crowdface {
 /// The file extensions that `read_mesh` accepts, in lower case, ".obj" first.
 const std::vector<std::string_view>& mesh_endings();
 
-/// Reads a mesh. The first bytes of the file, or else the extension, determine the format. (A NumPy
-/// array may lack faces.)
+/// Reads a mesh. The first bytes of the file determine the format; if they do not, the extension
+/// does. (A NumPy array may lack faces.)
 /// \throws MissingInput; InvalidInput naming the file, what was expected, what was found and what
 /// helps.
 FileMesh read_mesh(const std::filesystem::path& path);
