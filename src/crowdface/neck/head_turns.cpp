@@ -37,7 +37,7 @@ Positions median(const std::vector<Positions>& heads) {
 
 RigidMotion head_motion(const Positions& from, const Positions& to) {
   constexpr int kRounds = 10;
-  // smallest distance in weights, as a fraction of the mean distance
+  // smallest distance that the weights use, as a fraction of the mean distance
   constexpr double kMinDistance = 0.1;
   std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
   std::iota(all.begin(), all.end(), 0U);

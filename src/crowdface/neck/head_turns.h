@@ -27,8 +27,8 @@ Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d
 std::vector<Eigen::Matrix3d> rotations_to_median(const std::vector<Positions>& heads,
                                                  const Eigen::Vector3d& across);
 
-/// The vector of a rotation: its axis times twice the tangent of half its angle. Weighted means of
-/// such vectors give rotations again.
+/// The vector of a rotation: its axis times twice the tangent of half its angle. A weighted mean of
+/// these vectors is again the vector of a rotation.
 Eigen::Vector3d turn_vector(const Eigen::Matrix3d& rotation);
 
 }  // namespace crowdface

@@ -52,8 +52,8 @@ double root_mean_square(const Positions& rows) {
   return std::sqrt(square_sum(rows) / static_cast<double>(rows.rows()));
 }
 
-/// The size of the best rigid motion between two rims, and the distance that remains after this
-/// motion.
+/// The rotation and translation between two rims that fit best, as sizes, and the distance that
+/// remains after this motion.
 struct RigidFit {
   double degrees = 0, left = 0;  ///< rotation angle; rms distance after the motion
 };

@@ -46,7 +46,7 @@ NeckBend::NeckBend(const Topology& topology, const Adjacency& adjacency, const P
   distances.search(rim, falloff);
   std::vector<std::uint32_t> moved = distances.reached();
   std::vector<Triangle> triangles = triangles_around(topology, adjacency, moved);
-  // Local numbers: first the moved vertices in ascending order, then the rim, then the fixed
+  // Local vertex indices: first the moved vertices in ascending order, then the rim, then the fixed
   // vertices.
   constexpr std::uint32_t kUnnumbered = kNoIndex;
   std::vector<std::uint32_t> number(static_cast<std::size_t>(positions.rows()), kUnnumbered);

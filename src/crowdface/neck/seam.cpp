@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 /// Adds the displacements in `rows` of these vertices (ascending) to `sum`. Skips vertices that
-/// `sum` lacks.
+/// have no entry in `sum`.
 void add_rows(const std::vector<std::uint32_t>& vertices, const Positions& rows,
               Displacements& sum) {
   auto at = sum.vertices.begin();

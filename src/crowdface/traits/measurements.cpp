@@ -56,8 +56,8 @@ using Kind = Measurement::Kind;
 /// Adds measurements to the table of all measurements.
 class TableWriter {
  public:
-  /// Adds a distance between two landmarks in the middle, or between the two landmarks of a pair if
-  /// `b` is empty.
+  /// Adds a distance between two landmarks on the midline of the face, or between the two landmarks
+  /// of a pair if `b` is empty.
   void distance(std::string_view name, std::string_view symbol, const char* a, const char* b,
                 std::string_view definition) {
     const std::string first = a, second = b;

@@ -19,8 +19,8 @@ struct TraitEnd {
   bool operator==(const TraitEnd&) const = default;
 };
 
-/// The allowed range of a measurement of a face. A limit without ends only puts the trait into
-/// reports.
+/// The allowed range of a measurement of a face. A limit without ends does not restrict faces; it
+/// only adds the measurement to reports.
 struct TraitLimit {
   std::size_t trait = 0;  ///< index into measurements()
   std::optional<TraitEnd> at_least = {}, at_most = {};
@@ -42,7 +42,8 @@ TraitLimits merge_limits(const TraitLimits& common, const TraitLimits& own);
 /// The distributions of the measurements over the heads, which give the quantiles for limits.
 class TraitSpread {
  public:
-  /// \param heads  for each head, the values of all measurements in the table's order; nothing where
+  /// \param heads  for each head, the values of all measurements in the table's order; nothing
+  /// where
   ///               a measurement is not available.
   /// \param table  distributions that replace the heads for the quantiles of their measurements
   explicit TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads,
@@ -59,7 +60,7 @@ class TraitSpread {
     return end.is_quantile ? quantile(trait, end.value) : end.value;
   }
   double mean(std::size_t trait) const;
-  /// Standard deviation; 0 for a single head.
+  /// Standard deviation of the trait; 0 for a single head.
   double deviation(std::size_t trait) const;
   bool meets(const TraitLimit& limit, double value) const;
 
@@ -72,12 +73,13 @@ class TraitSpread {
 /// A value with its unit: "38.2 mm", "104.1 degrees", "0.672".
 std::string format_trait(const Measurement& measurement, double value);
 
-/// The share of a normal distribution that lies below a value, rounded to 10⁻⁹, because error
+/// The fraction of a normal distribution that lies below a value, rounded to 10⁻⁹, because error
 /// functions differ between C libraries.
 double normal_share(const TraitTarget& target, double value);
 
-/// The value below which the given share of a normal distribution lies, rounded to 10⁻⁶ standard
-/// deviations. The shares 0 and 1 give the values six standard deviations from the mean.
+/// The value below which the given fraction of a normal distribution lies, rounded to 10⁻⁶ standard
+/// deviations. The fractions 0 and 1 give the values six standard deviations below and above the
+/// mean.
 double normal_quantile(const TraitTarget& target, double share);
 
 /// The largest difference, from 0 to 1, between the cumulative distributions of the values and of
