@@ -54,11 +54,13 @@ class Descriptor {
 /// Whether a call failed because of the machine (disk, memory, too many open files), not because of
 /// the file.
 bool is_system_error(int error);
-/// \throws IoError if the machine failed to read the status of `path`.
+/// \throws IoError on a system error (disk, memory, too many open files) while the status of `path`
+/// is read.
 void require_stat(const std::filesystem::path& path, const std::error_code& error);
 
 /// Whether `path`, with links followed, still names the open file `file`. False after the file was
-/// removed, renamed or replaced. \throws IoError if the machine fails.
+/// removed, renamed or replaced. \throws IoError on a system error (disk, memory, too many open
+/// files).
 bool path_leads_to(const std::filesystem::path& path, const Descriptor& file);
 
 /// A file opened for reading, with its size in bytes.

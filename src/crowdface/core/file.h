@@ -16,7 +16,8 @@ namespace crowdface {
 /// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false for a
 /// path that cannot be resolved: a folder without search permission, a cycle of links, a name that
 /// is too long.
-/// \throws IoError if the machine fails, because the failure says nothing about the file.
+/// \throws IoError on a system error (disk, memory, too many open files), which says nothing about
+/// the path.
 bool path_exists(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);

@@ -33,8 +33,8 @@ inline auto has_ending(const char* ending) {
 std::vector<std::filesystem::path> folders_from(const std::filesystem::path& root);
 
 /// Whether `path` is `folder` or lies inside it, after all links are resolved. The path need not
-/// exist. Returns false if one of the paths cannot be resolved. \throws IoError if the machine
-/// fails.
+/// exist. Returns false if one of the paths cannot be resolved. \throws IoError on a system error
+/// (disk, memory, too many open files).
 bool is_inside_folder(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 /// Keeps a directory open, so that a removal, rename or replacement of the directory can be

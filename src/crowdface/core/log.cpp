@@ -42,8 +42,8 @@ struct Sinks {
     if (!failure) failure = what;
   }
 
-  /// Runs calls on a sink itself, which throw. (Errors in calls on the logger go to the error
-  /// handler above.)
+  /// Runs calls on a sink itself; such calls can throw. (Errors in calls on the logger go to the
+  /// error handler above.)
   template <class Work>
   void guarded(const Work& work) {
     try {

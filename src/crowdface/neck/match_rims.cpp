@@ -52,8 +52,8 @@ double root_mean_square(const Positions& rows) {
   return std::sqrt(square_sum(rows) / static_cast<double>(rows.rows()));
 }
 
-/// The rotation and translation between two rims that fit best, as sizes, and the distance that
-/// remains after this motion.
+/// How well the best rigid motion maps one rim to another: its rotation angle and the remaining
+/// distance.
 struct RigidFit {
   double degrees = 0, left = 0;  ///< rotation angle; rms distance after the motion
 };

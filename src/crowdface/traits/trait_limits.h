@@ -42,9 +42,8 @@ TraitLimits merge_limits(const TraitLimits& common, const TraitLimits& own);
 /// The distributions of the measurements over the heads, which give the quantiles for limits.
 class TraitSpread {
  public:
-  /// \param heads  for each head, the values of all measurements in the table's order; nothing
-  /// where
-  ///               a measurement is not available.
+  /// \param heads  for each head, the values of all measurements in the table's order; nothing if a
+  /// measurement is not available.
   /// \param table  distributions that replace the heads for the quantiles of their measurements
   explicit TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads,
                        std::vector<TraitTarget> table = {});
