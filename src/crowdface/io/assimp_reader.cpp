@@ -77,7 +77,7 @@ void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& a
   }
 }
 
-/// The kind of texture that a material property of FBX takes, such as `DiffuseColor`,
+/// The kind of texture that a material property of FBX refers to, such as `DiffuseColor`,
 /// `Maya|normalCamera` or `3dsMax|main|norm_map`; nothing for kinds that faces do not have.
 std::optional<TextureKind> kind_of_property(std::string_view property) {
   property.remove_prefix(property.rfind('|') + 1);  // npos + 1 is 0

@@ -38,7 +38,8 @@ void join_vertices(FileMesh& mesh) {
   mesh.topology.vertex_count = mesh.positions.rows();
 }
 
-/// Merges equal texture coordinates at corners of the same vertex; unequal ones form a seam.
+/// Merges equal texture coordinates at corners of the same vertex; unequal texture coordinates form
+/// a seam.
 void join_uvs(FileMesh& mesh) {
   Topology& topology = mesh.topology;
   std::map<std::tuple<std::uint32_t, double, double>, std::uint32_t> rows;

@@ -29,7 +29,8 @@ struct GlbPartMaterial {
   };
   std::string name;
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
-  /// Index of the base colour image among the part's images; their number: the image of a PartLook.
+  /// Index of the base colour image among the part's images. The number of these images as index
+  /// means the image of a PartLook.
   std::optional<std::size_t> image = {};
   Alpha alpha = Alpha::kOpaque;
 };

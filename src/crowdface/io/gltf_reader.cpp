@@ -313,7 +313,7 @@ class GltfMeshReader {
     }
   }
 
-  /// Adds the textures of a material that faces do not have, by their names in glTF.
+  /// Adds the glTF names of the material's textures of kinds that faces do not have.
   static void note_unused_textures(const GltfJson& material, std::set<std::string>& unused) {
     const auto add = [&](const GltfJson& from, const char* key) {
       if (from.contains(key)) unused.insert(key);

@@ -21,7 +21,7 @@ using ImageMemory = std::shared_ptr<const void>;
 /// \throws InvalidInput, naming the file, if all images together would exceed the limit.
 ImageMemory take_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
-/// Number of bytes not reserved at present.
+/// Number of bytes of the memory limit that are not reserved at present.
 std::uint64_t available_image_memory();
 
 /// An image with values exactly as in the file: same type, no gamma conversion, alpha not

@@ -27,8 +27,9 @@ bool png_is_whole(std::string_view bytes) {
   return false;
 }
 
-/// Whether the data of a JPEG reaches the end marker; the decoder invents missing data. The scan
-/// data follows segments, each a two-byte marker and a length, which contain no end marker.
+/// Whether the data of a JPEG reaches the end marker; if not, the decoder would invent the missing
+/// pixels. The scan data follows segments, each a two-byte marker and a length, which contain no
+/// end marker.
 bool jpeg_is_whole(std::string_view bytes) {
   constexpr char kStartOfScan = '\xDA';
   std::size_t at = 2;

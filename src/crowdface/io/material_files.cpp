@@ -228,7 +228,7 @@ class Collector {
     return known->second;
   }
 
-  /// Possible readings of a name: in other encodings, then as it stands in the file.
+  /// Possible interpretations of a name: in other encodings, then as it stands in the file.
   static std::vector<std::string> readings_of(std::string_view text) {
     std::vector<std::string> names = legacy_readings(text);
     names.emplace_back(text);

@@ -16,7 +16,7 @@ namespace crowdface {
 std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,
                                 const std::string& name);
 
-/// Fills in the bytes of textures that are files of their own. A file is searched at its name
+/// Reads the bytes of textures that are separate files. A file is searched at its name
 /// relative to the mesh file, then by `search_texture`. Removes textures without a file and adds a
 /// note for each.
 /// \param files  #mesh.textures: the names of the files; an empty name if the texture has its bytes

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// The three indices of a corner as text; missing ones are empty.
+/// The three indices of a corner as text; a missing index is an empty text.
 struct CornerWords {
   std::array<std::string_view, 3> words;
   explicit CornerWords(std::string_view corner) {

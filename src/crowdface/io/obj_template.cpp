@@ -135,7 +135,8 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
 void ObjTemplate::fix_normals(const std::vector<std::uint32_t>& corner_rows,
                               const FixedNormals& fixed) {
   if (fixed.vertices.empty()) return;
-  // The only vertex of each row of normals; kNoIndex if corners at several vertices use the row.
+  // For each row of normals, the only vertex whose corners use the row; kNoIndex if corners at
+  // several vertices use the row.
   std::vector<std::uint32_t> vertices(static_cast<std::size_t>(fans_->rows()), kNoIndex);
   std::vector<bool> is_used(vertices.size(), false);
   for (std::size_t c = 0; c < corner_rows.size(); ++c) {

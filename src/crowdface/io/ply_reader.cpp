@@ -90,7 +90,7 @@ class PlyReader {
     throw InvalidInput(concat(name_, ": expected a PLY file, found that ", found));
   }
 
-  /// Reads a header line. Lines end in LF, CR LF or CR, all like the first line.
+  /// Reads a header line. Lines end in LF, CR LF or CR; all lines must end like the first line.
   std::string_view line() {
     const char last = ends_in_cr_ ? '\r' : '\n';
     const std::size_t end = bytes_.find(last, at_);
@@ -307,7 +307,7 @@ class PlyReader {
     }
   }
 
-  /// Uses the texture coordinates of vertices at corners without their own.
+  /// A corner without texture coordinates gets the texture coordinates of its vertex.
   void finish_uvs() {
     Topology& topology = mesh_.topology;
     if (!topology.corner_uvs.empty()) {

@@ -28,7 +28,8 @@ struct PngError {
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*warning*/) {}
 
-/// Call this before each row. After a signal it fails; image.cpp then reports the interruption.
+/// Call this function before each row. After a signal this function fails; image.cpp then reports
+/// the interruption.
 void give_up_if_interrupted(png_structp png) {
   if (interrupted()) png_error(png, "interrupted by a signal");
 }

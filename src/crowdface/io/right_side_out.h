@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Note on a mesh whose faces were reversed.
+/// Text of the note about a mesh whose faces were reversed.
 inline constexpr std::string_view kTurnedNote =
     "its faces pointed inward (inside out) and are flipped";
 
