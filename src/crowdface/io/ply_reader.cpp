@@ -90,7 +90,7 @@ class PlyReader {
     throw InvalidInput(concat(name_, ": expected a PLY file, found that ", found));
   }
 
-  /// Reads a header line. Lines end in LF, CR LF or CR; all lines must end like the first line.
+  /// Reads a header line. Lines end in LF, CR LF or CR; all lines end like the first line.
   std::string_view line() {
     const char last = ends_in_cr_ ? '\r' : '\n';
     const std::size_t end = bytes_.find(last, at_);
@@ -307,7 +307,7 @@ class PlyReader {
     }
   }
 
-  /// A corner without texture coordinates gets the texture coordinates of its vertex.
+  /// If no corner has texture coordinates, uses the texture coordinates of the vertices.
   void finish_uvs() {
     Topology& topology = mesh_.topology;
     if (!topology.corner_uvs.empty()) {
