@@ -148,7 +148,7 @@ bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   a.min_distance_of_first_mm = before->of_first_mm;
   b.min_distance_mm = now->min_distance_mm;
   b.min_distance_of_first_mm = now->of_first_mm;
-  // The distance may change only after these faces.
+  // These are the only face numbers after which the required distance may change.
   std::set<std::uint64_t> ends = {0, *count};
   for (const auto* distances : {&*before, &*now}) {
     for (const auto& first : distances->of_first_mm) ends.insert(std::min(first.first, *count));

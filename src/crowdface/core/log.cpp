@@ -42,7 +42,7 @@ struct Sinks {
     if (!failure) failure = what;
   }
 
-  /// Runs calls on a sink itself; such calls can throw. (Errors in calls on the logger go to the
+  /// Runs direct calls on a sink, which may throw. (Errors in calls on the logger go to the
   /// error handler above.)
   template <class Work>
   void guarded(const Work& work) {
