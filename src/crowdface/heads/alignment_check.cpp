@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-// Well-aligned heads of different people still differ by a few degrees in pose and by a few
-// hundredths in size. Larger differences mean that their coordinate frames differ.
+// Well-aligned heads of different people still differ by a few degrees in pose and by a few percent
+// in size. Larger differences mean that their coordinate frames differ.
 constexpr double kMaxDegrees = 6;
 constexpr double kMaxShift = 0.06;
 constexpr double kMaxScale = 1.3;
@@ -25,7 +25,7 @@ constexpr double kMaxTurn = 45;       // degrees; a larger rotation cannot be bl
 constexpr double kTimesNearer = 2.5;  // a reflection that is so much nearer is no coincidence
 constexpr Index kPoints = 2000;
 
-/// Vertices of the skin at regular steps of their index.
+/// Returns about `most` skin vertices, evenly spaced by index.
 std::vector<Index> some_skin(const Components& components, Index most) {
   const std::uint32_t skin = components.largest();
   const Index size = components.sizes[skin];

@@ -15,7 +15,8 @@ struct HeadPose {
   double angle_degrees = 0;  ///< rotation that aligns the head with the reference
   double shift = 0;  ///< distance between the heads' centroids, as a fraction of the head's size
   double scale = 1;  ///< size of the head relative to the reference
-  /// A reflection brings the head several times nearer to the reference: left and right are swapped.
+  /// Whether left and right are swapped: reflected, the head fits the reference several times
+  /// better.
   bool is_mirrored = false;
 };
 

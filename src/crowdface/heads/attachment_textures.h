@@ -26,7 +26,7 @@ struct AttachmentTextures {
       of_face;  ///< #F, index into `files` or kNoIndex; empty if no head has any
 };
 
-/// The textures of one kind of all heads, and warnings about missing files.
+/// All heads' textures of one kind, and warnings about missing files.
 struct HeadsTextures {
   TextureKind kind = TextureKind::kColour;
   std::vector<AttachmentTextures> heads;  ///< #heads

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr int kLargestUnasked = 4096;
 
-/// For each image, the head's files from which it is composed; none if some polygon of the image
-/// has no texture on this head.
+/// For each image, the files of a head from which the image is composed; empty if the head has no
+/// texture for some polygon of the image.
 std::vector<std::vector<std::uint32_t>> rows_in_pictures(const AttachmentTextures& placed,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {

@@ -73,7 +73,7 @@ TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
   return layout;
 }
 
-/// The densities of a map at some vertices, without detail.
+/// The low frequencies of a map's optical densities, at the vertices of a rim, #rim by 3.
 Positions coarse_at(const Rim& rim, const Topology& topology, const Positions& positions,
                     const SurfaceTexels& texels, const std::shared_ptr<const TextureMap>& map) {
   const ChebyshevFilter filter(

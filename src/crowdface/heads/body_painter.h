@@ -20,7 +20,7 @@ class BodyPainter {
   ///                 only from the ring and gets new texture coordinates.
   BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
 
-  /// The body's polygons with the texture coordinates of `paint`.
+  /// The body's polygons, with the texture coordinates of the image that `paint` returns.
   const Topology& topology() const { return topology_; }
   const TextureCoordinates& uvs() const { return uvs_; }
 

@@ -27,8 +27,8 @@ std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& k
 void warn_of_entry(const RecoverableError& error);
 
 /// Reads a value from the cache.
-/// \param is_sound  called with the value and its entry: returns whether the value is valid. The
-///                  function may complete the value.
+/// \param is_sound  called with the value and its entry: returns whether the value is valid.
+///                  `is_sound` may also fill in members that the entry does not store.
 /// \param value     initial value, into which the arrays are read
 /// \return nothing if the entry does not exist or, with a warning, cannot be used.
 template <class Value, class Visit, class IsSound>

@@ -29,7 +29,7 @@ std::vector<AttachmentFile> files_of(const AttachmentLook& look) {
 std::string coloured_texture(const std::filesystem::path& neutral, const HairColour& colour) {
   const Image image = read_image(neutral, {.jpeg = true});
   const std::array<float, 3> factors = tint_factors(colour);
-  // The sRGB value of each channel, by the sRGB value in the neutral texture.
+  // The coloured sRGB value of each channel, indexed by the sRGB value in the neutral texture.
   std::array<std::array<std::uint8_t, 256>, 3> dyed{};
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t v = 0; v < 256; ++v) {

@@ -34,7 +34,8 @@ double same_place(const Positions& positions) {
   return kOfSize * (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
-/// Minimum and maximum texture coordinates of each vertex; they differ between layouts.
+/// The range of texture coordinates at each vertex: minimum u and v, then maximum u and v. Two
+/// heads with different texture layouts have different ranges.
 std::vector<std::array<double, 4>> uv_bounds(const Topology& topology,
                                              const TextureCoordinates& uvs) {
   constexpr double kFar = std::numeric_limits<double>::max();
@@ -139,7 +140,7 @@ void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& hea
     give_mesh(head, other, colours);
     return;
   }
-  // The checks of the heads report the other texture coordinates.
+  // Keep the head's own texture coordinates: the head checks report that they differ.
   HeadMesh mesh = *head.mesh;
   mesh.topology.corner_vertices = other.mesh->topology.corner_vertices;
   mesh.topology.vertex_count = other.mesh->topology.vertex_count;
@@ -147,7 +148,7 @@ void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& hea
   head.mesh = std::make_shared<HeadMesh>(std::move(mesh));
 }
 
-/// Whether all corners of each set have one position in a head.
+/// Whether the corners within each set have the same position on a head.
 bool has_one_position(DisjointSets& sets, const HeadFile& head) {
   const Topology& topology = head.mesh->topology;
   const double near = same_place(head.file.positions);
@@ -195,8 +196,8 @@ HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
   return made;
 }
 
-/// Finds the mesh of heads whose exports may have split vertices: corners that are one vertex in any
-/// head are one vertex in all, if they have one position in each head.
+/// Finds the mesh of heads whose exports may have split vertices: corners that share a vertex in
+/// any head share a vertex in the result, if in each head they have the same position.
 /// \param heads  their polygons are the same, and reading has not joined vertices
 /// \param made   receives the mesh if no head has it
 /// \return a head with the mesh
@@ -224,8 +225,8 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
   return made;
 }
 
-/// Finds the mesh of heads whose vertices reading has joined by position: corners are one vertex if
-/// they have one position in each head.
+/// Finds the mesh of heads whose vertices reading has joined by position: corners share a vertex in
+/// the result if in each head they have the same position.
 /// \param heads  their polygons are the same
 /// \param made   receives the mesh if vertices touch in some heads only
 /// \return a head with the mesh
@@ -282,7 +283,7 @@ const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& m
   return read.empty() ? find_separate_mesh(joined, made) : find_whole_mesh(read, made);
 }
 
-/// How the export of a head changed its vertices, as a message; empty if it did not.
+/// A message that says how the export of a head changed the vertices; empty if nothing changed.
 std::string difference_made(const HeadFile& head, const Vertices& vertices) {
   const auto found = static_cast<std::size_t>(head.file.positions.rows());
   if (found > vertices.size()) {
@@ -304,7 +305,8 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours)
   FileMesh mesh;
   mesh.topology = other.mesh->topology;
   mesh.uvs = other.mesh->uvs;
-  // Several materials can only be assigned to polygons as in the other file.
+  // If the head has several materials, their assignment to the new polygons is only known from the
+  // other file.
   mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
   mesh.positions = head.file.positions;
   mesh.colours = colour_shares(colours);

@@ -21,7 +21,7 @@ struct PlacedAttachment {
   const Attachment* item;
   std::optional<HairColour> colour;  ///< see AttachmentLook
   Positions positions;               ///< the attachment's vertices on the face
-  /// one per face shape: displacements of the attachment's vertices
+  /// one per shape (expression) of the face: displacements of the attachment's vertices
   std::vector<Displacements> moves = {};
   /// For a body with a separate texture for each face: the face's id, and the content of a PNG
   /// file. Otherwise empty.

@@ -30,7 +30,8 @@ class FaceTextures {
   bool any() const { return !pictures_.empty(); }
   /// Number of images in own_pictures.
   std::size_t picture_count() const { return pictures_.size(); }
-  /// Blends one image of a face, so that callers need not hold several. Thread-safe.
+  /// Blends a single image of a face, so that callers need not hold all its images in memory.
+  /// Thread-safe.
   /// \param picture  index into own_pictures
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 

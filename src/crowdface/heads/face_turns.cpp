@@ -14,7 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// The columns of samples that the bend does not move, or of all samples if it moves most.
+/// The columns of the samples that the bend does not move, or of all samples if the bend moves
+/// most.
 std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
   constexpr std::size_t kPoints = 500, kFewest = 100;
   std::vector<Index> all(samples.size()), above;
@@ -75,7 +76,8 @@ RigidMotion after(const RigidMotion& a, const RigidMotion& b) {
   return {.rotation = product(a.rotation, b.rotation), .from = b.from, .to = a.apply(b.to)};
 }
 
-/// Returns the motion m′ of mirror images: mirror, then m′, is `motion`, then mirror.
+/// Returns the motion m′ for mirror images: applying m′ after mirroring is the same as applying
+/// `motion` before mirroring.
 RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
   const MirrorPlane directions{plane.normal, 0};
   Eigen::Matrix3d rotation;

@@ -10,8 +10,9 @@
 namespace crowdface {
 
 /// The poses of faces on a body (config section `neck`), if some heads have another pose than the
-/// others. A face has its target's pose only in part, because the detail of its sources keeps the
-/// sources' poses. The smoother the target, the smaller its part.
+/// others. The pose of a blended face lies between the pose of its target and the poses of its
+/// sources, because the sources' detail keeps their poses. The smoother the target, the less the
+/// target's pose counts.
 class FaceTurns {
  public:
   /// \param inputs  must outlive this object; its heads are placed on a body

@@ -53,8 +53,8 @@ FileFingerprint::FileFingerprint(const CacheFolder& cache, const fs::path& file)
 
 void FileFingerprint::remember(const Digest& digest) const {
   if (!stamp_ || digest_ == digest || stamp_of(file_) != stamp_) return;
-  // File systems update times only some hundred times a second: a change within this time might go
-  // unnoticed.
+  // In nanoseconds. File systems advance their time stamps only a few hundred times a second, so a
+  // second change soon after the first might leave the time stamps equal.
   constexpr std::int64_t kSettled = 1'000'000'000;
   timespec now{};
   if (::clock_gettime(CLOCK_REALTIME, &now) != 0 || nanoseconds(now) - stamp_->back() < kSettled) {

@@ -40,7 +40,8 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
   arrays("numbers", fields.numbers);
 };
 
-/// Also fills in what follows from the shape.
+/// Whether an entry has these sizes and consistent fields. Also fills in the members that follow
+/// from the sizes.
 bool is_head(PreparedHead& head, const HeadCacheSizes& shape) {
   const Eigen::MatrixXd& mixing = head.levels.mixing;
   LevelFields& fields = head.levels.fields;

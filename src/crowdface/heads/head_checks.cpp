@@ -60,7 +60,8 @@ bool has_only_faces_of(const Topology& first, const Topology& found) {
   return true;
 }
 
-/// Says so if a head has the extent of a part of the first head; else empty.
+/// Asks whether a head file holds only part of a head, if its bounding box has other proportions
+/// than the first head's; otherwise empty.
 std::string part_of_head(const Positions& first, const Positions& found) {
   constexpr double kMinShare = 0.7;  // heads of people differ less in their proportions
   const auto sizes = [](const Positions& positions) -> Eigen::Array3d {

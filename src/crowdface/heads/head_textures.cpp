@@ -47,13 +47,13 @@ Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb,
   });
 }
 
-/// Texels a side of normal and roughness maps in renders: fewer than for colour, each an average,
-/// because relief finer than pixels only causes noise.
+/// Side length, in texels, of normal and roughness maps in renders. The maps are downscaled more
+/// than colours, because relief finer than a pixel only causes noise.
 int finish_texels(int max_px) {
   return std::max(1, max_px / 2);
 }
 
-/// The values of a map; normals become slopes.
+/// A normal or roughness map as a texture for renders; normals are converted to slopes.
 Texture finish_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto row = [&](int y, std::span<Light> texels) {

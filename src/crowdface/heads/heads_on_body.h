@@ -13,8 +13,8 @@
 namespace crowdface {
 
 /// All heads on one body (config section `neck`). All heads are moved by translations and one
-/// rotation; each finished face is rotated and its neck bent, so that its form above is the same as
-/// without a body.
+/// rotation; each finished face is rotated and its neck bent, so that above the bend it has the
+/// same shape as without a body.
 struct HeadsOnBody {
   /// How a head was placed.
   struct Head {
@@ -31,7 +31,7 @@ struct HeadsOnBody {
   Eigen::Vector3d middle;   ///< of the seam
   Positions unplaced_mean;  ///< mean of the heads before they were placed
   double mm_per_unit = 1;
-  /// The body, if pictures or files show it or faces get a texture for it; else null.
+  /// The body; null unless renders or mesh files contain the body, or faces get a texture for it.
   std::shared_ptr<const Attachment> body;
   Rim body_rim;  ///< the body's vertex for each vertex of the ring; empty without `body`
   bool is_body(const Attachment& item) const { return body.get() == &item; }
@@ -48,7 +48,7 @@ inline RigidMotion turn_about(const Eigen::Vector3d& middle, const Eigen::Vector
   return nudged({}, middle, Eigen::Vector3d::Zero(), turn, 0);
 }
 
-/// Returns the mean of the heads as they are without a body.
+/// Returns the mean of the heads before they are placed on a body.
 inline const Positions& unplaced_mean(const Inputs& inputs) {
   return inputs.neck ? inputs.neck->unplaced_mean : inputs.mean;
 }

@@ -130,7 +130,7 @@ std::optional<std::string> told_of_single(const HeadsTextures& textures, const H
 }
 
 /// Loads textures. After each damaged image, loads again as if that file were missing.
-/// \param load  blends the textures of its argument
+/// \param load  called with the textures found; returns them loaded. Throws DamagedImage.
 template <class Load>
 HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) {
   // sorted, so that the order of messages is fixed

@@ -38,7 +38,8 @@ Vector3d ring_middle(const Positions& rim) {
   return sum / static_cast<double>(rim.rows());
 }
 
-/// Vertices of the skin that the bend does not move, or of the whole skin if it moves all.
+/// Vertices of the skin that the bend does not move, or of the whole skin if the bend moves all of
+/// it.
 std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mean, const Rim& rim,
                                       double falloff) {
   constexpr std::size_t kPoints = 2000, kFewest = 100;
@@ -53,9 +54,9 @@ std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mea
   return evenly_spaced_items(above.size() < kFewest ? all : above, kPoints);
 }
 
-/// The rotation of all heads onto a body that is known by its ring only. It counts only if it
-/// halves the distance of the rings, because necks are cut at different slopes, and heads must not
-/// tilt for that.
+/// The rotation of all heads onto a body of which only the ring is known. Returns the identity
+/// unless the rotation halves the distance between the rings: necks are cut at different slopes,
+/// and a different slope of the cut alone must not tilt the heads.
 Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(rim.rows()));
   std::iota(all.begin(), all.end(), 0U);
@@ -87,8 +88,8 @@ struct Poses {
     turns = rotations_to_median(points, across);
   }
 
-  /// The mean of the heads at some vertices after each was turned and its rim's middle moved to the
-  /// mean of all middles.
+  /// The mean of the heads at some vertices, after each head is rotated by its turn and translated
+  /// so that the centre of its rim lies at the mean of all rim centres.
   Positions mean(const HeadSet& faces, const Rim& rim,
                  std::span<const std::uint32_t> vertices) const {
     std::vector<Vector3d> middles;
@@ -158,8 +159,9 @@ void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& he
                      " mm hides; a larger neck.falloff makes the bend smoother"));
 }
 
-/// Places a head on the body. All heads rotate alike: otherwise the body would change how heads
-/// differ, and so who the faces are. Faces of a head with another pose are turned when finished.
+/// Places a head on the body. All heads get the same rotation: different rotations would change the
+/// differences between heads, and so the faces' identities. If a head has another pose, faces
+/// blended from this head are rotated at the end.
 HeadsOnBody::Head place(const Rim& rim, const Goal& goal, const Matrix3d& turn, double mm,
                         Positions& head) {
   HeadsOnBody::Head placed;
@@ -211,7 +213,7 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
   return hasher.digest();
 }
 
-/// The normals of skin and body together.
+/// Unit normals from the summed area vectors of skin and body.
 Positions normals_of(Positions areas, const Positions& of_body) {
   areas += of_body;
   for (Index i = 0; i < areas.rows(); ++i) areas.row(i) = row3(areas, i).normalized().transpose();

@@ -70,7 +70,7 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
                     [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
-/// Keeps a shape still at the ring in which all faces end.
+/// Sets a shape's displacements to zero at the ring in which all faces end.
 void hold_ring(const Inputs& inputs, Displacements& moves) {
   if (inputs.neck) inputs.neck->seam.fix_rim(moves);
 }
@@ -96,7 +96,7 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   return set;
 }
 
-/// A head as its file has it, and the rigid motion that aligns it.
+/// A head as stored in its file, and the rigid motion that aligns the head.
 struct RestingHead {
   Positions mesh;
   RigidMotion motion;
@@ -148,7 +148,7 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
   }
 }
 
-/// Loads the shapes of each head, and averages them on the mean head.
+/// Loads the shapes of each head; the shapes of the mean head are their averages.
 void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   const Config& config = source.config;
   const Config::Shapes& asked = config.shapes;

@@ -52,12 +52,13 @@ class MeshShelf {
     return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
   }
 
-  /// Returns true for the first caller with this outline, who must then read the mesh.
+  /// Returns true for the first caller with this hash, who must then read the mesh. \param outline
+  /// hash of the text that describes the mesh
   bool is_first(const Digest& outline) {
     const std::lock_guard lock(mutex_);
     return of_outline_.emplace(outline, Known()).second;
   }
-  /// \param outline  hash of the text that the mesh was read from
+  /// \param outline  hash of the text that describes the mesh
   void put(const Digest& outline, HeadMesh mesh, HeadFile& head) {
     head.mesh_digest = mesh.digest();
     const std::lock_guard lock(mutex_);
@@ -66,8 +67,8 @@ class MeshShelf {
     head.mesh = place;
     if (!head.file.is_mended) of_outline_[outline] = {head.mesh_digest, place};
   }
-  /// Gives a head the mesh read from another text with this outline; null if there is none, or if
-  /// that text had to be repaired.
+  /// Gives a head the mesh that was read from another file with the same hash. The head's mesh
+  /// becomes null if there is no such mesh, or if the other file had to be repaired.
   void take(const Digest& outline, HeadFile& head) {
     const std::lock_guard lock(mutex_);
     const Known& known = of_outline_[outline];
@@ -101,8 +102,8 @@ bool is_worth_keeping(const ObjFile& file) {
   return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kMinKeptBytes;
 }
 
-/// Undoes the flip of mirrored heads: heads whose polygons were flipped, but were those of another
-/// head before. The alignment check then reports such heads.
+/// Undoes the flip of mirrored heads, so that the alignment check reports these heads. A head is
+/// mirrored if its polygons were flipped although they matched another head's polygons before.
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (!head || !head->mesh) continue;
@@ -156,7 +157,7 @@ struct HeadReading {
   ObjOutline outline;
 };
 
-/// Distributes what was read to the head and its mesh.
+/// Moves the data read into the head and its mesh.
 void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
   file = shelf.winding() == Winding::kOutward ? right_side_out(std::move(read)) : std::move(read);
@@ -220,7 +221,8 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf
   file.is_mended = true;
 }
 
-/// Reads a head; skips the mesh if another head has the same, which may still be in progress.
+/// Reads a head; skips the mesh if another head has the same mesh, even if that head is still being
+/// read.
 HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshShelf& shelf) {
   HeadReading reading;
   HeadFile& head = reading.head;
@@ -253,8 +255,8 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   return reading;
 }
 
-/// Gives a head the mesh that the first head with the same outline has read. If that head could not
-/// be read, reads this one.
+/// Gives a head the mesh that was read for the first head with the same hash. If that head could
+/// not be read, reads this one.
 void finish_reading(HeadReading& reading, MeshShelf& shelf) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
   shelf.take(reading.outline.mesh, reading.head);

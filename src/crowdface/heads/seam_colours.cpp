@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kBandMm = 20;  ///< height of the band, along the skin
 
-/// The densities of a head's texture around each vertex: the mean of a sample in each polygon.
+/// The optical densities of a head's texture around each vertex, #vertices by 3: the mean of one
+/// sample in each adjacent polygon. No rows if some vertex has no textured polygon.
 Positions sampled(const TextureSet& textures, const HeadSet& faces, const VertexFaces& around,
                   const std::vector<std::uint32_t>& vertices) {
   constexpr float kOwn = 0.75F;  // weight of the vertex in a sample; the rest is the centroid's
@@ -44,7 +45,7 @@ Positions sampled(const TextureSet& textures, const HeadSet& faces, const Vertex
   return densities;
 }
 
-/// The densities of the low frequencies of a head's blended texture.
+/// The low frequencies of a head's texture, as optical densities.
 Positions coarse_of(const TextureBlender& blender, std::size_t head,
                     const std::vector<std::uint32_t>& vertices) {
   Positions densities(static_cast<Index>(vertices.size()), 3);
@@ -66,8 +67,8 @@ Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_
   return densities;
 }
 
-/// The image of the polygons at the ring in the layout of blended textures; kNoIndex if they have
-/// none.
+/// Index of the image, in the layout of blended textures, that the polygons at the ring use;
+/// kNoIndex if they have no image.
 std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const TextureLayout& layout) {
   for (const std::uint32_t face : around.of(rim.front())) {
     if (layout.of_face[face] != kNoIndex) return layout.of_face[face];

@@ -55,9 +55,9 @@ bool are_shares(const std::array<double, 3>& shares) {
       shares, [](double share) { return share >= -kRounding && share <= 1 + kRounding; });
 }
 
-/// Hash of everything that the regions depend on, including the masks' bytes. Returns nothing if
-/// the masks have UDIM tiles, because the mesh determines which tiles are read, or if a file cannot
-/// be read, because loading reports that.
+/// Hash of everything that the regions depend on, including the masks' bytes. Empty if the masks
+/// have UDIM tiles (their files are known only after the mesh is read), or if a file cannot be read
+/// (reading the masks reports the error).
 std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs) {
   const InputLimits& limits = input_limits();
   Hasher key;

@@ -12,7 +12,8 @@ namespace crowdface {
 /// colour textures. Samples one texel in each block of 16 by 16.
 std::vector<double> skin_tones(const Inputs& inputs);
 
-/// Weights of the heads in the colours of a face, by the regions' shares of the face.
+/// Computes the weights of the heads in the colours of a face: the mean over the regions, weighted
+/// by each region's share of the frontal skin area.
 class ColourShares {
  public:
   ColourShares(const Config& config, const Inputs& inputs);
