@@ -61,8 +61,8 @@ class FittedSkin {
 
   /// Returns the outward unit normals of a face's vertices, #V by 3.
   Positions normals(const Positions& face) const;
-  /// Returns the place on a face's skin nearest to a point. The search walks over the mesh from
-  /// `start`.
+  /// Returns the point on a face's skin that is nearest to a given point. The search walks over the
+  /// mesh from `start`.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from `normals`.

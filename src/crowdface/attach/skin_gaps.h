@@ -34,8 +34,8 @@ class SkinGaps {
                                     const Positions& points) const;
 
   /// Corrects the distances of points from the skin. Points close to the skin get their original
-  /// gap. Points that were outside the fitted skin come out of this skin, to their minimum
-  /// distance. Neighbours of pushed points move too.
+  /// gap. Points that were outside the skin of the fitted mesh are moved at least to their minimum
+  /// distance outside the face's skin. Neighbours of pushed points move too.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.

@@ -89,8 +89,8 @@ RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
   return {.rotation = rotation, .from = plane.image(motion.from), .to = plane.image(motion.to)};
 }
 
-/// Interpolates two motions: translation at `pivot` and turn vector are linear in w.
-/// \param w  0 … 1: 0 gives a
+/// Interpolates two motions: the translation at `pivot` and the turn vector are linear in w.
+/// \param w  from 0 (gives a) to 1 (gives b)
 RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
                     const Eigen::Vector3d& pivot) {
   const auto mixed = [&](const Eigen::Vector3d& of_a, const Eigen::Vector3d& of_b) {

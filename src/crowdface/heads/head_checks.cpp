@@ -60,8 +60,8 @@ bool has_only_faces_of(const Topology& first, const Topology& found) {
   return true;
 }
 
-/// Asks whether a head file holds only part of a head, if its bounding box has other proportions
-/// than the first head's; otherwise empty.
+/// If a mesh has clearly other proportions than the first head, returns the end of a message that
+/// asks whether the mesh is only a part of a head; otherwise empty.
 std::string part_of_head(const Positions& first, const Positions& found) {
   constexpr double kMinShare = 0.7;  // heads of people differ less in their proportions
   const auto sizes = [](const Positions& positions) -> Eigen::Array3d {

@@ -13,8 +13,8 @@
 namespace crowdface {
 
 /// All heads on one body (config section `neck`). All heads are moved by translations and one
-/// rotation; each finished face is rotated and its neck bent, so that above the bend it has the
-/// same shape as without a body.
+/// rotation; each finished face is rotated and its neck bent, so that above the bend the face has
+/// the same shape as without a body.
 struct HeadsOnBody {
   /// How a head was placed.
   struct Head {
@@ -22,7 +22,7 @@ struct HeadsOnBody {
     /// The rotation of the placed head into the common pose of all heads, see turn_vector; zero if
     /// the head has that pose.
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-    double moved_mm = 0;        ///< rms distance by which placement and turn move the ring
+    double moved_mm = 0;        ///< rms distance by which placement and turn together move the ring
     double turned_degrees = 0;  ///< angle of placement and turn together
     double bent_mm = 0;         ///< largest distance of the placed and turned ring from the body's
   };

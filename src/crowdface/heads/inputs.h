@@ -99,7 +99,7 @@ struct Inputs {
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has any.
   std::vector<ColourRows> colours;
   Digest colours_digest;
-  FaceMaterials materials;  ///< the first head's, per polygon
+  FaceMaterials materials;  ///< material of each polygon of the first head
   Adjacency adjacency;
   Components components;
   PartList parts;   ///< empty for `parts: none`
@@ -107,10 +107,10 @@ struct Inputs {
   std::shared_ptr<const MirrorMap> mirror;  ///< null unless the config asks for mirrored faces
   std::shared_ptr<const HeadsOnBody> neck;  ///< null unless the config has `neck`
   ShapeSet shapes;
-  Digest shapes_digest;  ///< if there are shapes
+  Digest shapes_digest;  ///< hash of the shapes, if there are any
   std::vector<MeasuredLevel> levels;
   PointSet points;
-  Digest points_digest;  ///< if there are points
+  Digest points_digest;  ///< hash of the points, if there are any
   Rig rig;
   AttachmentSet attachments;
   RegionWeights regions;
@@ -118,7 +118,7 @@ struct Inputs {
   double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads
   std::uint64_t max_level = 0;        ///< L_max
   std::vector<Digest> head_digests;   ///< #heads, hashes of the positions in use
-  std::vector<Digest> own_digests;    ///< #heads, before the heads were placed on a body (`neck`)
+  std::vector<Digest> own_digests;    ///< #heads, the same before the heads are placed on a body
   Digest topology_digest;
   Digest mask_digest;  ///< hash of α
   /// colour textures, if they are blended or rendered; otherwise empty

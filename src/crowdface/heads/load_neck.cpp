@@ -69,7 +69,7 @@ Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
     }
     return sum;
   };
-  constexpr double kHalf = 0.25;  // squared
+  constexpr double kHalf = 0.25;  // half the distance, squared
   const bool counts = left(turned) < kHalf * left({.from = turned.from, .to = turned.to});
   return counts ? turned.rotation : Matrix3d::Identity();
 }
@@ -78,7 +78,7 @@ Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
 struct Poses {
   std::vector<std::uint32_t> skin;
   Vector3d across;              ///< the axis through the ears
-  std::vector<Matrix3d> turns;  ///< of each head into the common pose
+  std::vector<Matrix3d> turns;  ///< rotation of each head into the common pose
 
   Poses(const Config& config, const HeadSet& faces, std::vector<std::uint32_t> vertices)
       : skin(std::move(vertices)),
@@ -117,7 +117,7 @@ struct Poses {
 /// The body on which the heads are placed, and the heads' rotation.
 struct Goal {
   NeckBody body;
-  Matrix3d rotation = Matrix3d::Identity();  ///< of all heads, from their common pose
+  Matrix3d rotation = Matrix3d::Identity();  ///< rotation of all heads from their common pose
 };
 
 Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const Poses& poses) {

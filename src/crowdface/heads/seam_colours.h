@@ -30,7 +30,7 @@ class SeamColours {
   std::vector<std::uint32_t> vertices_;  ///< the ring, then the other vertices of the band
   Index ring_ = 0;                       ///< number of vertices in the ring
   std::vector<double> areas_;            ///< #vertices_, shares of the band; the sum is one
-  std::vector<Positions> of_head_;  ///< #heads, each #vertices_ by 3: densities; or without rows
+  std::vector<Positions> of_head_;       ///< #heads: densities, #vertices_ by 3; no rows if unknown
 };
 
 }  // namespace crowdface

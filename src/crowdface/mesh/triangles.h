@@ -22,7 +22,7 @@ std::vector<Triangle> triangles_of(const Topology& topology, const Components& c
 /// A topology whose polygons are the given triangles.
 Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count);
 
-/// The vector along the normal of a triangle whose length is twice the area.
+/// The normal vector of a triangle, with twice the triangle's area as its length.
 Eigen::Vector3d area_vector(const Positions& positions, const Triangle& triangle);
 
 /// Barycentric coordinates of the point of a triangle that is nearest to p (Ericson 2005,

@@ -43,7 +43,7 @@ float winding(const Topology& topology, const Positions& positions) {
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  // the share of a sphere is 1, and of an open mask of a face about 0.3
+  // the magnitude of outward_share is 1 for a sphere, and about 0.3 for an open mask of a face
   constexpr double kMinInwardShare = 0.2;
   constexpr double kFlat = 0.8;  // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
   const Positions areas = face_area_vectors(topology, positions);

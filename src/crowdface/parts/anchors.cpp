@@ -129,7 +129,8 @@ Ties::Ties(const Positions& positions, const std::vector<std::span<const std::ui
       ties_.push_back({v, part, share});
       sum += share;
     }
-    // Normalise the weights, so that a vertex between two parts follows both parts.
+    // Scale the vertex's weights to a sum of at most one, so that a vertex between two parts
+    // follows both parts.
     for (std::size_t i = first; i < ties_.size(); ++i) ties_[i].share /= std::max(1.0, sum);
   }
 }

@@ -12,8 +12,7 @@
 
 namespace crowdface {
 
-/// Limit of the measured distances from the skin, as a fraction of the skin's extent. The limit
-/// replaces larger distances.
+/// Measured distances from the skin are clamped to this fraction of the skin's extent.
 constexpr double kFarFromSkin = 0.05;
 
 /// Geometric properties of a connected component that distinguish skin, eyes and lashes.

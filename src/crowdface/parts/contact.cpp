@@ -71,7 +71,8 @@ Contact::Contact(const Topology& topology, const VertexFaces& faces, const Posit
 
 void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                           const std::vector<Head>& heads) {
-  // Starts that are nearer to each other than this distance lead to the same point of the skin.
+  // If two start vertices are nearer to each other than this distance, searches from both find the
+  // same point of the skin.
   const double apart = 0.3 * reach_;
   // Find the skin nearest to each pair in every head.
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());
@@ -92,7 +93,7 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
       nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
-  // Keep those starts that are far enough from each other.
+  // Keep the start vertices that are far enough from each other.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     auto& starts = pairs_[i].starts;
     std::size_t count = 1;

@@ -31,8 +31,8 @@ constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
 /// Fractions of the radius. kMargin: clearance that is kept where no head has a lid inside the
 /// eyeball (0.025 mm). kFreeOfLids: smallest gap that counts as outside (−0.04 mm).
 constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
-/// Fractions of the radius. Lids farther away than this need no check, because the remaining motion
-/// is smaller: kFarFirst in the first step, kFarLater in later steps.
+/// Fractions of the radius. Lid vertices farther from the eyeball than this need no check, because
+/// the eyeball will move by less: kFarFirst in the first step, kFarLater in later steps.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;

@@ -105,7 +105,8 @@ class PlaceFinder {
       double distance;
       std::uint32_t vertex, partner;
     };
-    // Collect seeds: the vertices whose mirror images are nearest to another vertex.
+    // Collect seeds: the vertices for which the distance from the mirror image to the nearest
+    // vertex is smallest.
     std::vector<Seed> seeds;
     for (const std::uint32_t v : evenly_spaced_items(here, 20 * kSeeds)) {
       const auto near = grid.nearest(image(v));

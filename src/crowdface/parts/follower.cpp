@@ -229,7 +229,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
     }
     return;
   }
-  // Align the blended shape with the part of the target first.
+  // First move the blended part rigidly onto the target's part, so that only its shape is kept.
   const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.unit_weights);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();

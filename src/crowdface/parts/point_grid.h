@@ -17,8 +17,8 @@ class PointGrid {
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
-  /// A fast test: returns false only if no vertex lies within `reach` of the point. May return true
-  /// even so.
+  /// A fast, conservative test whether a vertex may lie within `reach` of the point: false only if
+  /// no vertex does; true proves nothing.
   bool may_be_in_reach(const Eigen::Vector3d& point, double reach) const;
 
   struct Nearest {

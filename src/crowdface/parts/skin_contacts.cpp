@@ -74,8 +74,8 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
   return sides;
 }
 
-/// Smooths `side` to the size `size`. Each round averages each value with the mean of its
-/// neighbours.
+/// Smooths `side` over a length of about `size`. Each round averages each value with the mean of
+/// its neighbours' values.
 void round_off(const Adjacency& adjacency, const Positions& mean, double size, Sides& sides) {
   double squares = 0, count = 0;
   for (const std::uint32_t v : sides.vertices) {
@@ -289,7 +289,7 @@ void SkinContacts::move(const Contact& contact, std::span<const double> amplitud
   });
 }
 
-/// Iterates, because moving points change which points lie at the same depth.
+/// Iterates, because after points have moved, other points lie at the same depth.
 void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions) const {
   for (const Contact& contact : contacts_) {
     Profiles profiles;

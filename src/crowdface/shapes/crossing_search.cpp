@@ -25,7 +25,7 @@ constexpr float kAlike = 0.998F;
 /// larger distances would give too many pairs of leaves.
 constexpr double kMaxLeaves = 3;
 
-/// Bits of the pairs of triangles in one leaf, each pair once.
+/// Bit mask (see LeafPair) with one bit for each pair of two different triangles of the same leaf.
 constexpr std::uint64_t kEachPairOnce = [] {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < LeafBoxes::kCount; ++i) {

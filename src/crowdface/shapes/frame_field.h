@@ -45,8 +45,8 @@ class FrameField {
     Eigen::Vector3d middle;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// factor on the map of the whole skin; it determines the directions that the samples leave
-    /// open
+    /// matrix by which the rotation and scale of the whole skin enter the node's map; determines
+    /// the map in directions in which the samples do not extend
     Eigen::Matrix3d whole_factor;
   };
   struct Share {

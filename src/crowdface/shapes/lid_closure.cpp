@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the eyeball's radius, about 12 mm. Distances from the eyeball's centre:
-// closer than kWholeShare, the skin follows the lid fully; farther than kNoShare, it stays.
+// skin closer than kWholeShare follows the lid fully; skin farther than kNoShare does not move.
 constexpr double kWholeShare = 1.8, kNoShare = 3;
 // Distances from the eyeball's surface: skin closer than kWholeHold is kept off the eyeball fully,
 // skin farther than kNoHold is not.
@@ -24,10 +24,9 @@ constexpr double kWholeHold = 0.27, kNoHold = 0.6;
 constexpr std::size_t kPlaces = 52;  // number of places along the opening
 constexpr double kProfile = 0.35;    // radius of the profile around each place
 constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
-// Smallest decrease of a gap at which the shape counts as closing a place.
+// Smallest decrease of the gap at a place at which the shape counts as closing the lids there.
 constexpr double kMinClosed = 0.05;
-/// Largest fraction of the gap at rest that may remain where the shape closes a place of the
-/// template.
+/// Largest fraction of the gap at rest that may remain where the shape closes the template's lids.
 constexpr double kMaxRemaining = 0.4;
 // clearance between lid and eyeball that is kept where template and face at rest have it
 constexpr double kMargin = 0.004;
@@ -40,8 +39,8 @@ constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
 
-/// Returns the position, in the shape, of the vertex of a lid's rim that is nearest to a coordinate
-/// along the opening.
+/// Returns the position, in the shape, of one rim vertex of the upper or lower lid: the vertex
+/// whose coordinate along the opening is nearest to `at`.
 Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
                        const Eigen::Vector3d& along) {
   double nearest = std::numeric_limits<double>::max();
@@ -118,8 +117,8 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   }
 }
 
-/// Sorts the lid vertices that belong to profiles to the front, because the search for gains moves
-/// only these.
+/// Moves the lid vertices that belong to profiles to the front of the list, because the search for
+/// gains moves only these vertices.
 void LidClosure::put_profiles_first() {
   std::set<std::uint32_t> rows;
   for (const LidPlace& place : places_) {

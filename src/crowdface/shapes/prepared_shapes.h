@@ -121,7 +121,7 @@ struct PreparedShapes {
     std::vector<bool> crosses_at_rest;
   };
   Carrier carrier_for(const Positions& face) const;
-  /// Returns the mean map over the vertices of the part that the shape moves.
+  /// Returns the mean of the linear maps at those vertices of a part that the shape moves.
   Eigen::Matrix3d map_of(const PartMove& part, const PreparedShape& state,
                          std::span<const Eigen::Matrix3d> maps) const;
 

@@ -37,8 +37,8 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
 /// One shape of a face.
 class CarriedShape {
  public:
-  /// \param rest  The mesh to which the shape is added: the face at rest, or in the shape's
-  ///              companion.
+  /// \param rest  The mesh to which the shape is added: the face at rest, or the face in the
+  ///              companion shape.
   /// \param mesh  Equal to `rest`; modified during the call and restored.
   CarriedShape(const PreparedShapes& prepared, std::size_t number, std::span<const FaceEye> at_eyes,
                const Carrier& carrier, const RegionShares& shares, const Positions& rest,
@@ -192,8 +192,8 @@ void CarriedShape::keep_contacts() {
   for (const std::uint32_t v : prepared_.contacts.movable_vertices()) mesh_.row(v) = rest_.row(v);
 }
 
-/// Repairs intersections and closes lids by turns, because each may undo the other, and keeps the
-/// best round.
+/// Alternates between repairing intersections and closing lids, because each may undo the other.
+/// Keeps the best round.
 void CarriedShape::remove_crossings() {
   SkinCrossings::ExtraCost extra_cost;
   if (closes_lids())

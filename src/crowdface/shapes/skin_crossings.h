@@ -49,7 +49,7 @@ class SkinCrossings {
   /// Marks the triangles that intersect on `mesh` as excused, so that they are ignored on faces.
   void excuse(const Positions& mesh, Watched& watched) const;
 
-  /// Returns one search over the skin of all shapes' searches.
+  /// Returns a single search over the union of the skin that the given searches cover.
   ///
   /// \param neutral  Template at rest, #V by 3.
   CrossingSearch watch_all(const Positions& neutral,

@@ -144,7 +144,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
   const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kMinRings, kMaxRings));
   const FrontView view(shaped, around, axes, kFrontReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
-  // Find the vertices that the shape's skin covers, one per cell.
+  // Find the vertices that the skin covers in the shape, one per cell.
   for (const std::uint32_t v : inner) {
     const Eigen::Vector3d point = row3(shaped, v);
     const auto cell = [&](Index c) {

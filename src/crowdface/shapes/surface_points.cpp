@@ -18,7 +18,8 @@ SurfacePoints::SurfacePoints(const PointSet& points, std::span<const Triangle> t
 
 std::optional<SurfacePoints::TrianglePoint> SurfacePoints::point_on_surface(
     const Eigen::Vector3d& point, const Positions& mesh, std::span<const Triangle> triangles) {
-  // Numbers in files are rounded.
+  // Largest distance of a point that counts as on the surface, as a fraction of the mesh's size:
+  // files contain rounded numbers.
   constexpr double kNearAsShareOfSize = 1e-5;
   double least =
       kNearAsShareOfSize * (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).maxCoeff();

@@ -13,7 +13,8 @@ namespace crowdface {
 
 class ChebyshevFilter;
 
-/// Like `smooth` (chebyshev_filter.h), but reads the positions from foreign memory without a copy.
+/// Like `smooth` (chebyshev_filter.h), but reads the positions in the caller's memory without a
+/// copy.
 std::vector<Positions> smooth_view(const ChebyshevFilter& filter,
                                    const Eigen::Ref<const Positions>& positions,
                                    std::span<const std::uint64_t> levels);

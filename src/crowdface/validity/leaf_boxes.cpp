@@ -213,7 +213,7 @@ std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, fl
   return HWY_DYNAMIC_DISPATCH(alike_normals)(a, b, min_cosine);
 }
 
-/// Branch-free, because branch prediction fails here.
+/// Without branches, because the processor could not predict them.
 bool overlap(const Box& a, const Box& b) {
   unsigned apart = 0;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -197,7 +197,7 @@ std::uint32_t TriangleScene::intersected_by(const Eigen::Vector3d& origin,
     if (!meets(box_ray, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
-      // Visit the child that holds the guess first: a triangle that blocked the previous ray often
+      // First visit the child that holds the guess: a triangle that blocked the previous ray often
       // blocks this one too.
       const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.second].begin;
       waiting[count++] = right_first ? n + 1 : node.second;

@@ -71,8 +71,8 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const bool collapsed =
         normal.squaredNorm() < kCollapsed * kCollapsed * frame.normal.squaredNorm();
     if (turned || collapsed) ++defects.flipped;
-    // The squared largest singular value of the map from the target triangle, from the images x, y
-    // of the frame's axes.
+    // The largest singular value, squared, of the linear map from the target triangle to this one.
+    // x and y are the images of the axes of `frame`.
     const Vector x = u / frame.length;
     const Vector y = (v - frame.shift * x) / frame.height;
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();

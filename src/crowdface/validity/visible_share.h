@@ -16,7 +16,7 @@ double ray_margin(const Positions& positions);
 /// Returns the fraction of a triangle that is visible to any of the given viewers, sampled at points
 /// about a millimetre apart: the centroids of equal subtriangles.
 /// \param at          corners of the triangle.
-/// \param triangle    index of the triangle in the scene; it does not hide itself.
+/// \param triangle    index of the triangle in the scene; a triangle never hides its own samples.
 /// \param directions  directions towards viewers, of any non-zero length.
 /// \param viewers     indices into `directions`: the viewers that count.
 /// \param last_occluders  #directions: the last occluder found for each viewer; the next ray to the
