@@ -24,9 +24,9 @@ class AttachmentCarrier {
                     AttachmentMove move);
 
   /// Returns the attachment's vertices on a face. Vertices that were outside the skin of the fitted
-  /// mesh stay outside. A bending attachment gets its narrow gaps to the skin back; wider gaps stay
-  /// at least two millimetres wide. A rigid attachment moves as a whole, so it keeps its gaps only
-  /// approximately.
+  /// mesh stay outside. On a bending attachment, narrow gaps to the skin get their original width
+  /// again; wider gaps stay at least two millimetres wide. A rigid attachment moves as a whole, so
+  /// it keeps its gaps only approximately.
   ///
   /// \param face     #V by 3, in the topology of the fitted mesh.
   /// \param normals  Normals of the face, from FittedSkin::normals.

@@ -22,7 +22,7 @@ constexpr double kMaxShift = 0.06;
 constexpr double kMaxScale = 1.3;
 constexpr double kOtherUnit = 5;      // ratio of sizes; beyond it, the head is in another unit
 constexpr double kMaxTurn = 45;       // degrees; a larger rotation cannot be blended as detail
-constexpr double kTimesNearer = 2.5;  // a reflection that is so much nearer is no coincidence
+constexpr double kTimesNearer = 2.5;  // ratio of distances; beyond it, the head is mirrored
 constexpr Index kPoints = 2000;
 
 /// Returns about `most` skin vertices, evenly spaced by index.

@@ -24,12 +24,12 @@ struct HeadPose {
 /// vertices count.
 std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& components);
 
-/// Why `align_heads` refuses a head even with `rigid`: it is mirrored or has another unit. Empty if
-/// neither is the case.
+/// A message that says why `align_heads` refuses a head even with `rigid`: the head is mirrored or
+/// in another unit. Empty if `align_heads` accepts the head.
 std::string objection_to_pose(const HeadPose& pose, const std::string& head);
 
-/// Whether `align_heads` would warn about a head and a rigid motion would help: the heads have one
-/// size, and some head is rotated or shifted relative to the other heads.
+/// Whether `rigid` alignment would help: all heads have the same size, but at least one head is
+/// rotated or shifted so far that `align_heads` would warn.
 bool needs_rigid_alignment(const HeadSet& faces, const Components& components);
 
 /// Warns about heads that are rotated, shifted or scaled relative to the other heads, because

@@ -11,8 +11,9 @@
 namespace crowdface {
 
 /// Paints a texture of the body for each face, so that body and face have the same colours at the
-/// ring. Next to the ring, the body's optical densities change by the difference at each vertex of
-/// the ring. Farther away, this change blends into the mean difference, reached at `falloff`.
+/// ring. At each vertex of the ring, the body's optical densities change by the difference between
+/// face and body. With growing distance from the ring, the change blends into the mean difference,
+/// reached at the distance `falloff_mm`.
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.

@@ -16,7 +16,7 @@ struct AttachmentFile {
 /// The material files and textures of an attachment. Textures keep their names.
 std::vector<AttachmentFile> files_of(const AttachmentLook& look);
 
-/// Encodes a neutral colour texture in a colour, as a PNG file with 8 bits per channel.
+/// Colours a neutral texture, and returns it as a PNG file with 8 bits per channel.
 /// \throws InvalidInput if the file is not a readable image.
 std::string coloured_texture(const std::filesystem::path& neutral, const HairColour& colour);
 

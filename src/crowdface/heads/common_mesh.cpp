@@ -231,8 +231,7 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
 /// \param made   receives the mesh if vertices touch in some heads only
 /// \return a head with the mesh
 const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
-  constexpr double kMaxTouching =
-      0.02;  // fraction of the vertices; different meshes differ in more
+  constexpr double kMaxTouching = 0.02;  // fraction of vertices; different meshes exceed it
   Vertices vertices = heads[0]->mesh->topology.corner_vertices;
   std::size_t count = 0;
   const HeadFile* most = heads[0];

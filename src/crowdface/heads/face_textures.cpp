@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-/// Colour variation with a longer wavelength is blended as a mean; shorter variation keeps its
-/// contrast: brows, lip borders, freckles, stubble, pores.
+/// Colour variation with a longer wavelength is blended as a weighted mean. Variation with a
+/// shorter wavelength keeps its contrast: brows, lip borders, freckles, stubble, pores.
 constexpr double kDetailMm = 24;
 /// Distance over which the strength of detail is averaged.
 constexpr double kStrengthMm = 48;

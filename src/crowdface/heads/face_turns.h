@@ -30,9 +30,8 @@ class FaceTurns {
   bool has_turned_head(const Recipe& recipe) const;
 
   const HeadsOnBody& neck_;
-  SampledHeads placed_,
-      turned_;        ///< vertices above the bend, in file units: as placed; in common pose
-  RigidMotion mean_;  ///< motion of the mean head from its placed pose to the common pose
+  SampledHeads placed_, turned_;  ///< above the bend, in file units: as placed, in the common pose
+  RigidMotion mean_;              ///< the mean head's motion from its placed to the common pose
 };
 
 }  // namespace crowdface

@@ -8,7 +8,7 @@
 namespace crowdface {
 
 /// Computes the levels of detail that the config asks for and stores them in `inputs`, whose heads
-/// and shapes must be known. Does nothing if no mesh is written.
+/// and shapes must already be loaded. Does nothing if no mesh is written.
 /// \param cache  keeps the levels; empty: no cache
 void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs);
 

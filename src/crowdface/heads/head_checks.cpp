@@ -46,7 +46,7 @@ std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found)
   return {};
 }
 
-/// Whether each face of `found` is a face of `first`.
+/// Whether each polygon of `found` is also a polygon of `first`.
 bool has_only_faces_of(const Topology& first, const Topology& found) {
   std::set<std::vector<std::uint32_t>> faces;
   for (Index f = 0; f < first.face_count(); ++f) {

@@ -17,8 +17,8 @@ namespace crowdface {
 /// and the export setting that probably caused the difference.
 void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems);
 
-/// Warns if the heads look in the direction that the config says, but show too little of a face to
-/// measure it.
+/// Warns if the heads face the configured direction, but contain too little of a human face for
+/// measurements.
 /// \throws InvalidInput if the heads face another direction than the config says, or have an
 ///         impossible size: every measurement would then be wrong.
 std::optional<std::string> check_stance(const Config& config, const Inputs& inputs);

@@ -20,7 +20,7 @@ struct TextureFile {
   Digest content;
 };
 
-/// Reads a texture and reserves its share of the image memory for its lifetime.
+/// Reads a texture. While the texture exists, its size counts towards the limit of image memory.
 TextureFile read_texture(const fs::path& path, int max_px) {
   struct Kept {
     ImageMemory memory;

@@ -46,7 +46,7 @@ struct HeadTextures {
 /// detail.
 int shown_texels(const Config::ContactSheet& sheet);
 
-/// Whether renders show any of these kinds.
+/// Whether renders show any of these kinds of textures.
 bool any_is_shown(const std::vector<HeadTextures>& maps);
 
 /// Colours as a texture for renders. \param max_px  maximum side length

@@ -12,9 +12,9 @@
 
 namespace crowdface {
 
-/// All heads on one body (config section `neck`). All heads are moved by translations and one
-/// rotation; each finished face is rotated and its neck bent, so that above the bend the face has
-/// the same shape as without a body.
+/// All heads on one body (config section `neck`). Each head is translated, and all heads get the
+/// same rotation; each finished face is rotated and its neck bent, so that above the bend the face
+/// has the same shape as without a body.
 struct HeadsOnBody {
   /// How a head was placed.
   struct Head {
@@ -28,7 +28,7 @@ struct HeadsOnBody {
   };
   Seam seam;
   std::vector<Head> heads;
-  Eigen::Vector3d middle;   ///< of the seam
+  Eigen::Vector3d middle;   ///< centre of the seam between heads and body
   Positions unplaced_mean;  ///< mean of the heads before they were placed
   double mm_per_unit = 1;
   /// The body; null unless renders or mesh files contain the body, or faces get a texture for it.

@@ -30,7 +30,7 @@ namespace crowdface {
 
 struct HeadsOnBody;  // heads/heads_on_body.h
 
-/// A mesh that heads may wear, and its material files.
+/// A mesh that faces may wear, such as hair or glasses, and the material files of this mesh.
 struct Attachment {
   std::string name, kind;
   AttachmentMove moves = AttachmentMove::kBend;
@@ -40,14 +40,14 @@ struct Attachment {
   Tint tint = Tint::kNone;
 };
 
-/// An attachment in the colour in which a face wears it.
+/// An attachment, and the colour that a face gives to this attachment.
 struct AttachmentLook {
   const Attachment* item;
   std::optional<HairColour> colour = {};  ///< if the attachment has a tint
 
   /// Text from label_of, or empty.
   std::string label() const { return colour ? label_of(*colour) : std::string(); }
-  /// The attachment's name, in a colour "NAME+LABEL".
+  /// The attachment's name; with a colour, "NAME+LABEL".
   std::string name() const;
   /// Factors on the linear RGB values of the attachment's textures.
   std::array<float, 3> tint() const {
@@ -69,7 +69,7 @@ struct AttachmentSet {
   /// The attachments that a face wears.
   std::vector<AttachmentLook> looks(const FacePlan& face) const;
   AttachmentLook look(const std::string& name, const std::optional<HairColour>& hair) const;
-  /// The looks that some of these faces wear, without duplicates, sorted by name.
+  /// All looks that occur on these faces, without duplicates, sorted by name.
   std::vector<AttachmentLook> looks(std::span<const FacePlan> faces) const;
 };
 
@@ -82,7 +82,7 @@ struct Rig {
   bool empty() const { return skin.joints.empty(); }
 };
 
-/// A level of detail, and its distance from the whole mesh.
+/// A level of detail, and its error relative to the full mesh.
 struct MeasuredLevel {
   DetailLevel level;
   LevelError heads;   ///< over all heads, mm

@@ -22,7 +22,7 @@ const std::vector<float>& light_of_srgb16() {
   return table;
 }
 
-/// The values of light_of_srgb16 as densities.
+/// The optical density of each 16-bit sRGB value.
 const std::vector<Density>& densities_of_srgb16() {
   static const std::vector<Density> table = [] {
     std::vector<Density> densities;

@@ -6,8 +6,8 @@
 
 namespace crowdface {
 
-/// The image in linear light. Integers count as sRGB, floats as linear. In grey images every
-/// channel is the first channel; alpha is ignored.
+/// The image in linear light. Integers count as sRGB, floats as linear. For a grey image, each
+/// colour channel of the result is a copy of the image's first channel. Alpha is ignored.
 /// \param image  must outlive the result.
 LightRows light_of(const Image& image);
 

@@ -74,7 +74,8 @@ Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
   return counts ? turned.rotation : Matrix3d::Identity();
 }
 
-/// The poses of the heads, and of the body if it has their vertices, from the skin above the bend.
+/// The poses of the heads, measured on the skin above the bend. Also measures the pose of a body
+/// mesh that has the heads' vertices.
 struct Poses {
   std::vector<std::uint32_t> skin;
   Vector3d across;              ///< the axis through the ears
@@ -108,7 +109,8 @@ struct Poses {
     return sum / static_cast<double>(turns.size());
   }
 
-  /// Rotates heads in the common pose into the pose of `mesh`, which has the heads' vertices.
+  /// Returns the rotation from the heads' common pose into the pose of `mesh`, which has the heads'
+  /// vertices.
   Matrix3d rotation_to(const HeadSet& faces, const Rim& rim, const Positions& mesh) const {
     return pose_part(head_motion(mean(faces, rim, skin), mesh(skin, kAllColumns)).rotation, across);
   }
@@ -141,7 +143,8 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
   return goal;
 }
 
-/// Warns about heads whose ring is so far from the body's that the bend shows.
+/// Warns about heads whose ring lies so far from the body's ring that the bend of the neck is
+/// visible.
 void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& heads,
                   Inputs& inputs) {
   // The bend's largest slope is 1.5 times the displacement divided by the falloff, which is one

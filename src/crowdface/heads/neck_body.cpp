@@ -74,7 +74,7 @@ ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
   return cut;
 }
 
-/// \throws InvalidInput if the body is a head.
+/// Stores the body's mesh. \throws InvalidInput if the file holds a head instead of a body.
 void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
   if (body.is_head) {
     throw InvalidInput("body_texture, show_body and write_body need a body, found a head");

@@ -16,7 +16,7 @@ Rim find_neck_rim(const Config& config, const Inputs& inputs);
 /// The sum of the area vectors of the polygons around each vertex of a rim, #rim by 3.
 Positions areas_around(const Topology& topology, const Positions& positions, const Rim& rim);
 
-/// The body of `neck.body`.
+/// The body whose file the config names as `neck.body`.
 struct NeckBody {
   Positions rim;    ///< #rim by 3, in the order of the heads' rim
   Positions areas;  ///< area vectors of its polygons around the rim, #rim by 3
@@ -31,8 +31,8 @@ struct NeckBody {
   void face_outward(const Positions& head_areas);
 };
 
-/// Reads the body and matches its rim with the heads' rim. Removes the head of a body whose rim
-/// (`neck.body_rim`) is not open.
+/// Reads the body and matches its rim with the heads' rim. If the body's rim (`neck.body_rim`) is
+/// not an open border, removes the head above this rim.
 /// \param rim   the heads' rim
 /// \param ring  the mean of the heads' positions at the rim, #rim by 3
 /// \throws InvalidInput if no rim fits, or if the config needs a body and the file has a head.

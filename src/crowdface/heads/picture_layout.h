@@ -17,8 +17,8 @@ struct PictureSource {
   Index face = 0;
 };
 
-/// Assigns to each polygon the image of the first head with a texture there. The images have
-/// no size yet.
+/// Assigns to each polygon the image of the first head that has a texture at this polygon. The
+/// images have no size yet.
 /// \return #images
 std::vector<PictureSource> lay_out_pictures(const HeadsTextures& found, TextureLayout& layout);
 

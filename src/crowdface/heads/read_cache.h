@@ -23,7 +23,7 @@ struct HeadMesh {
 
 /// Fills in positions, materials and groups of a head from the cache.
 /// \param text  hash of the whole file
-/// \return the hash of the head's mesh, or nothing if the cache does not know the file.
+/// \return the hash of the head's mesh, or nothing if the cache has no entry for the file.
 std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head);
 /// \param mesh  hash of the mesh
 std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh);

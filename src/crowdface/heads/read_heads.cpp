@@ -206,7 +206,7 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
   }
 }
 
-/// Files with only positions have no polygons: then the head has no mesh yet.
+/// If the file has positions but no polygons, the head has no mesh yet.
 void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
   FileMesh mesh = read_mesh(file.path);
@@ -263,7 +263,8 @@ void finish_reading(HeadReading& reading, MeshShelf& shelf) {
   if (!reading.head.mesh) read_with_mesh(reading, shelf);
 }
 
-/// Gives heads without polygons the polygons of the first mesh with as many vertices.
+/// Gives heads without polygons the polygons of the first mesh that has the same number of
+/// vertices.
 void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
                           std::vector<std::optional<Error>>& errors) {
   for (std::size_t i = 0; i < files.size(); ++i) {

@@ -36,7 +36,7 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
                                  const CacheFolder& cache, Problems& problems);
 
 /// The positions of a mesh.
-/// \param others  how messages call the meshes with the expected topology
+/// \param others  noun for the meshes with the expected topology, for messages
 /// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view others);

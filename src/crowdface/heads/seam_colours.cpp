@@ -18,8 +18,7 @@ constexpr double kBandMm = 20;  ///< height of the band, along the skin
 /// sample in each adjacent polygon. No rows if some vertex has no textured polygon.
 Positions sampled(const TextureSet& textures, const HeadSet& faces, const VertexFaces& around,
                   const std::vector<std::uint32_t>& vertices) {
-  constexpr float kOwn =
-      0.75F;  // weight of the vertex in a sample; the centroid has the weight 1 − kOwn
+  constexpr float kOwn = 0.75F;  // weight of the vertex in a sample; the centroid has 1 − kOwn
   Positions densities(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     Eigen::Array3d sum = Eigen::Array3d::Zero();

@@ -31,8 +31,8 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   Hasher hasher;
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
   for (std::size_t h = 0; h < inputs.own_digests.size(); ++h) {
-    // Also hash the file: everything in a mesh except its positions is copied from its target's
-    // file.
+    // Also hash the file: everything in an output mesh except the positions is copied from the
+    // target's file.
     hasher.add(config.faces.names[h]).add(inputs.own_digests[h]).add(inputs.texts[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);

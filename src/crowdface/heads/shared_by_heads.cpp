@@ -33,7 +33,7 @@ Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
   return hasher.add(kSharedVersion).add(inputs.topology_digest);
 }
 
-/// Adds everything that determines the skin of all heads.
+/// Adds to the hash everything that determines the skin of all heads.
 Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
   for (const Digest& head : inputs.own_digests) hasher.add(head);
   return hasher.add_array(std::span(inputs.skin.of_vertex)).add(inputs.skin.largest());

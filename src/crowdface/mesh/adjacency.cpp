@@ -35,7 +35,7 @@ CompressedRows<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
 Adjacency build_adjacency(const Topology& topology) {
   CompressedRows<std::uint32_t> all = half_edges_by_vertex(topology);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  // A neighbour that occurs only once in the list of a vertex shares an edge with one polygon.
+  // If a neighbour occurs only once in the list of a vertex, the edge between them has one polygon.
   std::vector<std::uint8_t> on_boundary(vertices, 0);
   std::vector<std::size_t> kept(vertices, 0);
   parallel_for_each(vertices, kBlock, [&](std::size_t i) {

@@ -54,7 +54,7 @@ class Graph {
     const auto [begin, end] = topology_.corners(face_of_[corner]);
     return corner + 1 == end ? begin : corner + 1;
   }
-  /// The opposite corner across the edge that starts at `corner`, or kNoIndex.
+  /// The corner at which the opposite half-edge of the half-edge from `corner` starts, or kNoIndex.
   std::uint32_t twin(std::uint32_t corner) const { return twins_[corner]; }
   std::uint32_t face_size(std::uint32_t corner) const {
     const auto [begin, end] = topology_.corners(face_of_[corner]);

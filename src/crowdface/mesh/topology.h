@@ -79,7 +79,7 @@ struct HeadSet {
   std::vector<Head> heads;
 };
 
-/// Renumbers the indices that occur from 0 without gaps, in ascending order.
+/// Renumbers the used indices: consecutively from 0, in the same order.
 /// \param indices  each < count; replaced by the new numbers.
 /// \return the old number of each new number.
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);

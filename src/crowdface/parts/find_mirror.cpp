@@ -27,7 +27,7 @@ constexpr double kAcceptedError = 0.01;
 // Lengths are fractions of the skin's extent, about 43 cm.
 // largest distance of a partner from the vertex's mirror image
 constexpr double kMatchReach = 0.01;
-/// The largest root mean square error of a walk is the maximum of two limits: kWalkShare of the
+/// The root mean square error of a walk may be at most the larger of two limits: kWalkShare of the
 /// component's extent, and kWalkReach of the skin's extent.
 constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
 // largest difference between the bounding boxes of two matched components

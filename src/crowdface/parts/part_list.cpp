@@ -168,7 +168,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
 
   const std::vector<std::vector<std::uint32_t>> members = members_of(components);
   DisjointSets grouping(count);
-  // Join the components that the user joined.
+  // Join the components that the user assigned to one part.
   std::vector<bool> by_hand(count, false);
   for (const auto& together : overrides.joined_components) {
     for (const std::uint32_t c : together) {

@@ -33,8 +33,8 @@ constexpr double kMargin = 0.004;
 /// Largest depth of skin in the eyeball, unless the skin is deeper at rest.
 constexpr double kDeepest = 0.0125;
 constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
-/// Largest extra closing, beyond the template's, where gaps must be corrected. It also closes the
-/// skin between the places.
+/// Where gaps must be corrected, lids are closed a little farther than on the template, by at most
+/// this, so that the skin between the measured places closes too.
 constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
@@ -339,7 +339,8 @@ void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotio
   const Positions carried = moves;
   std::vector<double> gains(places_.size(), 0.0);
   double sure = 0;
-  // Chord method for the gains: a gain of one closes a place by as much as on the template.
+  // Chord method (Newton with a fixed slope) for the gains. A gain of one narrows the gap at a
+  // place by as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) close(in_profiles_, axes.up, carried, gains, moves);
     keep_off_ball(in_profiles_, face, eye, whole.scale, goals, moves);

@@ -77,7 +77,7 @@ class LidClosure {
   /// \param moves  The mesh's displacements, with the rows of the shape.
   Goals goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& whole,
               const Positions& moves) const;
-  /// Returns the weighted mean of several sets' goals.
+  /// Returns the weighted mean of the goals of several sets of shapes.
   static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
   /// Returns whether the shape closes the lids.
   bool closes() const { return !places_.empty(); }

@@ -18,7 +18,7 @@ double nearest(const Eigen::Vector3d& point, const Positions& mesh,
   return least;
 }
 
-/// Returns whether a point is nearer to the middle of an eyeball than any vertex of its surface.
+/// Returns whether a point is nearer to an eyeball's centre than every vertex of the eyeball is.
 bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Part& eyeball) {
   const Eigen::Vector3d middle = centre_of(mesh, eyeball.surface);
   return (point - middle).norm() < nearest(middle, mesh, eyeball.surface);

@@ -28,7 +28,7 @@ struct RigidTurn {
   /// unit quaternion (w, x, y, z); rotation about the middle
   std::array<double, 4> quaternion = {1, 0, 0, 0};
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< translation of the middle
-  /// #rows: displacement of each vertex that rotation and translation do not explain
+  /// #rows: the part of each vertex's displacement that rotation and translation do not explain
   std::vector<Eigen::Vector3d> residuals;
 };
 
@@ -52,7 +52,7 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
                     std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
                     const Positions& moves);
 
-/// Returns the weighted mean of several sets' motions.
+/// Returns the weighted mean of the part's motions in several sets of shapes.
 RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares);
 
 /// Transfers a motion to a part of a face: writes the part's displacements to `rows` of `moves`.

@@ -33,7 +33,7 @@ class SurfacePoints {
                                                        const Positions& mesh,
                                                        std::span<const Triangle> triangles);
 
-  /// #meshes by #names: empty for a point beside the surface
+  /// #meshes by #names: empty for a point that does not lie on the surface
   std::vector<std::vector<std::optional<TrianglePoint>>> surface_points_;
 };
 
