@@ -179,8 +179,8 @@ Index used_vertices(const Topology& topology) {
   return std::ranges::count(used, true);
 }
 
-/// A mesh with the polygons of a head, and with a vertex for each number in `vertices`.
-/// \param vertices  #C; replaced by numbers in the order of the corners
+/// Copies a head; in the copy, corners with the same number in `vertices` share a vertex.
+/// \param vertices  #C; the function renumbers the vertices in the order of the corners
 HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
   std::map<std::uint32_t, std::uint32_t> numbers;
   for (std::uint32_t& vertex : vertices) {

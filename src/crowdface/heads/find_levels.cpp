@@ -149,7 +149,8 @@ constexpr auto kLevelArrays = [](auto& arrays, auto& measured) {
   arrays("rms of shapes", measured.shapes.root_mean_square);
 };
 
-/// Also computes the members that the cache does not store.
+/// Whether a level read from the cache is valid. Also computes the members that the cache does not
+/// store.
 bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
   DetailLevel& level = measured.level;
   level.share = share;

@@ -74,7 +74,7 @@ std::string part_of_head(const Positions& first, const Positions& found) {
                 " times as large along X, Y and Z as the first: is it only a part of a head?");
 }
 
-/// Whether the text of an OBJ file ends within a line.
+/// Whether an OBJ file ends without a line break, so that its last line may be cut off.
 bool ends_within_line(const ObjFile& file) {
   const std::string_view text = file.file.bytes();
   return !text.empty() && text.back() != '\n' && text.back() != '\r';

@@ -32,7 +32,7 @@ const std::vector<Density>& densities_of_srgb16() {
   return table;
 }
 
-/// Converts a row of integer texels to densities. \param steps factor that scales a texel's integer
+/// Converts a row of integer texels to densities. \param steps  factor that scales a texel's integer
 /// to 16 bits
 template <class Number>
 void write_densities(const Image& image, const std::vector<Number>& numbers, std::size_t steps,

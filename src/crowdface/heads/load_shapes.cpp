@@ -171,8 +171,8 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   }
 }
 
-/// Removes shapes that move no vertex of any head: either the neutral pose or a shape that a model
-/// names but does not have.
+/// Removes shapes that move no vertex of any head: either the shape is the neutral pose, or a head
+/// model lists the shape but has no data for it.
 void leave_out_still_shapes(Inputs& inputs) {
   ShapeSet& set = inputs.shapes;
   for (std::size_t s = set.shapes.size(); s-- > 0;) {

@@ -157,7 +157,7 @@ struct HeadReading {
   ObjOutline outline;
 };
 
-/// Moves the data read into the head and its mesh.
+/// Moves the data that was read to the head and to the head's mesh.
 void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
   file = shelf.winding() == Winding::kOutward ? right_side_out(std::move(read)) : std::move(read);

@@ -35,7 +35,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(
 std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths,
                                  const CacheFolder& cache, Problems& problems);
 
-/// The positions of a mesh.
+/// Reads the vertex positions of a mesh file.
 /// \param others  noun for the meshes with the expected topology, for messages
 /// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,

@@ -56,7 +56,8 @@ Contact::Contact(const Topology& topology, const VertexFaces& faces, const Posit
     pairs_.push_back({v, place.corners, place.shares, {start, start, start}, 1e300});
     sum += height(pairs_.size() - 1, point, positions).height > 0 ? 1 : -1;
   }
-  // Most vertices are outside the skin; roots of teeth may be inside.
+  // The majority determines the sign of the normals: most vertices of a part are outside the skin,
+  // although roots of teeth may be inside.
   normal_sign_ = sum < 0 ? -1 : 1;
   find_starts(positions, skin, heads);
   find_clusters(positions, heads);

@@ -104,7 +104,8 @@ std::vector<Candidate> opposite(const Positions& positions, const Positions& nor
   return found;
 }
 
-/// Swaps pairs of a group so that the low vertices of all pairs lie on the same side.
+/// Swaps the two vertices of some pairs, so that the low vertices of all pairs of a group lie on
+/// the same side.
 void agree_on_sides(FacingGroup& group) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FacingPair& pair : group) spread += pair.up * pair.up.transpose();

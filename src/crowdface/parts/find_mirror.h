@@ -11,7 +11,8 @@ struct FoundMirror {
   MirrorMap map;
   /// number of vertices in mutual pairs: each vertex of a pair is the partner of the other
   Index vertices = 0;
-  /// number of vertices whose partner is a point on the surface; all other vertices have no partner
+  /// number of vertices whose partner is a surface point between vertices; vertices counted in
+  /// neither number have no partner
   Index surface_partners = 0;
   /// Distance of the mean head from its mirror image, in the unit of the heads: root mean square
   /// and maximum over all vertices.

@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// The index along the Hilbert curve of a cell of a grid with 2²¹ cells per axis. Cells that are
-/// close along the curve are close in space. Source: Skilling 2004, "Programming the Hilbert
+/// The position of a grid cell along the Hilbert curve. The grid has 2²¹ cells per axis. Cells that
+/// are close along the curve are close in space. Source: Skilling 2004, "Programming the Hilbert
 /// curve".
 std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
   constexpr int kBits = 21;
