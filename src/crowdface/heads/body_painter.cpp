@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-/// Texture coordinates that give each polygon a square of the image, in rows.
+/// Texture coordinates that give each polygon its own square of the image; the squares form rows.
 struct SquareLayout {
   static constexpr int kTexels = 4;  ///< side of a square
   int per_row;

@@ -17,8 +17,9 @@ namespace crowdface {
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
-  /// \param texture  an image in the body's texture coordinates. Empty: the body takes its colours
-  ///                 only from the ring and gets new texture coordinates.
+  /// \param texture  an image in the body's texture coordinates. Empty: the body's colours come
+  ///                 only from the face's colours at the ring, and the body gets new texture
+  ///                 coordinates.
   BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
 
   /// The body's polygons, with the texture coordinates of the image that `paint` returns.

@@ -179,7 +179,8 @@ Index used_vertices(const Topology& topology) {
   return std::ranges::count(used, true);
 }
 
-/// Copies a head; in the copy, corners with the same number in `vertices` share a vertex.
+/// Makes a head with the polygons of `head`, in which corners with the same number in `vertices`
+/// share a vertex. The result has no positions.
 /// \param vertices  #C; the function renumbers the vertices in the order of the corners
 HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
   std::map<std::uint32_t, std::uint32_t> numbers;

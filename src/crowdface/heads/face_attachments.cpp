@@ -91,7 +91,7 @@ std::size_t FaceAttachments::memory_bytes() const {
 
 /// A face wears at most one attachment of each kind.
 std::size_t FaceAttachments::placed_bytes() const {
-  // the bent mesh, the mesh pushed off the skin, and the mesh before that
+  // copies in memory at once: the bent mesh, and the mesh before and after the push off the skin
   constexpr std::size_t kCopies = 3;
   std::map<std::string, std::size_t> largest;
   for (const Attachment& item : inputs_.attachments.items) {

@@ -41,8 +41,8 @@ class FaceTextures {
   /// Mean colour of the skin in a band above the neck's ring, in linear light; nothing without
   /// `neck` or without colours. Thread-safe.
   std::optional<Eigen::Array3d> seam_colour(const Recipe& recipe) const;
-  /// Paints the body's texture for each face. Null if faces have no colours or nothing shows the
-  /// body.
+  /// Paints the body's texture for each face. Null if faces have no colours, or if neither renders
+  /// nor files show the body.
   const BodyPainter* body() const { return body_.get(); }
   /// The body's texture for a face. Requires body(). Thread-safe.
   BlendedPicture paint_body(const Recipe& recipe) const;

@@ -13,8 +13,8 @@ namespace crowdface {
 
 /// Finds the stored hash of a file that is about to be read, if the cache trusts seen files and the
 /// file has not changed since it was last read. A file counts as unchanged if device, inode, size,
-/// mtime and ctime (which no program can set) are the same. This saves hashing gigabytes before the
-/// program can show anything.
+/// mtime and ctime (which no program can set) are the same. Otherwise the program would hash
+/// gigabytes before it could show anything.
 class FileFingerprint {
  public:
   /// \param cache  its folder keeps the records of seen files

@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// A head's file. The topology, texture coordinates and corner normals of its ObjFile are empty.
+/// A head as read from its file. The topology, texture coordinates and corner normals are in
+/// `mesh`; those of `file` are empty.
 struct HeadFile {
   ObjFile file;
   Digest text;  ///< hash of the file's bytes

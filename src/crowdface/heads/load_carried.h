@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Places all heads on the body of `neck`. Requires aligned heads only. A neck that cannot be found
-/// or does not fit the body is a problem.
+/// Places all heads on the body of `neck`. Requires only that the heads are aligned. A neck that
+/// cannot be found or does not fit the body is a problem.
 void load_neck(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the shapes in parallel. Shapes that a head lacks are transferred from the template. A mesh

@@ -147,8 +147,8 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
 /// visible.
 void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& heads,
                   Inputs& inputs) {
-  // The bend's largest slope is 1.5 times the displacement divided by the falloff, which is one
-  // half for this displacement.
+  // For this displacement, the bend's largest slope is one half: the largest slope is 1.5 times the
+  // displacement divided by the falloff.
   const double most = config.neck.falloff_mm / 3;
   std::vector<std::string> bent;
   for (std::size_t h = 0; h < heads.size(); ++h) {

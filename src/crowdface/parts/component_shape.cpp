@@ -64,7 +64,7 @@ void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& ve
   shape.radius = std::sqrt(std::max(0.0, x[3] + centre.squaredNorm()));
 }
 
-/// Measures the distances of vertices and face centres from the sphere. Vertices alone do not
+/// Measures the distances of vertices and polygon centres from the sphere. Vertices alone do not
 /// suffice: the corners of any box lie on a sphere.
 void measure_roughness(const Topology& topology, const Components& components,
                        const Positions& positions, std::vector<ComponentShape>& shapes) {

@@ -28,7 +28,7 @@ struct ComponentShape {
   /// 90th percentile of the vertices' distances from the skin, at most kFarFromSkin.
   double skin_distance = 0;
   /// The least-squares sphere through the vertices. `roughness` is the root mean square distance of
-  /// the vertices and face centres from this sphere.
+  /// the vertices and polygon centres from this sphere.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
   double roughness = 0;

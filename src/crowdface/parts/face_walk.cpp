@@ -26,8 +26,8 @@ std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge
   return std::nullopt;
 }
 
-/// Visits the faces beside two corresponding edges.
-/// \return  false if only one of the edges has a face.
+/// Visits the polygons beside two corresponding edges.
+/// \return false if only one of the edges has a polygon.
 bool MirroredWalk::visit_faces(DirectedEdge here, DirectedEdge there) {
   const auto face = face_along(here);
   const auto image = face_along(there);

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A directed edge, in the winding order of a face.
+/// A directed edge, in the winding order of a polygon.
 struct DirectedEdge {
   std::uint32_t from, to;
 };
@@ -29,11 +29,11 @@ class MirroredWalk {
   /// \param vertex_faces  Must outlive this object.
   MirroredWalk(const Topology& topology, const VertexFaces& vertex_faces);
 
-  /// Walks from face to face on both sides simultaneously, with opposite winding on the second
-  /// side. The walk succeeds if corresponding faces have equally many corners and each vertex
-  /// always gets the same partner.
+  /// Walks from polygon to polygon on both sides simultaneously, with opposite winding on the
+  /// second side. The walk succeeds if corresponding polygons have equally many corners and each
+  /// vertex always gets the same partner.
   ///
-  /// \param edge     An edge of a face on the first side.
+  /// \param edge     An edge of a polygon on the first side.
   /// \param other    The mirror image of `edge` on the second side: from the partner of edge.to to
   ///                 the partner of edge.from.
   /// \param may_continue  Called once for each new pair. If the function returns false, the walk
@@ -44,7 +44,7 @@ class MirroredWalk {
       const std::function<bool(const MirroredPair&)>& may_continue);
 
  private:
-  /// An edge of a face: the face, and the corner where the edge begins.
+  /// An edge of a polygon: the polygon, and the corner where the edge begins.
   struct FaceEdge {
     std::uint32_t face;
     std::size_t corner;
@@ -67,7 +67,7 @@ class MirroredWalk {
   // State of the current walk:
   /// #V: partner of each vertex, and vertex of each partner; kNoIndex if there is none
   std::vector<std::uint32_t> partners_, vertices_of_partners_;
-  /// #F: whether the walk has visited the face on the first side
+  /// #F: whether the walk has visited the polygon on the first side
   std::vector<bool> is_visited_;
   std::vector<FacePair> faces_;  ///< visited faces, in the order of visits
   std::vector<MirroredPair> pairs_;

@@ -30,7 +30,7 @@ constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 constexpr double kOverlap = 0.0005;
 constexpr double kAside = 0.0035;  // smallest gap that the test of kSideways assumes
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
-// largest distance between the midpoints of one group's pairs; larger in a coarse mesh
+// largest distance between the midpoints of one group's pairs; a coarse mesh has a larger limit
 constexpr double kTogether = 0.015;
 // smallest distance along the surface, as a multiple of the distance in space
 constexpr double kTimesAway = 3;

@@ -95,7 +95,7 @@ class PlaceFinder {
         extent_(extent),
         walk_(topology, around) {}
 
-  /// Matches vertices by walking over the faces of both components.
+  /// Matches vertices by walking over the polygons of both components.
   ///
   /// \return  Nothing if the components do not match.
   std::optional<std::vector<MirroredPair>> by_faces(const Vertices& here, const Vertices& there) {

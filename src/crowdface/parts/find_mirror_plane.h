@@ -17,7 +17,7 @@ class PlaneFit {
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner);
   /// Returns the plane; needs at least one pair.
   ///
-  /// \param side  The normal points to this half space.
+  /// \param side  Vector into the half space to which the normal points.
   MirrorPlane plane(const Eigen::Vector3d& side) const;
   double count() const { return count_; }
 

@@ -26,7 +26,7 @@ constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
 /// Largest distance at which gums follow a tooth, as a fraction of the skin's extent.
 constexpr double kTieReach = 0.01;
 
-/// Returns #V: the area of each vertex, which is its share of the areas of adjacent faces.
+/// Returns #V: the area of each vertex, which is its share of the areas of the adjacent polygons.
 std::vector<double> vertex_areas(const Topology& topology, const Positions& positions) {
   const Positions vectors = face_area_vectors(topology, positions);
   std::vector<double> areas(static_cast<std::size_t>(topology.vertex_count), 0.0);
@@ -62,7 +62,7 @@ struct SkinOfMean {
   const HeadAxes& axes;
   const Positions& mean;
   std::vector<double> areas;            ///< #V
-  std::vector<std::uint32_t> vertices;  ///< vertices that belong to some face and to no part
+  std::vector<std::uint32_t> vertices;  ///< vertices that belong to a polygon but to no part
   PointGrid grid;                       ///< grid of `vertices`
   double extent;                        ///< extent of the largest component
 };

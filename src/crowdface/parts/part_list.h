@@ -46,7 +46,7 @@ struct PartOverrides {
 /// Classifies the components of a mesh by their shapes and joins them into parts:
 ///
 /// - skin: the largest component, components longer than half of its extent, and vertices without
-/// faces;
+/// polygons;
 /// - bound: open strips and shells near the skin;
 /// - rigid: all other components. Round components as large as an eye are eyeballs; a component
 ///   whose centre is inside an eyeball belongs to this eyeball. Other components that nearly touch
@@ -62,7 +62,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
 /// sizes of the other skin components become 0.
 Components join_skin(const Components& components, const PartList& parts);
 
-/// Returns the vertices that belong to a face but to no part, ascending.
+/// Returns the vertices that belong to a polygon but to no part, ascending.
 std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& around);
 
 }  // namespace crowdface

@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// The skin around a rigid part or a point, whose motion the part or point follows.
+/// The skin around a rigid part or a named point. The part or point follows the motion of this
+/// skin.
 struct Socket {
   std::vector<std::uint32_t> vertices;  ///< ascending
   /// #vertices: area times a weight that decreases with distance

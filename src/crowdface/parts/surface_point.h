@@ -22,13 +22,13 @@ struct SurfacePoint {
 Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
                          const std::array<double, 3>& shares);
 
-/// Returns the point nearest to `point` on the faces around a vertex and around its neighbours.
+/// Returns the point nearest to `point` on the polygons around a vertex and around its neighbours.
 SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
                             const Positions& positions, std::uint32_t vertex,
                             const Eigen::Vector3d& point);
 
-/// Walks over the mesh from vertex `start` as long as a vertex of an adjacent face is nearer to the
-/// point. Returns the last vertex, which is a good start for nearest_from. This walk is cheaper
+/// Walks over the mesh from vertex `start` as long as a vertex of an adjacent polygon is nearer to
+/// the point. Returns the last vertex, which is a good start for nearest_from. This walk is cheaper
 /// than nearest_from.
 std::uint32_t descend(const Topology& topology, const VertexFaces& faces,
                       const Positions& positions, std::uint32_t start,

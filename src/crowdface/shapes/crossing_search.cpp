@@ -122,7 +122,8 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
   std::vector<std::uint32_t> place(numbered.size(), kNoIndex);
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(numbered, points.rows());
-  // #leaves: for each other leaf, bits of the pairs with triangles of the current leaf `one`
+  // #leaves: for each leaf, two bit masks of the pairs of its triangles with triangles of leaf
+  // `one`: pairs few edges apart, and pairs with a common vertex
   std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());
   for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
     const std::vector<std::uint32_t> others = scene.leaves_near(one);

@@ -290,7 +290,7 @@ bool LidClosure::keep_out(const Positions& face, const FaceEye& eye, const Rigid
     const double least = min_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    // The missing distance counts with the weight of this vertex's correction.
+    // The missing distance counts in proportion to `hold`, as the correction does.
     is_out = is_out && lid.hold * (least - now.gap) < tolerance;
     moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
   }

@@ -164,7 +164,7 @@ void CarriedShape::fit_lids() {
 /// Corrects the gaps between lips. Lips that the shape leaves closed stay closed. If the shape
 /// closes lips that its companion opens, all gaps change as on the template.
 void CarriedShape::keep_contacts() {
-  // Compute the wanted change of each gap: the weighted mean of the sets' changes.
+  // Compute the wanted change of each gap: the weighted mean of the changes in the sets of shapes.
   std::vector<double> widening(shape_.widening.front().size(), 0.0);
   for (std::size_t p = 0; p < widening.size(); ++p) {
     SetShares here = {{0, 1}};

@@ -20,15 +20,16 @@ namespace {
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
-// Distances from intersections, measured at rest. The average replaces displacements closer than
-// kEvened; displacements farther than kNotEvened do not change.
+// Distances from intersections, measured at rest. Skin closer than kEvened gets the average of the
+// displacements around it; skin farther than kNotEvened keeps its displacements.
 constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
 // factor on these lengths where skin is arranged as on the template
 constexpr double kSameLayoutFactor = 0.7;
-/// Fraction of the vertical change by averaging that lids receive, so that the eye stays closed.
+/// Averaging changes the vertical displacements of lids by only this fraction, so that the eye
+/// stays closed.
 constexpr double kClosing = 0.3;
 // kPush: length of the push in each round. kPushed: skin is pushed up to this distance from
 // intersections, measured at rest.
@@ -123,7 +124,7 @@ class SkinCrossings::Repair {
     }
   }
 
-  /// Keeps the current displacements if they are the best so far.
+  /// Returns whether the current displacements are the best so far. If so, stores them.
   bool is_best(const ExtraCost& extra_cost) {
     const double bad =
         static_cast<double>(crossing()) + (extra_cost ? extra_cost(shape_.moves) : 0);

@@ -20,7 +20,7 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. The wanted depth of a covered vertex
-// below the skin; the depth on the template if that is less
+// below the skin: this depth, or the depth on the template if the template's depth is less
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
 // largest distance of a vertex from its cover; farther vertices need no check
@@ -84,7 +84,8 @@ class FrontView {
     std::uint32_t triangle;
     double ahead;  ///< distance in front of the point
   };
-  /// Returns the foremost of all triangles in front of or behind a point.
+  /// Returns the foremost of the triangles that overlap a point, seen from the front. The triangle
+  /// may lie behind the point.
   std::optional<Hit> foremost(const Eigen::Vector3d& point) const {
     const auto cell = cells_.find(cell_of(seen(point)));
     if (cell == cells_.end()) return std::nullopt;

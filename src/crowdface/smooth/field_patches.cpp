@@ -205,7 +205,7 @@ struct OwnedPatches {
   MadePatches made;
 };
 
-/// Concatenates the list `list` of all parts, and clears it in each part.
+/// Concatenates the member `list` of all parts, and clears it in each part.
 template <class T>
 std::vector<T> join(std::vector<MadePatches>& parts, std::vector<T> MadePatches::*list) {
   std::size_t count = 0;

@@ -92,9 +92,9 @@ class FieldPatches {
   std::vector<Patch> patches_;
 };
 
-/// The vertices in an order for cutting patches, along a space-filling curve (hilbert_order). Runs
-/// of up to 32 vertices with consecutive numbers and small distances stay together, so that blended
-/// faces are written in longer contiguous pieces.
+/// All vertices in the order in which they are cut into patches: along a space-filling curve
+/// (hilbert_order). Runs of up to 32 vertices with consecutive numbers and small distances stay
+/// together, so that blended faces are written in longer contiguous pieces.
 /// \param positions  #V by 3, any head of the topology.
 /// \param max_distance  largest distance between consecutive vertices of a run, in the unit of the
 ///                   positions.

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// How smoothing treats vertices on an open boundary (an edge with one face).
+/// How smoothing treats vertices on an open boundary (an edge with one polygon).
 enum class Boundary {
   kFixed,  ///< boundary vertices do not move, so that rims keep their shape
   kFree,   ///< boundary vertices are averaged like all others

@@ -22,7 +22,8 @@ const Head& first_of(const std::vector<Head>& heads) {
 }
 
 /// A view of a back side counts only if the cosine between the direction to the viewer and the
-/// normal of the back side exceeds this; at smaller cosines little is visible.
+/// normal of the back side exceeds this value. At smaller cosines, little of the back side is
+/// visible.
 constexpr double kFlattestCosine = 0.2;
 
 /// Orients the skin's triangles so that their normals point outwards: flips all if the enclosed

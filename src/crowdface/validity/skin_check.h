@@ -22,8 +22,8 @@ struct ViewSetup {
 struct SkinDefects {
   LocalDefects local;      ///< defects of single triangles
   Index intersecting = 0;  ///< triangles in intersections that the target does not have
-  /// How much a gap at a contact of the skin (such as between the lips) exceeds the widest such
-  /// gap of any head. Not set by SkinCheck, but by callers that know the contacts.
+  /// How much a gap at a contact of the skin (such as between the lips) exceeds the widest gap of
+  /// any head at the same contact. Not set by SkinCheck, but by callers that know the contacts.
   double wider_mm = 0;
   double exposed_mm2 = 0;  ///< visible area of the skin's back side, in excess of the target's
 };
