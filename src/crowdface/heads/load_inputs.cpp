@@ -117,7 +117,7 @@ std::vector<Digest> hash_heads(const HeadSet& faces) {
 }
 
 /// Returns a message if some heads have a texture and other heads have none. Applies only if all
-/// textures are the same file: this texture is then not blended.
+/// textured heads name the same files: their texture is then not blended.
 std::optional<std::string> told_of_single(const HeadsTextures& textures, const HeadSet& faces) {
   std::vector<std::string> with, without;
   for (std::size_t h = 0; h < textures.heads.size(); ++h) {

@@ -29,7 +29,7 @@ bool is_topology(const Topology& topology) {
   return all_below(topology.corner_vertices, static_cast<std::uint64_t>(topology.vertex_count));
 }
 
-/// Names of materials or groups, and the first polygon that has each name.
+/// Names of material libraries, materials or groups, and the first polygon that has each name.
 struct KeptNames {
   std::vector<std::uint64_t> faces, sizes;
   std::vector<std::uint8_t> names;
