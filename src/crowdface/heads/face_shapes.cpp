@@ -37,8 +37,8 @@ double power(double base, std::uint64_t exponent) {
 
 /// The weights of the heads' shape sets in a region, with sum 1. Starts with the heads' weights in
 /// the target. Then subtracts, for each band, the heads' weights from level_shares times the
-/// fraction of the shape that smoothing up to the band's level removes. \param kept  result of
-/// kept_by_smoothing
+/// fraction of the shape that smoothing up to the band's level removes.
+/// \param kept  result of kept_by_smoothing
 SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);
   for (const SourceWeight& part : target_shares(recipe)) {

@@ -32,8 +32,8 @@ const std::vector<Density>& densities_of_srgb16() {
   return table;
 }
 
-/// Converts a row of integer texels to densities. \param steps  factor that scales a texel's integer
-/// to 16 bits
+/// Converts a row of integer texels to densities.
+/// \param steps  factor that scales a texel's integer to 16 bits
 template <class Number>
 void write_densities(const Image& image, const std::vector<Number>& numbers, std::size_t steps,
                      int y, const std::array<Density*, 3>& planes) {
