@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns the fraction of a band's weights that an age moves.
+/// Returns the fraction of a band's weights that moves to heads of the age class at this age.
 double share_of(double age, const SamplingOptions& sampling, std::size_t band) {
   return std::abs(age) * (sampling.bands.empty() ? 1 : sampling.bands[band].ageing);
 }
@@ -23,7 +23,7 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
          contains(one, "male") == contains(other, "male");
 }
 
-/// The old or the young heads, whose detail ages the other heads.
+/// The heads of one age class, old or young; faces that age get the detail of these heads.
 class AgedHeads {
  public:
   AgedHeads(double age, const HeadRelations& all, const SamplingOptions& sampling)
@@ -106,7 +106,7 @@ void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOpt
       const double share = share_of(*face.age, sampling, b);
       known = known && share <= 1 - kRounding;
       if (share == 0 || share > 1 - kRounding) continue;
-      // The weights outside the age class were scaled by 1 − share.
+      // apply_age multiplied the weights of heads outside the age class by 1 − share; undo this.
       std::vector<SourceWeight>& weights = band_of(region, b).weights;
       weights = aged.with_moved(weights, -share / (1 - share));
       std::erase_if(weights, [](const SourceWeight& s) { return s.weight < kRounding; });

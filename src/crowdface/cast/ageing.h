@@ -8,28 +8,28 @@
 
 namespace crowdface {
 
-/// Anchors and tags of all heads, by which the nearest head is found; see CastingOptions.
+/// Anchors and tags of all heads, from which apply_age finds the nearest head; see CastingOptions.
 struct HeadRelations {
   const std::vector<PlanePoint>& anchors;  ///< #heads
   const HeadTags& tags;                    ///< #heads, or empty
 };
 
 /// Ages a face: in every region, the fraction |age| of the weight of each head moves to the nearest
-/// head tagged old (age above 0) or young (below 0); weights of heads with this tag stay. The paper
-/// does the same when it transfers an older person's detail to a younger person (Fig. 2). The
-/// nearest head has the same sex, then the most tags in common, then the smallest distance on the
-/// plane: different people take the detail of different heads, so they remain different people. A
-/// band's `ageing` is a factor on the fraction. The weights no longer correspond to a position, so
-/// the positions are removed.
+/// head tagged old (age above 0) or young (below 0); heads with this tag keep their weight. The
+/// paper, too, transfers an older person's detail to a younger person (Fig. 2). The nearest head
+/// has the same sex, then the most tags in common, then the smallest distance on the plane:
+/// different people take the detail of different heads, so they remain different people. A band's
+/// `ageing` is a factor on the fraction. The weights no longer correspond to a position, so the
+/// positions are removed.
 ///
 /// \param sampling  parameters of the face's group, or of the crowd.
 /// \throws BrokenPrecondition if no head has the tag.
 void apply_age(FacePlan& face, double age, const HeadRelations& heads,
                const SamplingOptions& sampling);
 
-/// Undoes apply_age, so that children do not inherit the age of this face. If age −1 or 1 moved the
-/// whole weight of a band, the band cannot be restored; the band and the face's age then stay as
-/// they are.
+/// Undoes apply_age, so that children do not inherit the age of this face. If an age of −1 or 1
+/// moved all of a band's weight, the original weights are lost; the band and the face's age then
+/// stay as they are.
 void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling);
 
 /// Returns (1 − t)·a + t·b, head by head.

@@ -63,7 +63,7 @@ class Redrawing {
     const auto at = static_cast<std::size_t>(redraw.face);
     const FacePlan old = cast_.crowd[at];
     const FamilyPlan* family = family_of(cast_, redraw.face);
-    // Leave out the face's family: within a family, the family's own distances apply.
+    // Omit the faces of the same family: distances within a family have limits of their own.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
@@ -135,8 +135,8 @@ class Redrawing {
     return points;
   }
 
-  /// Returns distances between the new face and the rejected faces, largest first, that the redraw
-  /// tries in turn. A family or locked parts may make the largest distance impossible.
+  /// Returns the minimum distances from the rejected faces that the redraw tries in turn, largest
+  /// first. The largest may be impossible because of a family or locked parts.
   ///
   /// \param own  Points of the face's family.
   std::vector<double> distances_to_rejected(const FamilyPlan* family,
@@ -175,8 +175,8 @@ class Redrawing {
     return random_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
-  /// Copies the locked parts of the old face. They require the same target, mirroring and
-  /// asymmetry.
+  /// Copies the locked parts of the old face. Also copies the target, mirroring and asymmetry,
+  /// without which the parts would look different.
   FacePlan with_locked(FacePlan face, const FacePlan& old, const ReviewMark& mark) const {
     if (mark.locked.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {

@@ -12,8 +12,8 @@ namespace crowdface {
 /// are.
 ///
 /// - A redrawn face keeps the changes of earlier reviews.
-/// - If a change of an earlier review redrew a face (FaceChange::needs_redraw), a mark that rejects
-///   the face and locks parts acts as a change that locks these parts.
+/// - If an earlier review's change redrew a face (FaceChange::needs_redraw), a later rejection with
+///   locked parts is treated as a change that locks these parts.
 ///
 /// \param number  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.

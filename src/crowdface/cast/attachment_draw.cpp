@@ -41,10 +41,10 @@ bool says_colour(const std::string& tag, const std::string& colour) {
   return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
 }
 
-/// By name of each item: number of faces that wear it.
+/// Maps the name of each item to the number of faces that wear the item.
 using Turns = std::map<std::string, int>;
 
-/// Keeps the items that stay within their share if one more face wears them.
+/// Keeps the items that would not exceed their share if one more face wore them.
 void keep_due(const Turns& turns, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
@@ -78,7 +78,7 @@ struct ChosenAttachments {
   std::optional<HairColour> hair;
 };
 
-/// The quotas for items of one kind.
+/// The quotas for items of one kind, and the faces they apply to.
 struct KindQuotas {
   std::vector<std::string> words;
   std::vector<double> shares;
@@ -200,7 +200,8 @@ class AttachmentDrawing {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
 
-  /// Removes the items that the face's neighbours wear in a similar colour, unless no item is left.
+  /// Removes items that the faces before and after wear in a similar colour, unless this removes
+  /// all items.
   void avoid_neighbours(const FacePlan& face, Items& items) const {
     const auto neighbours = neighbours_.find(face.id);
     if (neighbours == neighbours_.end()) return;
@@ -219,9 +220,9 @@ class AttachmentDrawing {
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// Chooses at random one of the items that are due among similar faces. If several items are due,
-  /// considers only items that are also due among all sampled faces. Probabilities are proportional
-  /// to the items' shares.
+  /// Chooses at random one of the items that similar faces wear less often than the items' shares.
+  /// If there are several, prefers items that all sampled faces wear less often, too. Probabilities
+  /// are proportional to the items' shares.
   const AttachmentItem* next_of(const Items& items, const FacePlan& face, double drawn) const {
     Items next = items;
     if (const auto own = turns_.find(turn_set_of(face)); own != turns_.end())
@@ -260,8 +261,8 @@ class AttachmentDrawing {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Keeps the items whose colour matches the colour of the face's other items, or else the colour
-  /// of the family's items.
+  /// Keeps the items whose colour matches the colour of the face's other items, or otherwise the
+  /// colour of the family's items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -294,7 +295,7 @@ class AttachmentDrawing {
     }
   }
 
-  /// Returns the head whose tags a parent has; −1 if the parent is unknown.
+  /// Returns the head whose tags apply to a parent; −1 if the parent is unknown.
   Index head_of(const std::string& parent) const {
     const auto face = heads_.find(parent);
     if (face != heads_.end()) return face->second;
@@ -302,7 +303,7 @@ class AttachmentDrawing {
     return head == options_.heads.end() ? -1 : head - options_.heads.begin();
   }
 
-  /// Returns whether only old faces may wear items of this colour, such as grey.
+  /// Returns whether only old faces may wear items of this kind and colour, such as grey hair.
   bool is_of_age(const std::string& kind, const std::string& colour) const {
     for (std::size_t head = 0; head < options_.tags.size(); ++head) {
       if (contains(options_.tags[head], "old")) continue;
@@ -332,8 +333,8 @@ class AttachmentDrawing {
     return one && !items.empty() ? items[0]->colour : std::string();
   }
 
-  /// Returns the names of the remaining items, in their order, after each item in turn removed the
-  /// items it excludes.
+  /// Returns the names of the remaining items, in their order, after each item in turn has removed
+  /// the items that it excludes.
   std::vector<std::string> without_excluded(const Items& placed) const {
     std::vector<bool> left(options_.items.size(), false);
     for (const AttachmentItem* item : placed) {
@@ -363,7 +364,7 @@ class AttachmentDrawing {
   std::map<int, std::uint64_t> sizes_;   ///< number of sampled faces in each group
   std::map<std::string, Items> placed_;  ///< attachments of the faces so far, by the face's id
   std::map<std::string, Index> heads_;   ///< by the face's id: the head whose tags the face has
-  /// the family's colour, by family and kind
+  /// colour of a family's items, by (family, kind)
   std::map<std::pair<std::string, std::string>, std::string> family_colours_;
   /// the Turns of each set of similar faces, by the set's name
   std::map<std::string, Turns> turns_;
@@ -393,8 +394,7 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     if (found != before.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // Process the replacements in the order of the reviews, as soon as the crowd has the reviewed
-  // size.
+  // Process replacements in the order of the reviews, each after all faces that its review saw.
   std::map<std::string, std::size_t> times;
   std::size_t next = 0;
   const auto replace_up_to = [&](std::size_t size) {
@@ -405,8 +405,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
       dress(*redrawn[id], drawing.choose(*before[id][++times[id]]));
     }
   };
-  // Each face first gets attachments as it was before any review, so that a redrawn face changes
-  // no face of the reviewed crowd.
+  // First choose attachments for the original version of each face, so that a redraw does not
+  // change the choices for other faces of the reviewed crowd.
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (!rejected_from.empty()) replace_up_to(i);
     FacePlan& face = crowd[i];

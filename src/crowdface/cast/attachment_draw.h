@@ -25,8 +25,8 @@ struct AttachmentOptions {
   std::map<std::string, double> quotas = {};
   std::vector<std::string> heads = {};  ///< names of the heads, because parents may be heads
   /// By group: fractions of the faces with a named hair colour, before age makes it grey; "" is for
-  /// groups without an entry and faces without a group. Children have a colour of their parents,
-  /// all other faces a colour of their heads.
+  /// groups without an entry and faces without a group. Children inherit a colour of their parents;
+  /// all other faces without an entry have the colour of their head's tags.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
   std::set<std::string> twins = {};  ///< families whose members are twins
 };
@@ -38,9 +38,9 @@ struct AttachmentOptions {
 ///
 /// - Colours: if an earlier item of the face has a colour, later kinds use this colour where the
 /// face may wear it. Otherwise the colour comes from a parent or from the family. A child may wear
-/// a parent's colour even if the child's own tags name another colour. Only old children inherit
-/// colours that only the old wear (grey).
-/// - Quotas: each quota fixes in advance which of a group's sampled faces it applies to,
+/// a parent's colour even if the child's own tags name another colour. A child inherits a colour
+/// that requires the tag `old` (grey) only if the child itself is old.
+/// - Quotas: each quota determines in advance which of a group's sampled faces wear the item,
 ///   independently of all other choices. If such a face may not wear the item, its items are chosen
 ///   as if there were no quota.
 /// - Turns: among the sampled faces on one head, and among the members of one family, an item is
@@ -54,8 +54,8 @@ struct AttachmentOptions {
 ///   `hair_colours` or the colour that the head's tags name (`brown_hair`). Age makes hair grey.
 /// - A sampled face gets an item that the fewest earlier sampled faces wear. A member of a family
 /// gets an item that the fewest earlier members wear.
-/// - If a face may wear another item, it does not wear the item of the previous face in a similar
-/// colour.
+/// - If a face may wear several items, it does not wear the same item as the previous face in a
+/// similar colour.
 ///
 /// Finally, each item in turn removes the items that it excludes.
 ///

@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// Lowers the levels at which finer bands begin, so that no band begins at a higher level than the
-/// next coarser band. This can be necessary if the bands come from several recipes, or if a user
-/// wrote a coarser band by hand.
+/// Lowers the smoothing levels at which finer bands begin, so that no band begins at a higher level
+/// than the next coarser band. This can be necessary if the bands come from several recipes, or if
+/// a user wrote a coarser band by hand.
 void keep_order(RegionRecipe& region);
 
 /// Copies bands from one recipe to another. Then restores the order of levels by changing only

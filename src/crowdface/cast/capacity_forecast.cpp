@@ -6,11 +6,11 @@
 namespace crowdface {
 namespace {
 
-/// The product of C and the number of faces at which first fit ends. Measured values are 1.6 to
-/// 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
+/// C (see CapacityForecast) times the number of faces at which first fit ends. Measured values are
+/// 1.6 to 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kMinPlaced = 256;
-/// smallest number of near candidates in the earlier of the last two complete stretches
+/// required number of too-near candidates in the earlier of the last two complete stretches
 constexpr std::uint64_t kMinTooNear = 100;
 
 }  // namespace

@@ -63,7 +63,8 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
   }
 }
 
-/// Casts sampled faces `from` … `to`, which may have several smallest distances.
+/// Casts sampled faces `from` … `to`, whose minimum distances may differ
+/// (min_distance_of_first_mm).
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
                     std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
@@ -80,7 +81,7 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
 }
 
 /// Completes a hand-written recipe with random values, until the face meets the recipe's limits on
-/// measurements. \return  nothing if no attempt does.
+/// measurements. \return  Nothing if no attempt meets them.
 std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const ManualRecipe& hand,
                                            const FaceJudge& judge) {
   const auto attempts =

@@ -9,9 +9,9 @@ namespace crowdface {
 
 /// Casts a crowd: hand-written recipes in their order, then families, then sampled faces; each face
 /// is judged before it joins the crowd. Applies the reviews in their order, each review as soon as
-/// the reviewed faces are cast; with `mode: spread`, after all faces. Each face records its nearest
-/// head and the nearest earlier face. The number of attempts is bounded. If constraints cannot be
-/// met, the result has a shortfall; no exception is thrown.
+/// the reviewed faces are cast; with `mode: spread`, all reviews after the last face. Each face
+/// records its nearest head and the nearest earlier face. The number of attempts is bounded. If
+/// constraints cannot be met, the result has a shortfall; no exception is thrown.
 ///
 /// \param joined  Called after each sampled face.
 /// \throws InvalidInput if a family or a review names a face that does not exist.

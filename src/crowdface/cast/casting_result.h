@@ -34,12 +34,13 @@ struct ChangedFace;
 struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< who asks for the change, such as "review 2"
-  /// The other face with its changes, as it was before this change; null if there is none.
+  /// If the change makes a variant: the face that it is a variant of, before this change; otherwise
+  /// null.
   std::shared_ptr<const ChangedFace> variant_of;
   double min_distance_mm = 0;  ///< smallest distance of the changed face from the faces before it
 };
 
-/// A face with the changes that the config and reviews ask for.
+/// A face after the changes that the config and reviews request.
 struct ChangedFace {
   FacePlan face;  ///< without colours and attachments
   FaceSpace::Point point;
@@ -56,10 +57,10 @@ struct CastingResult {
   std::vector<int> kinds;                ///< group of each sampled face, or −1
   std::vector<FamilyPlan> families;
   std::vector<FacePlan> rejected;  ///< faces that reviews rejected, in order; ids as in `crowd`
-  /// #rejected: size of the crowd when the face was rejected; later faces joined afterwards
+  /// #rejected: size of the crowd when the face was rejected
   std::vector<std::size_t> rejected_from;
-  /// By index in `crowd`, which contains the face without its changes. The other faces do not
-  /// depend on the changes.
+  /// Changed faces, by index in `crowd`; `crowd` itself holds the faces without changes. No other
+  /// face depends on a change.
   std::map<std::size_t, ChangedFace> changed = {};
   Rejections rejections;
   std::optional<Shortfall> shortfall;

@@ -26,7 +26,7 @@ class ColourDrawing {
     }
   }
 
-  /// Returns whether the colours of one head suit the shape of the other.
+  /// Returns whether two heads agree in the tags of ColourOptions::alike.
   bool alike(Index a, Index b) const {
     return counted_.empty() ||
            counted_[static_cast<std::size_t>(a)] == counted_[static_cast<std::size_t>(b)];

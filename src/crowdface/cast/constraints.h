@@ -43,7 +43,7 @@ struct Constraint {
   double BelievabilityOptions::*believability = nullptr;
   /// unit of the limit, after a space
   std::string_view unit = {};
-  /// what is wrong with a face that violates the constraint; the key follows
+  /// text about a face that violates the constraint; messages put the limit after it
   std::string_view broken = {};
   /// What users can change if too few faces meet the constraint; most promising first.
   std::span<const std::string_view> advice;

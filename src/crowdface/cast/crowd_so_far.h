@@ -22,9 +22,9 @@ class CrowdSoFar {
   Index size() const { return index_.size(); }
   /// Marks the beginning of the sampled faces: all faces added later are sampled.
   void begin_sampled() { first_sampled_ = size(); }
-  /// Index of the first sampled face. Only the distance from sampled faces decides which candidate
-  /// wins, so that an additional recipe or family does not change the winner. (All faces must still
-  /// be far enough from all other faces.)
+  /// Index of the first sampled face. Only distances to sampled faces decide which candidate is
+  /// chosen, so an additional recipe or family does not change the choice. (Every candidate must
+  /// keep the minimum distance from all faces.)
   Index first_sampled() const { return first_sampled_; }
   const std::vector<FacePlan>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }

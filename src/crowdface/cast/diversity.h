@@ -28,8 +28,8 @@ struct DiversityOptions {
   int max_attempts = 1000;  ///< number of candidates for one face before casting gives up
   /// Below this distance, a face passes for a head.
   static constexpr double kSamePersonMm = 0.5;
-  /// Number of candidates for one face that are rejected if they pass for a head. Later candidates
-  /// are not, because some configs only give faces near heads.
+  /// The first so many candidates for a face are rejected if they pass for a head. Later candidates
+  /// are not, because some configs yield only faces near heads.
   static constexpr std::uint32_t kCandidatesUnlikeHeads = 100;
   /// kSpread: size of the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPool = 10;
@@ -63,8 +63,7 @@ struct BelievabilityOptions {
     kAuto,  ///< up to 200,000 polygons
     kAll,
     kNone,
-    /// casting builds and judges each candidate's mesh before it accepts the candidate; reported,
-    /// too
+    /// casting accepts a candidate only after judging its mesh; the report lists the results, too
     kJudge,
   };
   Meshes meshes = Meshes::kAuto;
@@ -76,7 +75,7 @@ struct BelievabilityOptions {
   double max_flipped = 0.003;
   /// fraction of triangles that intersect others where the target's triangles do not
   double max_intersecting = 0.01;
-  /// how much farther apart the lips may be than in any head, see SkinContacts
+  /// limit for the gap between the lips minus the largest gap of any head, see SkinContacts
   double max_gap_mm = 0.5;
   /// Area of skin that may show its back side, in excess of the target's; see skin_check.h.
   double max_exposed_mm2 = 3;

@@ -23,7 +23,8 @@ constexpr std::uint32_t kLanesOfPosition = 64;
 constexpr std::uint32_t kPositionRetries = 20;
 constexpr double kFartherEachTime = 0.1;
 
-/// Random numbers of one face. They depend only on the face's key and on their purpose.
+/// Random numbers of one face. Each depends only on the face's key and on the purpose of the
+/// number.
 class FaceRandom {
  public:
   FaceRandom(std::uint64_t seed, const FaceRandomKey& key) : seed_(seed), key_(key) {}

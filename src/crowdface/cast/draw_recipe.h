@@ -49,8 +49,8 @@ struct FaceKind {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
-  /// For each band, the heads that lend detail in place of the sources in `sampling`, which are
-  /// used if this list, or the entry of a band, is empty.
+  /// For each band, the heads that lend detail. If the list or a band's entry is empty, the sources
+  /// in `sampling` apply.
   std::vector<std::vector<Index>> sources = {};
 };
 /// Returns the heads that lend detail to a band of a face of this kind.

@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 constexpr int kCountHalvings = 7;
-/// Smallest ratio of the pool's size to a set's size.
+/// Minimum ratio of the pool's size to the crowd's size.
 constexpr std::uint64_t kPoolPerFace = 5;
 
 /// Returns how many candidates of a pool, in its order, first fit keeps at this distance. Stops
@@ -31,7 +31,7 @@ std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_
 std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
-  // Each group would need a pass of its own; the estimate ignores groups.
+  // The estimate ignores groups, because each group would need a separate pass.
   CastingOptions free = casting;
   free.groups.clear();
   const CandidatePool pool = sample_pool(free, judge, face_kinds(free), pool_size);

@@ -8,15 +8,16 @@
 
 namespace crowdface {
 
-/// The part of the head that enters the distance between two faces.
+/// The part of the head over which the distance between two faces is measured.
 enum class FaceArea {
   kFront,  ///< the skin in front of the head's middle
   kSkin,   ///< the whole skin, including the back of the head and the neck
 };
 
-/// Returns the weight of each vertex in a face distance, #V: the surface around the vertex on the
-/// mean head (each polygon's surface divided equally among its corners), zero outside the area. The
-/// skin is the largest component, so eyeballs, teeth and lashes have weight zero.
+/// Returns the weight of each vertex in a face distance, #V: the surface area around the vertex on
+/// the mean head (each polygon's area divided equally among its corners), zero outside the chosen
+/// part of the head. The skin is the largest component, so eyeballs, teeth and lashes have weight
+/// zero.
 ///
 /// \param mask  #V, multiplied with the weights; or empty.
 std::vector<double> face_areas(const Topology& topology, const Components& components,

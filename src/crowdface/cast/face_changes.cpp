@@ -56,7 +56,8 @@ std::vector<std::string> changed_keys(const AppliedChange& applied) {
   return names;
 }
 
-/// Returns the smallest share, to within a step, at which a condition holds. \pre it holds at 1.
+/// Returns the smallest fraction (to the accuracy of the bisection) at which a condition holds.
+/// \pre it holds at 1.
 template <class Holds>
 double least_share(const Holds& holds) {
   constexpr int kSteps = 10;  // finds the share to within 0.1 %
@@ -67,7 +68,7 @@ double least_share(const Holds& holds) {
   return share;
 }
 
-/// Whether a change that redraws a face only sets limits on measurements.
+/// Whether a change requires a redraw only because of limits on measurements.
 bool limits_only(const FaceChange& change) {
   return !change.group && change.locked.empty();
 }
@@ -260,11 +261,11 @@ class Changing {
   double min_distance_mm_ = 0;  ///< smallest distance for the current change
 };
 
-/// \param first  whether the changes come before the known changes of the faces.
+/// \param first  whether the changes precede the changes that the faces already have.
 void apply(const CastingOptions& casting, const FaceJudge& judge,
            const std::vector<FaceChange>& changes, const std::string& by, bool first,
            CastingResult& cast) {
-  // The other face of a variant is the face without these changes.
+  // A variant is compared with the face without these changes.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
     const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;

@@ -35,7 +35,7 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
   for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
   std::vector<FaceSpace::Point> heads;
   for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h));
-  // Heads may be alike or small, too.
+  // A smaller limit applies if the heads resemble each other or are small.
   constexpr double kShareOfMedian = 0.1;
   same_person_mm_ = std::min(DiversityOptions::kSamePersonMm,
                              kShareOfMedian * quartiles(pair_distances(heads)).median);

@@ -23,7 +23,7 @@ using MeshDefects = std::function<SkinDefects(const Recipe&)>;
 /// Judges single candidates, independently of the crowd.
 class FaceJudge {
  public:
-  /// \param skin    Coarse skin for close checks. Null: shapes are not checked.
+  /// \param skin    Coarse mesh on which flips and intersections are checked. Null: no such check.
   /// \param meshes  If given, also checks whole meshes of candidates that pass the coarse check.
   FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
             const BelievabilityOptions& believability, const ProxySkin* skin = nullptr,
@@ -32,7 +32,7 @@ class FaceJudge {
   /// Sets limits on measurements. \param rules  must outlive this object; null: no limits
   void limit_traits(const TraitRules* rules) { traits_ = rules; }
   const TraitRules* traits() const { return traits_; }
-  /// Checks the limits on measurements with the landmarks of the whole mesh.
+  /// Checks the limits on measurements; takes the landmarks from the whole mesh.
   std::optional<Reason> check_traits(const FacePlan& face) const;
 
   /// Checks in microseconds everything that follows from a recipe and its point: weights, distance

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Measures faces from their recipes without building meshes: a landmark's position depends on a
-/// few vertices only, whose positions follow from the heads' levels there.
+/// Measures faces from their recipes without building meshes: a landmark depends on a few vertices
+/// only, and their positions are computed from the heads' smoothing levels at these vertices.
 class FaceMeasurer {
  public:
   /// A landmark as a weighted mean of samples; all weights are zero if no measurement needs it.

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// The nearest neighbours of a face; for information only.
+/// The nearest head and the nearest other face of a face; for information only.
 struct Nearest {
   Index head = 0;  ///< the nearest input head
   double head_mm = 0;
@@ -19,7 +19,7 @@ struct Nearest {
   double crowd_mm = 0;
 };
 
-/// How a face was found. Meshes do not depend on it.
+/// How casting found a face. Meshes do not depend on these notes.
 struct CastingNotes {
   std::uint32_t attempt = 0;  ///< number of rejected candidates before this face
   std::optional<Nearest> nearest;
