@@ -24,9 +24,9 @@ struct AttachmentOptions {
   /// item. A kind has either a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
   std::vector<std::string> heads = {};  ///< names of the heads, because parents may be heads
-  /// By group: fractions of the faces with a named hair colour, before age makes it grey; "" is for
-  /// groups without an entry and faces without a group. Children inherit a colour of their parents;
-  /// all other faces without an entry have the colour of their head's tags.
+  /// By group: fraction of the faces with each named hair colour, before age makes hair grey; the
+  /// key "" is for groups without an entry and faces without a group. Children inherit their
+  /// parents' colours; other faces without an entry have the colour of their head's tags.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
   std::set<std::string> twins = {};  ///< families whose members are twins
 };

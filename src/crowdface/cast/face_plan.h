@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// The nearest head and the nearest other face of a face; for information only.
+/// The nearest head and the nearest earlier face of a face; for information only.
 struct Nearest {
   Index head = 0;  ///< the nearest input head
   double head_mm = 0;

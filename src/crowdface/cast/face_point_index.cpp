@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// number of points up to which a search of a list is as fast as a search of a tree
+/// up to this number of points, a linear search is as fast as a search of a tree
 constexpr Index kNewest = 2048;
 constexpr std::uint32_t kLeafSize = 2 * PointBlocks::kLanes;
 

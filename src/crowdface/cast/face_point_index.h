@@ -28,9 +28,9 @@ class PointTree {
     LeadingBox box;
     Index min_number, max_number;  ///< of the node's points
   };
-  /// Visits the blocks of leaves. Of two child nodes, visits the node nearer to the query first.
+  /// Visits the blocks of leaves. Visits the child node nearer to the query first.
   ///
-  /// \param wanted  (squared distance, bounds) → whether to visit the node.
+  /// \param wanted  wanted(squared distance to the query, bounds): whether to visit a node.
   /// \param use     Called with the number of each block.
   template <class Wanted, class Use>
   void visit(const std::vector<float>& query, const Wanted& wanted, const Use& use,

@@ -17,8 +17,8 @@ FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const Diversit
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
       usual_attempt_(last_attempt_) {}
 
-/// Returns whether a candidate is far enough from all faces. Computes its distance to the nearest
-/// face only as exactly as necessary to find the farthest candidate.
+/// Returns whether a candidate is far enough from all faces. If the candidate cannot be the
+/// farthest one, stores only an upper bound of its distance to the crowd.
 bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.index().nearest(candidate.point, least).face >= 0) return false;
@@ -36,14 +36,15 @@ bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crow
 }
 
 /// Returns whether to generate another candidate. Limits on measurements may need many more
-/// attempts than all other constraints: beyond the usual number, one candidate is enough.
+/// attempts than all other constraints: after the usual number of attempts, one candidate is
+/// enough.
 bool FaceSearch::needs_candidates() const {
   if (candidates_.size() >= wanted_ || next_attempt_ >= last_attempt_) return false;
   return candidates_.empty() || next_attempt_ < usual_attempt_;
 }
 
-/// Measures a candidate, if there are rules for measurements, and checks its limits. A candidate
-/// that fails here does not use up one of the usual attempts, up to a multiple of their number.
+/// Measures a candidate if measurements are limited, and checks the limits. Candidates that fail
+/// here do not count as usual attempts, up to a multiple of the usual number.
 bool FaceSearch::meets_limits(Candidate& candidate) {
   const TraitRules* rules = judge_.traits();
   if (rules == nullptr) return true;

@@ -19,7 +19,8 @@ class FaceSearch {
  public:
   /// Generates candidate number `attempt`. Must be a pure function.
   using Generate = std::function<FacePlan(std::uint32_t attempt)>;
-  /// An additional check of a candidate's point: returns the reason for a rejection, or nothing.
+  /// An additional check of a candidate's point: returns why the point is rejected; nothing if it
+  /// is accepted.
   using Refuses = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
   /// How undesirable a candidate is, from its landmarks; see FaceMeasurer.

@@ -13,11 +13,11 @@
 namespace crowdface {
 namespace {
 
-/// Largest part of a field that the basis may miss: rms over the face in millimetres.
+/// Largest residual of a displacement field outside the span of the basis: rms over the face in mm.
 constexpr double kFieldTolerance = 0.004;
 constexpr Index kMaxFunctions = 400;  ///< largest number for each side
-/// Largest part of a training face that the principal directions may miss, in millimetres. The
-/// length of the missed part is an additional coordinate.
+/// Largest residual of a training face outside the span of the principal directions, in
+/// millimetres. The residual's length is an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
 constexpr Index kMaxDirections = 192;  ///< largest number for each side
 constexpr std::uint64_t kTrainingFaces = 1024;
@@ -89,8 +89,8 @@ void FaceSpace::choose_weighted_samples(const std::vector<double>& weights) {
   }
 }
 
-/// Finds a few modes that span the levels of all heads together; only for these modes, fields are
-/// computed. Each row is a level; the columns are heads, coordinates and samples, scaled by the
+/// Finds a few modes that span the levels of all heads together. Fields are computed for these
+/// modes only. Each row is a level; the columns are heads, coordinates and samples, scaled by the
 /// samples' √w.
 SpanBasis FaceSpace::level_modes() const {
   const Index heads = head_point_count(), size = weight_roots_.size();
@@ -128,7 +128,7 @@ void FaceSpace::put_function(const Value& value, float* row) const {
 /// Returns the functions whose sums are the faces; three rows (x, y, z) for each.
 ///
 /// \param peaks  #modes: largest coefficient of each mode at any level. Modes have unit length, so
-///               their rows are scaled by this.
+///               each mode's rows are multiplied by its peak.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
   const Index size = weight_roots_.size(), regions = heads_.alpha.cols();
@@ -221,7 +221,7 @@ FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapo
          static_cast<float>(w) * shape_in_side(recipe, extrapolation, 1);
 }
 
-/// Returns the face before it is mirrored (side 0), or its whole mirror image (side 1).
+/// Returns the unmirrored face (side 0) or its mirror image (side 1).
 FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Extrapolation extrapolation,
                                           Index side) const {
   const Index first = side * head_count();
@@ -290,7 +290,7 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
   // Distance of the face from the span of the directions. For two faces, the difference of these
-  // distances is at most the distance between the missed parts.
+  // distances is at most the distance between the two residuals.
   const double rest =
       fixed_dot(at.data(), at.data(), at.size()) - fixed_dot(result.data(), result.data(), size);
   result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));

@@ -24,8 +24,8 @@ struct FaceSpaceTables {
 /// over the face in millimetres.
 class FaceSpace {
  public:
-  /// The point of a face. Extrapolation alone does not make another person, so each face has two
-  /// variants: as built, and with all extrapolation factors 1.
+  /// The point of a face. A face that differs from another only in extrapolation is the same
+  /// person, so each face has two variants: as built, and with all extrapolation factors 1.
   struct Point {
     Eigen::VectorXf as_built;  ///< #dimensions
     Eigen::VectorXf unit;      ///< #dimensions; with all extrapolation factors 1
@@ -55,8 +55,8 @@ class FaceSpace {
   Index head_point_count() const { return sides() * head_count(); }
   const SampledHeads& sampled() const { return heads_; }
 
-  /// Returns the root mean square distance over the face in mm: the smaller of the distances of
-  /// both variants.
+  /// Returns the root mean square distance over the face in mm: the smaller of the distance as
+  /// built and the distance with all extrapolation factors 1.
   static double distance(const Point& a, const Point& b);
   /// A point, and its products with the metric of one region.
   struct RegionPoint {
@@ -64,7 +64,7 @@ class FaceSpace {
     Eigen::VectorXf as_built, unit;  ///< metric times point
   };
   RegionPoint in_region(const Point& point, Index region) const;
-  /// Returns the distance over one region, with the faces aligned as wholes.
+  /// Returns the distance over one region, after the whole faces are aligned.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
 
   /// Returns the region's fraction of the face's area; 1 if it is the only region.

@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kFounders = 12;  ///< founders tried before giving up
-/// couples of new parents tried in addition to the founders
+/// number of couples of new parents that are tried, in addition to the attempts at founders
 constexpr std::uint32_t kCouples = 200;
 constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each founder
 constexpr int kFounderCandidates = 24;
@@ -68,7 +68,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     throw_if_interrupted();
     if (drawn && !sampler.sample_parents(crowd, family_separation, f, rejections))
       return std::nullopt;
-    // Find a founder. Parents that were sampled for the family must also be similar to it.
+    // Find a founder. New parents must also resemble this founder.
     FaceSearch founder([&](std::uint32_t attempt) { return sampler.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
                        f * attempts_each);

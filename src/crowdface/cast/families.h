@@ -10,7 +10,8 @@ namespace crowdface {
 
 /// Casts a family and adds its new parents and then its members to the crowd. If not all members
 /// can be placed around a founder, tries another founder, a bounded number of times. New parents
-/// are such that at most one stranger in ten is nearer to a child than each parent is.
+/// are chosen so that, for each parent and child, at most one stranger in ten is nearer to the
+/// child than the parent is.
 ///
 /// \return  Nothing if the family cannot be cast; `rejections` then holds the reasons.
 std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,

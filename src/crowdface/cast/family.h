@@ -17,8 +17,8 @@ struct Parent {
   bool is_new = false;  ///< the parent does not exist yet: casting makes a face with this id
   std::optional<std::size_t> group =
       {};  ///< new parent: group whose parameters are used; empty: the crowd's parameters
-  /// Possible targets of a new parent with the crowd's parameters: the heads tagged female or male.
-  /// Empty: all targets of the crowd.
+  /// Possible targets of a new parent outside all groups: the heads tagged female or male. Empty:
+  /// all targets of the crowd.
   std::vector<Eigen::Index> targets = {};
 };
 

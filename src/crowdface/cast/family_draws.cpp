@@ -21,8 +21,8 @@ constexpr double kNearestShare = 0.4;  ///< smallest step of a member, as a frac
 /// weight of a parent's detail in the random face that a member is mixed with
 constexpr double kParentShare = 0.75;
 /// Coarse shape of the random face that a member is mixed with: kLargeFormsShare is the weight of
-/// one parent, kForeignShare the weight of a third contributor; the other parent has the rest.
-/// Without the third contributor, children of one couple would hardly differ.
+/// one parent, kForeignShare the weight of a third contributor; the other parent has the remaining
+/// weight. Without the third contributor, children of one couple would hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
@@ -31,8 +31,8 @@ constexpr double kTwinsReach = 0.5;  // largest distance of a twin from the hidd
 /// A child resembles a parent if at most this fraction of strangers is nearer to the child than the
 /// parent is.
 constexpr double kStrangersNearer = 0.1;
-/// if the parents are far apart: how much farther from a parent than the founder a child may be, as
-/// a fraction of max_distance
+/// if the parents are far apart: how much larger a child's distance from a parent may be than the
+/// founder's, as a fraction of max_distance
 constexpr double kRoomAtHalf = 0.25;
 
 /// Returns the parameters of a new parent. If the crowd has no target of the parent's sex, all
@@ -118,7 +118,7 @@ void FamilySampler::prepare_inheritance() {
     for (const SourceWeight& share : target_shares(parent.face.recipe)) taken.push_back(share.head);
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
-  // With a single target, children would inherit nothing of their parents' coarse shapes.
+  // Replace targets only if the group has several: with one, all children would have its shape.
   target_substitutes_ = targets.size() > 1
                             ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
                             : SubstituteHeads();
@@ -325,7 +325,7 @@ FamilySampler::Draft FamilySampler::draft(const FamilyPlan& cast, int member,
   const std::string purpose = concat(key.who, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
-  // distance from the founder, as a fraction of the largest distance
+  // the fraction how_far sets the distance from the founder
   draft.reach_mm = kNearestShare + (1 - kNearestShare) * how_far;
   draft.reach_mm *= reach_mm(cast);
   if (cast.alike_to_founder) {
@@ -378,15 +378,15 @@ std::optional<Reason> FamilySampler::refuses(const FamilyPlan& cast, const FaceS
     const double mm = FaceSpace::distance(point, relative);
     if (mm < family_.min_distance_mm) return Reason::kFamily;
     farthest = std::max(farthest, mm);
-    // The other member must also stay nearer to this member than to any stranger.
+    // Each earlier member, too, must be nearer to this point than to any stranger.
     if (strangers_.nearest(relative).mm <= mm) return Reason::kFamily;
   }
   if (strangers_.nearest(point).mm <= farthest) return Reason::kFamily;
   return std::nullopt;
 }
 
-/// If the parents are far apart, no child is near both parents. Then the child needs to be only
-/// about as near to each parent as the founder is.
+/// If the parents are far apart, no child is near both parents. Then a child may be about as far
+/// from each parent as the founder is.
 bool FamilySampler::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
   if (strangers_nearer(point) <= kStrangersNearer) return true;
   if (strangers_nearer(cast.founder_point) <= kStrangersNearerToHalf) return false;

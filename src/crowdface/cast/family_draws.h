@@ -24,8 +24,9 @@ struct FamilyPlan {
   double strangers_nearer = 0;  ///< largest fraction of strangers nearer to a child than its parent
 };
 
-/// Limit for the fraction of strangers that are nearer than a parent to the mean of both parents.
-/// It is smaller than the corresponding limit for children, so that children have room to differ.
+/// Largest fraction of strangers that may be nearer to the mean of both parents than a parent is.
+/// It is smaller than the corresponding limit for children, so that children can differ from that
+/// mean.
 inline constexpr double kStrangersNearerToHalf = 0.06;
 
 /// Makes random faces of one family. Each member lies between the founder and a random face, at a

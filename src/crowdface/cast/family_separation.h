@@ -18,8 +18,8 @@ namespace crowdface {
 /// that share a parent.
 class FamilySeparation {
  public:
-  /// Returns whether some member of a family is as near to the face as to the farthest member of
-  /// its own family.
+  /// Returns whether some member of a family is at least as near to the point as to the farthest
+  /// member of its own family.
   ///
   /// \param relatives  Families that are not checked.
   bool intrudes(const FaceSpace::Point& point,

@@ -23,9 +23,9 @@ double whole_hundredths(double mm) {
 /// others.
 constexpr int kMaxMeshTrials = 4;
 
-/// Returns a distance to try after distance `fails`, at which only `reached` of the faces fit. The
-/// number of faces that fit is proportional to a power of the distance; the exponent is between
-/// −2.5 and −5.
+/// Returns a smaller distance to try, because at distance `fails` only `reached` of `count` faces
+/// fit. The number of faces that fit is proportional to a power of the distance; the exponent is
+/// between −2.5 and −5.
 double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
   const double share = (static_cast<double>(reached) + 0.5) / (static_cast<double>(count) + 1);
   return fails * std::clamp(std::pow(share, 0.4), 0.6, 0.93);

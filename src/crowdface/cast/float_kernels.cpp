@@ -46,7 +46,7 @@ struct ChunkSums {
 template <class Numbers>
 double sum_of(const Numbers& numbers, std::size_t count) {
   double total = 0;
-  // Two chunks at a time, so that an addition need not wait for the previous addition.
+  // Process two chunks at a time: their additions are independent, so the processor overlaps them.
   for (std::size_t begin = 0; begin < count; begin += 2 * kChunk) {
     const std::size_t middle = begin + kChunk < count ? begin + kChunk : count;
     const std::size_t end = middle + kChunk < count ? middle + kChunk : count;
@@ -76,7 +76,7 @@ double fixed_dot(const float* a, const float* b, std::size_t count) {
   return sum_of(Products{a, b}, count);
 }
 
-/// Adds scaled numbers to other numbers, and yields the squares of the sums.
+/// Adds scaled numbers to other numbers, stores the sums, and yields the squares of these sums.
 struct SquaresAfter {
   float factor;
   const float* from;

@@ -8,8 +8,8 @@ namespace crowdface {
 // Vectorised kernels. Each product is rounded before it is added, so the results are bit-identical
 // to the results of plain loops on every instruction set.
 
-/// Returns Σ a_i b_i: sixteen sums in single precision within a chunk of 1024 numbers, added in
-/// double precision.
+/// Returns Σ a_i b_i. Each chunk of 1024 numbers has sixteen sums in single precision; all sums are
+/// added in double precision.
 double fixed_dot(const float* a, const float* b, std::size_t count);
 
 /// Computes to[i] += factor·from[i].

@@ -28,8 +28,8 @@ std::span<const NamedHairColour> named_hair_colours();
 /// Returns the hair colour with this name; nothing if the name is unknown.
 std::optional<HairColour> hair_colour_named(std::string_view name);
 
-/// Which hair of a person an attachment with a neutral texture represents. On each face, the
-/// attachment takes the colour of this hair.
+/// The kind of hair that an attachment with a neutral texture represents. On each face, the
+/// attachment gets the colour of the person's hair of this kind.
 enum class Tint { kNone, kHair, kBrows, kBeard, kLashes };
 
 /// Returns the rounded colour of a person's brows, beard or lashes: brows are darker than the scalp
@@ -50,12 +50,13 @@ std::string label_of(const HairColour& colour);
 /// Parses a label that label_of returns.
 std::optional<HairColour> parse_hair_label(std::string_view label);
 
-/// Mean light (linear RGB) of neutral textures; sRGB 170.
+/// Mean value of neutral textures, linear RGB; 170 in 8-bit sRGB.
 inline constexpr float kNeutralLight = 0.4F;
-/// Mean light of hair of this colour, linear RGB: the light that the pigments do not absorb
-/// (Beer-Lambert law), plus a constant fraction that the surface of the hair reflects.
+/// Mean reflected light of hair of this colour, linear RGB: the light that the pigments do not
+/// absorb (Beer-Lambert law), plus a constant fraction that the surface of the hair reflects.
 std::array<float, 3> light_of(const HairColour& colour);
-/// Factors on the light of a neutral texture, at most 1, that give the texture this colour.
+/// Factors on the linear RGB values of a neutral texture, at most 1, that give the texture this
+/// colour.
 std::array<float, 3> tint_factors(const HairColour& colour);
 
 }  // namespace crowdface

@@ -53,7 +53,7 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   if (!colour) colour = scheduled_colour(face);
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
   if (face.family && face.parents.empty()) family_colours_.try_emplace(*face.family, *colour);
-  // Scatter the colours a little, so that not all brown hair is the same brown.
+  // Vary the colours slightly at random, so that not all brown hair has the same brown.
   const std::string purpose = key("hair/scatter");
   const auto scatter = random_pair({options_.seed, is_twin ? 0 : face.index.value_or(0), purpose});
   constexpr double kScatter = 0.1;
@@ -71,8 +71,8 @@ std::string HairChooser::entry_of(const FacePlan& face) const {
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Among the faces in `places_`, the
-/// fractions are exact.
+/// Returns the colour that `hair_colours` gives the face. Over all faces in `places_`, the numbers
+/// of faces match the fractions.
 std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
   const std::string entry = entry_of(face);
   const auto shares = options_.hair_colours.find(entry);
@@ -148,12 +148,12 @@ double HairChooser::grey_of(const FacePlan& face, Index head, const std::string&
                          : contains(tags, "adult") ? 0.45
                          : contains(tags, "young") ? 0.15
                                                    : 0.3;
-  // Age moves a face from its heads' age class towards the old or young heads. Half of this way
-  // must be visible, although half of the old heads' detail looks less than half as old.
+  // Age moves the face's apparent age from the age of its head towards old or young. The square
+  // root makes grey hair visible at age 0.5 already.
   const double age = face.age.value_or(0);
   const double way = std::sqrt(std::min(1.0, std::abs(age)));
   const double aged = of_head + way * ((age < 0 ? 0.15 : std::max(0.9, of_head)) - of_head);
-  // Hair turns grey from a random age on, but not in young years.
+  // Each person's hair begins to turn grey at a random age, but never while young.
   const double begin = random_unit({options_.seed, face.index.value_or(0), purpose}) - 0.5;
   return smooth_step(0.5, 1.0, aged + 0.35 * begin);
 }

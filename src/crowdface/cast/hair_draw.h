@@ -28,8 +28,8 @@ struct HairOptions {
 /// of a face does not depend on later faces.
 class HairChooser {
  public:
-  /// \param crowd  all faces, in the order of the plan. Faces that do not have the colour of a
-  ///               parent or of their family share the fractions of `hair_colours`.
+  /// \param crowd  all faces, in the order of the plan. The fractions of `hair_colours` count only
+  ///               faces that do not inherit a parent's or the family's colour.
   HairChooser(HairOptions options, const std::vector<FacePlan>& crowd);
 
   /// \param head  the head whose tags the face has.

@@ -20,8 +20,8 @@ constexpr std::size_t kBlock = 64;
 class LikenessTree {
  public:
   /// \param points  Must outlive this object.
-  /// \param gone    #points: whether queries ignore a face. Entries may become true later. Must
-  ///                outlive this object.
+  /// \param gone    #points: whether queries ignore a face. The caller may set entries to true
+  ///                later. Must outlive this object.
   LikenessTree(const std::vector<FaceSpace::Point>& points, const std::vector<bool>& gone)
       : points_(points), gone_(gone) {
     add_variant(&FaceSpace::Point::as_built);

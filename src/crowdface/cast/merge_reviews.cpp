@@ -70,7 +70,7 @@ class Merging {
     }
   }
 
-  /// Removes the value of a key if both changes have it.
+  /// Removes the value of a key if both changes set the key.
   template <class Value>
   void merge(const char* key, const std::string& id, const Value& other, Value& value) {
     if (other == Value() || value == Value()) return;

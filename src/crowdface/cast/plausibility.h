@@ -8,10 +8,10 @@
 namespace crowdface {
 
 /// Measures how unusual a face is among the input heads: its Mahalanobis distance (1936) from the
-/// heads' mean, divided by the distance that a new head typically has. Few heads do not determine
-/// the variance in every direction, so a tenth of the mean variance is added in every direction (as
-/// in probabilistic PCA, Tipping & Bishop 1999). The divisor is the root mean square of the heads'
-/// Mahalanobis distances, where each head is measured against all other heads.
+/// heads' mean, divided by the distance that a new head typically has. A small number of heads does
+/// not determine the variance in every direction, so a tenth of the mean variance is added in every
+/// direction (as in probabilistic PCA, Tipping & Bishop 1999). The divisor is the root mean square
+/// of the heads' Mahalanobis distances, where each head is measured against all other heads.
 class Plausibility {
  public:
   explicit Plausibility(const FaceSpace& space);

@@ -36,8 +36,7 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
                                                   float bound) const {
   Lanes sums = {};
   for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
-    // The sums only grow, so the block cannot hold a nearer point once all its sums exceed the
-    // bound.
+    // The sums only grow: once all sums exceed the bound, the block has no nearer point.
     if (!add_squares(query.data() + chunk, &chunk_of(chunk)[place(block * kLanes, chunk)], kChunk,
                      bound, sums.data())) {
       sums.fill(HUGE_VALF);

@@ -20,8 +20,8 @@ std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
 }
 
-/// If a face joins, the requested number of faces up to bin b grows by (b + 1)/kBins, and the
-/// actual number grows by one from the bin of the face on.
+/// If a face joins, the requested number of faces up to bin b grows by (b + 1)/kBins. The actual
+/// number grows by one for the bin of the face and all higher bins.
 void PopulationBalance::find_squares(Trait& trait) {
   const auto lacks = [&](std::size_t b) {
     return trait.excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);

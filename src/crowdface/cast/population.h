@@ -11,9 +11,9 @@ namespace crowdface {
 /// Steers casting so that measurements of a crowd have requested distributions. Chooses the
 /// candidate that brings the crowd so far nearest to these distributions: the sum over the traits
 /// of the root mean square differences between both cumulative distributions (after Cramér and von
-/// Mises, on a grid) is smallest. The roots keep a distribution that the heads cannot reach from
-/// outweighing the others. A choice depends on earlier faces only, so a larger crowd changes no
-/// choice.
+/// Mises, on a grid) is smallest. Because of the roots, a distribution that the heads cannot reach
+/// does not outweigh the others. A choice depends on earlier faces only, so a larger crowd changes
+/// no choice.
 class PopulationBalance {
  public:
   explicit PopulationBalance(const std::vector<TraitTarget>& targets);

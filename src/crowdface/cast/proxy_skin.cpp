@@ -6,7 +6,8 @@
 namespace crowdface {
 namespace {
 
-/// Distance up to which triangles on the mean head may intersect on a face.
+/// Only triangles whose distance on the mean head is within this reach are checked for
+/// intersections.
 constexpr double kReach = 3;  // mm, for each of the two parts
 /// Triangles at most this many edges apart are neighbours. Folds between neighbours are detected as
 /// flips.

@@ -58,8 +58,9 @@ struct Review {
   std::optional<std::uint64_t> count;
   /// Number of earlier reviews whose results the reviewer saw; see merged_reviews. Empty: all.
   std::optional<std::uint64_t> after = {};
-  /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes, so
-  /// that they stay if the crowd's value changes later. Empty: the crowd's value.
+  /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes,
+  /// so that these faces stay the same if the crowd's value changes later. Empty: the crowd's
+  /// value.
   std::optional<double> min_distance_mm = {};
   std::vector<ReviewMark> marks;
   std::vector<FaceChange> changes;  ///< applied after the marks

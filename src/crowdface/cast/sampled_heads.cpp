@@ -51,7 +51,7 @@ Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
 
 Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   Positions face = target_samples(heads, recipe);
-  // In single precision, like the trajectories, because casting does this for every face it
+  // Single precision, like the trajectories, for speed: casting does this for every face it
   // accepts.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
@@ -82,7 +82,8 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   return face;  // Eq. 7
 }
 
-/// Returns property(heads), property of the mirrored heads, or a blend of both.
+/// Returns property(heads), property(mirror images of the heads) or a blend of both, as the recipe
+/// mirrors the face.
 template <class Property>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {
   const double w = mirror_share(recipe);

@@ -80,7 +80,7 @@ struct WeightedHead {
   bool operator==(const WeightedHead&) const = default;
 };
 
-/// Chooses one of several things with probabilities in proportion to their weights.
+/// Chooses one of several things with probability proportional to its weight.
 ///
 /// \param random  Random number from 0 to 1 that selects the thing.
 template <class Things, class Weight>

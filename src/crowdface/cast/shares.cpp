@@ -17,7 +17,7 @@ std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
 }
 
-/// Returns the number n of the face by which a share must have received its first `m` faces.
+/// Returns the smallest n such that a share must have received `m` of the first n faces.
 std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }

@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// Returns the index of the share that each face belongs to, or −1. Of the first n faces, share q
-/// gets at least ⌊q·n⌋. If several shares are due at the same face, some of these shares get an
+/// gets at least ⌊q·n⌋. If several shares are due at the same face, some or all of them get an
 /// earlier face. The first n entries do not depend on `count`.
 ///
 /// The schedule is as late as possible, by earliest deadline first (Liu & Layland 1973): the m-th

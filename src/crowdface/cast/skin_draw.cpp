@@ -27,7 +27,7 @@ std::vector<Index> heads_like(Index head, const HeadTags& tags) {
   return heads;
 }
 
-/// Returns the mixture of two of the heads that has this tone.
+/// Returns a mixture of two of the heads, with weights such that the mixture has this tone.
 std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>& heads,
                                           const std::vector<double>& tones) {
   const auto tone_of = [&](Index head) { return tones[static_cast<std::size_t>(head)]; };

@@ -34,7 +34,7 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
     Eigen::VectorXf& q = directions.emplace_back(size);
     const auto scale = static_cast<float>(1 / std::sqrt(*longest));
     for (Index i = 0; i < size; ++i) q[i] = rows(pivot, i) * scale;
-    // Subtract the direction from all remainders.
+    // Subtract from each remainder its component along the new direction.
     Eigen::VectorXf& along = coordinates.emplace_back(Eigen::VectorXf::Zero(count));
     parallel_for_each(count, at_a_time, [&](Index n) {
       double& rest = left[static_cast<std::size_t>(n)];

@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::size_t kCandidatesAtATime = 256;
 
-/// Returns the squared distance, or any value above `limit` if the squared distance exceeds
-/// `limit`.
+/// Returns the squared distance; if this exceeds `limit`, returns an arbitrary value above `limit`.
 double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
   constexpr Index kLanes = 8, kChunk = 32;
   double sum = 0;

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns the mean point of the heads inside a group, or outside.
+/// Returns the mean point in face space of the heads inside or outside a group.
 Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
   Eigen::VectorXf sum = Eigen::VectorXf::Zero(space.dimensions());
   float count = 0;

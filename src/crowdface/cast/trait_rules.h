@@ -34,7 +34,7 @@ class TraitRules {
 bool has_trait_limits(const CastingOptions& casting);
 
 /// Most candidates for one face if measurements are limited, as a multiple of
-/// DiversityOptions::max_attempts. To generate and measure a candidate takes microseconds.
+/// DiversityOptions::max_attempts. Generating and measuring a candidate takes microseconds.
 inline constexpr std::uint32_t kAttemptFactorWithTraits = 20;
 /// Returns kAttemptFactorWithTraits if the crowd has limits on measurements, otherwise 1.
 std::uint32_t attempt_factor(const CastingOptions& casting);

@@ -15,8 +15,8 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
       shares[tag] += part.weight;
     }
   }
-  // The score of a head: for each of its tags, the weight of the mixture with this tag minus the
-  // weight without it.
+  // The score of a head is a sum over its tags: total weight of the mixture's heads with the tag,
+  // minus the weight of those without it.
   constexpr double kSame = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;

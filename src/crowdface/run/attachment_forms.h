@@ -14,10 +14,10 @@
 
 namespace crowdface {
 
-/// The attachments of a crowd, each in the form that files of one format need, at one level of
-/// detail.
-/// \tparam Form  made once per attachment; combined with the attachment's positions on each face
-///               when a file is written
+/// The attachments of a crowd at one level of detail, each converted to the form that one file
+/// format needs.
+/// \tparam Form  data that all faces share, made once per attachment; writing a file adds the
+///               attachment's positions on the face
 template <class Form>
 class AttachmentForms {
  public:
@@ -31,8 +31,8 @@ class AttachmentForms {
   }
 
   const Form& at(const Attachment& item) const { return forms_.at(&item); }
-  /// The attachments of a face with their forms; refers to both. \tparam Placed  a form, positions
-  /// and moves
+  /// A face's attachments together with their forms. The result refers to `attachments` and to this
+  /// object. \tparam Placed  holds a form, positions, displacements and a look
   template <class Placed>
   std::vector<Placed> placed(std::span<const PlacedAttachment> attachments) const {
     std::vector<Placed> placed;

@@ -136,8 +136,8 @@ ColourOptions colour_options(const Config& config) {
   return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike};
 }
 
-/// Rounds values to the four decimals that plans store, so that runs that read the plan report the
-/// same values.
+/// Rounds values to the four decimals that a plan stores, so that this run reports the same values
+/// as a run that reads the plan.
 void round_as_planned(std::vector<FacePlan>& crowd) {
   for (FacePlan& face : crowd) {
     face.mother_share = rounded(face.mother_share);
@@ -147,7 +147,8 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
   }
 }
 
-/// Returns options with which the faces in the folder keep their distance in trials with another.
+/// Returns options for trials with other minimum distances: the faces that exist in the folder keep
+/// their own minimum distance.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
   if (config.crowd.existing) {
     casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing,

@@ -22,7 +22,7 @@ struct CastingSpace {
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache);
 
-/// The options of casting, from the config.
+/// Converts the config to casting options.
 CastingOptions casting_options(const Config& config, const Inputs& inputs,
                                const Eigen::MatrixXd& head_distances);
 
@@ -64,7 +64,7 @@ struct CrowdPlan {
       points;  ///< one per face of the crowd; empty if there are neither contact sheets nor groups
 };
 
-/// Options for sampling the attachments of a crowd, from the config.
+/// Converts the config to options for sampling the attachments of a crowd.
 AttachmentOptions attachment_options(const Config& config);
 
 /// Casts the crowd.

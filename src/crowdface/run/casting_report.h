@@ -19,7 +19,8 @@ std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
 /// Logs statistics of the crowd: distances and rejected candidates.
 void log_casting(const CrowdPlan& crowd_plan);
 
-/// The constraints, the values reached, and the rejected candidates.
+/// JSON with the constraints, the values that the crowd reaches, and the numbers of rejected
+/// candidates.
 nlohmann::ordered_json casting_to_json(const Config& config, const CrowdPlan& crowd_plan);
 
 }  // namespace crowdface

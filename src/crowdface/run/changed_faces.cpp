@@ -76,7 +76,7 @@ class ChangedLooks {
   }
 
  private:
-  /// Gives the face the skin of another face, at its own age.
+  /// Gives the face the skin of `other` at the age of `face`.
   void take_skin(FacePlan other, FacePlan& face) const {
     if (config_.textures.blend != TextureBlend::kAuto) return;  // the face has the same target
     for (RegionRecipe& region : other.recipe.regions) {  // its skin ages like the finest band
@@ -113,8 +113,8 @@ class ChangedLooks {
     return face;
   }
 
-  /// Returns a face as it was with its changes at that time. If a review has rejected it since, it
-  /// has the colours that it would have now.
+  /// Returns the face as `changed` records it. If a review has since rejected the face, chooses its
+  /// colours anew.
   FacePlan look_of(const ChangedFace& changed) const {
     const FacePlan& face = changed.face;
     const auto now = std::ranges::find(crowd_, face.id, &FacePlan::id);

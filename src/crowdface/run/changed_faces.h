@@ -18,7 +18,7 @@ namespace crowdface {
 ///
 /// - A face that is the same person keeps its colours and attachments. Its hair greys with its age.
 /// - A face that was sampled again gets new colours and attachments, see choose_attachments_alone.
-///   A variant has the colours of the face that it is a variant of.
+///   A variant keeps the colours of its original.
 ///
 /// \param casting, attachments, colours  the options with which the crowd was sampled.
 /// \param kinds  group of each sampled face, or −1.

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// Copies each file once: heads in one folder mostly share their files.
 class MaterialCopies {
-  /// A neutral texture in a colour, and the files with this content.
+  /// A neutral texture tinted with a hair colour, and the files that hold the result.
   struct Dyed {
     fs::path neutral;
     HairColour colour;
@@ -90,7 +90,8 @@ class MaterialCopies {
     }
   }
 
-  /// \param told  earlier warnings, which are not repeated even if they list more heads
+  /// \param told  earlier warnings. They are not repeated, even if the earlier warning lists more
+  ///   heads.
   std::vector<std::string> warnings(const std::vector<std::string>& told) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {

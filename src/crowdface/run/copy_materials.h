@@ -13,8 +13,8 @@ namespace crowdface {
 
 /// Copies material files and textures to the meshes' folder: the files of all target heads if OBJ
 /// files refer to them, and the files of attachments if separate files or USD layers refer to them.
-/// \return warnings that the inputs do not have, without duplicates and with the heads concerned;
-///         also logged.
+/// \return new warnings (not in the inputs' list), without duplicates, each with the heads
+///         concerned; also logged.
 std::vector<std::string> copy_materials(const Config& config, const Inputs& inputs,
                                         const CrowdDirectory& directory,
                                         const std::vector<FacePlan>& crowd, Ledger& ledger);

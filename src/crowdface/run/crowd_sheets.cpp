@@ -48,7 +48,7 @@ void write_founders(const std::vector<FacePlan>& founders, const FaceBuilder& bu
   }
 }
 
-/// Adds a text piece by piece; the hash is the same as for the whole text.
+/// Adds a text to a hash in pieces, with the same result as adding the whole text at once.
 void add_text(const TextPieces& text, Hasher& hasher) {
   hasher.add(digest_of(text).bytes);
   text([&](std::string_view piece) { hasher.add_raw(piece); });
@@ -63,8 +63,8 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
     hasher.add(name).add(digest);
   }
   hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
-  // Include the plan, with each face's notes, and the likeness: reviews and the distance mask
-  // change only these.
+  // Hash the plan, with each face's notes, and the likeness: reviews and the distance mask change
+  // nothing else.
   try {
     add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
   } catch (const MissingInput& error) {  // removed by another program: it existed a moment ago
@@ -120,7 +120,8 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   const std::vector<FacePlan>& crowd = crowd_plan.crowd;
   const CrowdLikeness likeness = crowd_likeness(crowd_plan.anchors, crowd_plan.points);
   const Digest key = key_of_sheets(job, directory, crowd_plan, likeness, faces);
-  // With a comparison image from a file, always make the sheets: the file may have changed.
+  // If the sheets show a comparison image from a file, always make them again: the file may have
+  // changed.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
   if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();

@@ -20,7 +20,7 @@ namespace crowdface {
 /// the faces' images and meshes, the config and the page.
 /// \param faces    results, one per face of the crowd
 /// \param builder  builds the founders of families, which have no mesh files
-/// \return the number of pages that the faces fill.
+/// \return the number of sheets that the faces fill.
 std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
                         const CrowdPlan& crowd_plan, const std::vector<FaceResult>& faces,
                         Lazy<FaceBuilder>& builder, Lazy<CrowdPictures>& pictures, Ledger& ledger);

@@ -37,7 +37,7 @@ double room(const Inputs& inputs, Eigen::Index axis) {
 Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
   const Axis up = config.faces.up, front = config.faces.front;
   const Eigen::Index side = 3 - up.index - front.index;
-  // the stage keeps the heads' axes, see UsdaTemplate
+  // whether the stage keeps the heads' axes, see UsdaTemplate
   const bool as_it_is = up.sign > 0 && up.index > 0;
   Rows rows;
   rows.side = Eigen::Vector3d::Unit(as_it_is ? side : 0) * room(inputs, side);

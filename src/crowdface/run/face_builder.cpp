@@ -89,7 +89,7 @@ Positions FaceBuilder::build(const Recipe& recipe) const {
 
 Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) const {
   if (!blender_) return build(recipe);
-  // Clear the state before the update, so that an exception cannot leave an inconsistent state.
+  // Clear the previous face before the update, so that an exception cannot leave it inconsistent.
   if (const auto before = std::exchange(previous.recipe, std::nullopt)) {
     blender_->change(*before, recipe, previous.blended);
   } else {
@@ -195,8 +195,8 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
   return ranges;
 }
 
-/// Extends each range to include the range of the mirrored contact: an asymmetric face may take its
-/// gap from either corner of the mouth.
+/// Extends each range to include the range of the mirrored contact: with an asymmetry other than 1,
+/// each corner of the mouth depends on both corners.
 void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {

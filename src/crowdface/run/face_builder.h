@@ -54,15 +54,15 @@ class FaceBuilder {
   /// is mirrored. \param face  #V by 3; only contact_vertices() need positions
   void correct_contacts(const Recipe& recipe, Positions& face) const;
 
-  /// The rigid motion that moves a finished face, before mirroring, onto a body (config section
-  /// `neck`); nothing if the face stays in place.
+  /// The rigid motion that moves a face onto a body (config section `neck`), applied before
+  /// mirroring; nothing if the face stays in place.
   std::optional<RigidMotion> motion_to_body(const Recipe& recipe) const;
 
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
-  /// How much farther apart lips, or other skin surfaces that almost touch, are in the face than in
-  /// any head, in mm.
+  /// How much wider the gap between lips, or other skin surfaces that almost touch, is in the face
+  /// than in any head, in mm.
   double wider_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory for building the given number of faces at once, including their positions, in bytes.
@@ -71,7 +71,7 @@ class FaceBuilder {
  private:
   /// The steps after blending: asymmetry, contacts, parts, pose, mirroring, the ring at the neck.
   void finish(const Recipe& recipe, Positions& face) const;
-  /// The map that mirrors faces; computed at the first call. Thread-safe.
+  /// The map that mirrors faces; computed in the first call. Thread-safe.
   const MirrorMap& mirror() const;
   /// Returns, for each contact, the allowed range of the gap: between the target's gap and the
   /// weighted mean of the sources' gaps.

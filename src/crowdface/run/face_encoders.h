@@ -42,13 +42,13 @@ struct FinishedFace {
   std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's own textures, encoded as image files; empty if no output file uses them. With
-  /// `neck.body_texture`, the last one is the body's.
+  /// `neck.body_texture`, the last texture belongs to the body.
   std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
   std::optional<BlendedPicture> body;    ///< texture of the body; empty if nothing shows it
   std::optional<FacePictures> pictures;  ///< empty if the face is not rendered
 
   const FaceEncoders* encoders = nullptr;  ///< null if no mesh files are written
-  /// Data that FaceEncoders::prepare computes for the files.
+  /// Data for the files; FaceEncoders::prepare computes it.
   Positions normals, points, joints;
   std::vector<std::string_view> images;
   std::vector<std::string> image_names;

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// Blends the textures in parallel; each is encoded and discarded before its thread blends the
+/// Blends the textures in parallel. Each thread encodes and discards a texture before it blends the
 /// next.
 /// \return the textures for renders.
 std::optional<FaceTextureSet> FaceFinisher::paint(const Recipe& recipe, OwnTextures::Encoded& files,

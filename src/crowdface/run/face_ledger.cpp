@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Hash of what the files of all faces depend on: heads, settings, the other inputs, and algorithm
-/// versions.
+/// Hash of the data that the files of every face depend on: heads, settings, other inputs,
+/// algorithm versions.
 Digest digest_of_common(const Job& job) {
   const Config& config = job.config;
   const Inputs& inputs = job.inputs;
@@ -67,7 +67,8 @@ SkinDefects noted_skin(const Json& json) {
   return skin;
 }
 
-/// The number of shapes transferred to each face: 0 unless a format or the gallery has shapes.
+/// The number of blend shapes transferred to each face: 0 unless a format or the gallery has
+/// shapes.
 std::size_t carried_shapes(const Job& job) {
   const bool is_carried =
       has_gallery(job.config) || any_format(job.config.output.meshes, [](const auto& format) {

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A face and the results for its files.
+/// A face whose files are written, and its results.
 struct MadeFace {
   const FacePlan* face = nullptr;
   FaceResult result;

@@ -24,13 +24,12 @@
 namespace crowdface {
 namespace {
 
-/// Maximum number of faces blended together. A group reads the fields only once, but for larger
-/// groups the allocation of new memory takes longer than the saved reading. It is a multiple of the
-/// number of faces that one matrix product handles.
+/// Maximum number of faces blended together. A group reads the fields only once, but larger groups
+/// lose more time to allocating memory than they save in reading. Must be a multiple of the number
+/// of faces that one matrix product handles.
 constexpr std::size_t kMaxAtOnce = 24;
-/// Memory for rendering, per vertex of a face: normals, quads on the image, and the gallery's
-/// smaller mesh. The value is an upper bound, with a margin, of a measurement at 1.2 million
-/// vertices.
+/// Memory for rendering, per vertex of a face: normals, projected quads, and the gallery's smaller
+/// mesh. Measured at 1.2 million vertices, with a margin.
 constexpr std::uint64_t kRenderBytesPerVertex = 300;
 /// Memory of the heads' mesh per vertex, independent of the number of heads: polygons, texture
 /// coordinates, adjacency, binding of parts. Measured: 262 bytes at 1.2 million vertices.
@@ -89,8 +88,8 @@ std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
                           " are allowed (--memory); fewer threads (--threads) need less"));
 }
 
-/// Maximum number of faces in memory: while one group is blended, each thread may still finish a
-/// face of the previous group. There are never more than two groups.
+/// Maximum number of faces in memory: while one group is blended, each thread may still be
+/// finishing a face of the previous group.
 std::uint64_t faces_held(std::uint64_t at_once) {
   return at_once + std::min(at_once, static_cast<std::uint64_t>(thread_count()));
 }
@@ -105,8 +104,8 @@ std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::u
   return at_once;
 }
 
-/// Recycles the memory of finished faces, because allocating new memory would take half as long as
-/// blending. Thread-safe.
+/// Reuses the memory of finished faces. Allocating new memory for a face takes half as long as
+/// blending the face. Thread-safe.
 class FaceMemory {
  public:
   Positions take() {
@@ -206,8 +205,8 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
-  // Besides the files in the threads, there are files waiting in the queue and as many being
-  // written.
+  // Besides the files that threads encode, files wait in the queue, and up to as many bytes are
+  // being written.
   standing += of_threads + 2 * waiting_bytes_;
   const std::uint64_t one_face = builder.bytes(1);
   at_once_ = faces_at_once(standing, one_face, memory);

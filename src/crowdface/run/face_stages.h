@@ -40,8 +40,8 @@ class FaceStages {
              const std::vector<FacePlan>& crowd, std::uint64_t memory);
 
   /// Makes faces. All threads blend a group of faces together; then each thread finishes and
-  /// encodes one face after the other. The next group starts when every face has been claimed by a
-  /// thread. A face is recorded when all its files are written.
+  /// encodes one face after the other. The next group starts when threads have claimed all faces of
+  /// the current group. A face is recorded when all its files are written.
   /// \param renders  null: nothing is rendered
   /// \param results  one per face, output
   /// \param busy     accumulates the threads' time per stage

@@ -80,7 +80,7 @@ std::set<std::uint32_t> corners_of(const HeadLandmarks& landmarks,
   return corners;
 }
 
-/// Keeps only the places of landmarks that the measurements need.
+/// Removes the positions of landmarks that the measurements do not need.
 HeadLandmarks needed_landmarks(HeadLandmarks landmarks, const std::vector<std::size_t>& traits) {
   std::set<std::size_t> needed;
   for (const std::size_t trait : traits) {

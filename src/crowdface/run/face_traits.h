@@ -29,11 +29,11 @@ class FaceTraits {
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
-  /// Whether to measure the written face (kBent) or the face without a body (kAsBlended): casting
-  /// judges the face without a body, so that a body does not change the recipes.
+  /// Whether to measure the face as written, bent at the neck to fit the body (kBent), or before
+  /// this step (kAsBlended). Casting uses kAsBlended, so that a body does not change the recipes.
   enum class Neck { kBent, kAsBlended };
   Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
-  /// Replaces the rows `wanted_` by the rows of the mirrored face.
+  /// Replaces the positions of the vertices `wanted_` by their positions on the mirrored face.
   void mirror_wanted(Positions& face) const;
 
   std::vector<std::size_t> traits_;
@@ -44,7 +44,8 @@ class FaceTraits {
   std::shared_ptr<const HeadsOnBody> neck_;
   /// the vertices of the landmarks, and of the ring at the neck if there is one
   std::vector<std::uint32_t> wanted_;
-  /// the vertices that the exact landmarks depend on, ascending, and the heads there
+  /// the vertices that the exact landmarks depend on, ascending, and the heads' data at these
+  /// vertices
   FaceSamples samples_;
   SampledHeads heads_;
   Index vertex_count_;

@@ -45,9 +45,10 @@ class FaceWriter {
 
   /// Time that the thread spent writing.
   double busy_seconds() const { return busy_seconds_; }
-  /// Smallest useful size of the queue: with a smaller queue, threads wait for the disk.
+  /// Smallest useful size of the queue, in bytes: with a smaller queue, computing threads wait for
+  /// the disk.
   static constexpr std::uint64_t kMinWaitingBytes = std::uint64_t{64} << 20U;
-  /// Largest useful size of the queue: enough to keep the disk busy while a group of faces is
+  /// Largest useful size of the queue, in bytes: keeps the disk busy while a group of faces is
   /// blended.
   static constexpr std::uint64_t kMaxWaitingBytes = std::uint64_t{256} << 20U;
 

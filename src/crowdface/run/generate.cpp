@@ -86,9 +86,8 @@ struct PlannedJob {
   CrowdPlan crowd_plan;
   std::vector<std::string> warnings;  ///< warnings of near_heads; empty for a shard's faces
   nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
-  /// The plan files from which `crowd_plan` was read, if it was read from the folder; empty if the
-  /// crowd was cast by this run. If a shard reads the plan, `crowd_plan` holds only the shard's
-  /// faces.
+  /// If `crowd_plan` was read from the folder: the plan files; empty if this run cast the crowd. If
+  /// a shard reads the plan, `crowd_plan` holds only the shard's faces.
   std::vector<LedgerEntry::File> plan_files;
   bool planned() const { return !plan_files.empty(); }
   /// The colour of each face's skin above the neck's ring; empty if there are none.

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// The source of a shard's faces.
+/// Where a shard gets the plan of its faces from.
 enum class PlanFrom {
   kFolderOrCasting,  ///< the folder's plan if it belongs to this job; otherwise the crowd is cast
   kFolder,           ///< only the folder's plan; without one, the shard is rejected

@@ -21,8 +21,8 @@
 namespace crowdface {
 namespace {
 
-/// A material with the colour of the renders. Surfaces that renders do not draw (lashes, shells
-/// over the eye) are transparent here, too: without their texture they would hide the eye.
+/// A material with the colour that renders use. Surfaces that renders omit (lashes, shells over the
+/// eye) are transparent in GLB files: without a texture they would hide the eye.
 GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
                          const std::optional<Eigen::Array3f>& paint) {
   const Light colour = paint ? from_srgb(*paint) : albedo_of(kind);
@@ -30,7 +30,7 @@ GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
   return {name, {colour(0), colour(1), colour(2), opacity}};
 }
 
-/// An image of an eyeball in the direction of gaze, from rim to rim.
+/// A PNG image of a whole eyeball, seen from the front.
 std::string iris_png() {
   constexpr int kSide = 64;
   const PlacedEye eye{Eigen::Vector3f::Zero(), 1};
@@ -46,8 +46,8 @@ std::string iris_png() {
   return encode_stored_png(kSide, kSide, picture.pixels);
 }
 
-/// Irises as painted in renders. They are placed on the eyes of the mean head, whose texture
-/// coordinates all faces use.
+/// Irises that look as in renders. Their texture coordinates come from the eyes of the mean head
+/// and apply to all faces.
 std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& inputs,
                                        const Surfaces& surfaces) {
   const auto eyes =

@@ -18,16 +18,18 @@ struct HeadLandmarks {
   std::vector<std::optional<SurfacePoint>> places;  ///< #trait_landmarks
   std::vector<std::string> missing;                 ///< #trait_landmarks: why there is no place
 
-  /// Whether all landmarks of a measurement have places.
+  /// Whether the positions of all landmarks of a measurement are known.
   bool allow(const Measurement& measurement) const;
   /// Why a measurement is not available: "no hairline (…)". \pre `allow` is false.
   std::string reason_against(const Measurement& measurement) const;
-  /// The landmarks on a mesh, #landmarks by 3, in millimetres. Rows without a place are zero.
+  /// The landmarks on a mesh, #landmarks by 3, in millimetres. Rows of landmarks whose position is
+  /// unknown are zero.
   Positions points_on(const Positions& mesh, double mm_per_unit) const;
 };
 
 /// Finds the landmarks on the mean of the heads, or reads them from the config's landmark file.
-/// \throws UsageError if a place in the file is not on the heads, or a name is not of a landmark.
+/// \throws UsageError if the file has a position that is not on the heads, or a name that is not a
+///   landmark's.
 HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs);
 
 /// The measurements of a mesh: #measurements; unavailable measurements are empty.

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// The mesh topology as shared files, for formats that store positions only.
+/// The mesh topology as files that all faces share, for formats that store only positions.
 std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) {
   const TextureCoordinates& uvs = inputs.faces.uvs;
   Hasher key;

@@ -72,7 +72,7 @@ struct MeshEncoder {
   /// Memory of the encoder, and the maximum memory for encoding one face, in bytes.
   std::size_t memory_bytes = 0, encode_bytes = 0;
 };
-/// One for each level of detail in which the format is written.
+/// One encoder for each level of detail in which the format is written.
 using MeshEncoders = std::vector<MeshEncoder>;
 
 /// Makes an encoder from a form, which holds what all faces share. \param encode  called with the

@@ -14,7 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// ViewSetup directions from the front to both sides, at face height and from above and below.
+/// Fifteen viewing directions: from the front and both sides, at face height, from above and from
+/// below.
 ViewSetup viewing_of(const Config& config) {
   const HeadAxes axes = head_axes(config);
   ViewSetup view_setup{{}, mm_per(config.faces.units)};

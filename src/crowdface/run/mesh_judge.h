@@ -19,7 +19,8 @@ bool skin_is_judged(const Config& config, const Inputs& inputs);
 /// Compares whole meshes with their target heads.
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets);
 
-/// Measures the area of gums, teeth and other parts, except eyeballs, that stands out of the skin.
+/// Measures the area of gums, teeth and other parts (except eyeballs) that protrudes through the
+/// skin.
 PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs);
 
 /// Whether casting builds candidates and judges their whole meshes.

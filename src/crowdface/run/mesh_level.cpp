@@ -71,7 +71,7 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   if (body != nullptr) items.push_back(body);
   std::vector<std::vector<DetailLevel>> of_items(items.size());
   parallel_for_each(items.size(), [&](std::size_t i) {
-    // The body keeps every vertex of its ring.
+    // The body keeps every vertex of the ring at the neck, where faces join it.
     const Borders borders = items[i] == body ? Borders::kKeep : Borders::kCollapse;
     of_items[i] = levels_of(*items[i], inputs.levels, borders);
   });

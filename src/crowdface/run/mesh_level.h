@@ -18,9 +18,9 @@
 
 namespace crowdface {
 
-/// The mesh of all faces and their attachments, whole or at a level of detail. A level of detail
-/// reduces attachments by the same share of triangles as faces, but to no fewer than 300 triangles,
-/// so that small attachments stay whole.
+/// The mesh that all faces share, and their attachments, whole or at a level of detail. A level of
+/// detail keeps the same fraction of triangles in attachments as in faces, but at least 300
+/// triangles, so that small attachments stay whole.
 struct MeshLevel {
   std::size_t number = 0;             ///< 0: the whole mesh
   const DetailLevel* face = nullptr;  ///< null: the whole mesh
@@ -44,7 +44,7 @@ struct MeshLevel {
   std::vector<PlacedAttachment> of(std::span<const PlacedAttachment> placed) const;
 };
 
-/// The text `before`, then "LOD2"; empty for the whole mesh.
+/// The text `before` and the level, such as "LOD2"; empty for level 0, the whole mesh.
 inline std::string suffix_of(std::size_t level, std::string_view before) {
   return level == 0 ? std::string() : concat(before, "LOD", level);
 }

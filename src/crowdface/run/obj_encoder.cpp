@@ -47,7 +47,7 @@ std::string library_line(const std::vector<MaterialFile>& files,
   return line;
 }
 
-/// Memory of all forms together, and the maximum for encoding one form, in bytes.
+/// Returns (memory of all forms together, maximum memory for encoding one form), in bytes.
 template <class Forms, class FormOf>
 std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
   std::size_t memory = 0, encode = 0;
@@ -58,8 +58,8 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   return {memory, encode};
 }
 
-/// `mtllib` lines that replace the targets' own lines, if these do not lead to the material files
-/// that are written.
+/// `mtllib` lines that replace a target's own line if that line does not name the written material
+/// files.
 std::map<Index, std::string> other_libraries(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.targets) {

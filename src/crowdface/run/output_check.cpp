@@ -17,8 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// \throws UsageError if an input lies at a path that this run writes, or whose old file it
-///     deletes.
+/// \throws UsageError if this run would overwrite or delete one of its inputs.
 void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& directory) {
   const auto& sheet = config.output.contact_sheet;
   for (const fs::path& input : input_files(config)) {
@@ -52,7 +51,7 @@ void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory,
   if (replace == Replace::kForce || !path_exists(directory.plan())) return;
   const MappedFile file(directory.plan());
   const std::string_view plan = file.bytes();
-  // Search the whole plan, because a damaged plan may still have one line with the hash.
+  // Search the whole plan, because the first lines of a damaged plan may lack the hash.
   if (plan.find(settings.hex()) != plan.npos) return;
   const auto first = parse_shallow_json(plan.substr(0, plan.find('\n')));
   if (!first.is_object() || !first.contains("settings")) return;

@@ -10,9 +10,9 @@ namespace crowdface {
 /// its own inputs, or files that could not be made again. \throws UsageError, CannotCreate.
 void check_output(const Job& job, Replace replace);
 
-/// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats the
-/// checks of check_output whose result another run may have changed. \throws UsageError,
-/// CannotCreate, IoError.
+/// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
+/// checks of check_output whose result may have changed since, because of another run. \throws
+/// UsageError, CannotCreate, IoError.
 void open_output(const Job& job, Replace replace);
 
 /// \throws UsageError if the folder's crowd was cast from other heads, because it could not be made

@@ -169,7 +169,8 @@ class OverriddenPlan {
     not_in_group_.add(face.id, concat(target, ", ", *face.group));
   }
 
-  /// Finds keys of a change of the config that a review replaces.
+  /// Finds the keys of the config's `changes` entry for a face that a later change in a review
+  /// overrides.
   void find_replaced(const FaceChange& later) {
     for (const FaceChange& change : config_.changes) {
       if (change.id != later.id) continue;

@@ -20,7 +20,7 @@ std::string_view ending_of(TextureFormat format) {
   return kEndings[static_cast<std::size_t>(format)];
 }
 
-/// \param tile  a number, or <UDIM>; empty if the image is not a tile
+/// \param tile  a UDIM number or the text <UDIM>; empty if the image is not a tile
 std::string file_name(const std::string& id, const PictureName& picture, std::string_view tile,
                       TextureFormat format) {
   const bool is_colour = picture.kind == TextureKind::kColour;

@@ -34,7 +34,8 @@ struct GlbPicture {
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
 
 /// Paths of the images of glb_pictures relative to a face's mesh: "./blended/ID.png". If an image
-/// has several formats, the first one. Empty if faces have no textures of their own.
+/// is written in several formats, the path of the first. Empty if faces have no textures of their
+/// own.
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id);
 
@@ -60,8 +61,8 @@ class OwnTextures {
   /// The target's material file, with the face's textures in place of the target's.
   EncodedFile material_file(const FacePlan& face) const;
 
-  /// Approximate memory of one face's encoded images plus the memory for encoding the largest, in
-  /// bytes.
+  /// Approximate memory of one face's encoded images plus the memory for encoding the largest
+  /// image, in bytes.
   std::uint64_t encode_bytes() const;
 
  private:

@@ -18,7 +18,7 @@
 namespace crowdface {
 namespace {
 
-/// The level for one end of a distribution.
+/// Converts one end of a smoothness distribution to a number of iterations.
 double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScale& scale) {
   switch (unit) {
     case SmoothnessDistribution::Unit::kFraction:
@@ -139,8 +139,9 @@ Config with_kept_distances(Config config, const std::string& before) {
   return config;
 }
 
-/// Sets what a config has from the crowd in its folder: the number of its faces and their smallest
-/// distances, and numbered subfolders. A new crowd gets subfolders if it is large.
+/// Completes a config from the crowd that exists in its folder: number of existing faces, their
+/// minimum distances, and whether there are numbered subfolders. A new crowd gets subfolders if it
+/// is large.
 /// \param replaced  the run casts the crowd again (`--force`).
 void continue_crowd(Config& config, bool replaced) {
   const CrowdDirectory directory{config.output.directory};
@@ -164,8 +165,8 @@ void continue_crowd(Config& config, bool replaced) {
 
 using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&)>;
 
-/// Reads the config, including the reviews in the crowd's folder if that holds the same crowd or if
-/// `overrides` asks for them.
+/// Reads the config. Includes the reviews in the crowd's folder if the folder holds the same crowd
+/// or `overrides` asks for them.
 ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
                                      Problems& problems) {
   ConfigReading reading = read(overrides, problems);
@@ -209,7 +210,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
   return reading;
 }
 
-/// Adds a problem for each new review that claims to know more reviews than there are before it.
+/// Adds a problem for each new review whose `after` is larger than the number of earlier reviews.
 /// Kept reviews stay valid: an older version may have accepted them.
 void check_reviews(const Config& config, Problems& problems) {
   const Config::Reviews& reviews = config.review;

@@ -44,7 +44,7 @@ std::uint64_t face_count(const Config& config);
 /// The folder of the config's crowd.
 CrowdDirectory directory_of(const Config& config);
 
-/// The config as written into the crowd's folder, which keeps the reviews.
+/// The text of the config for the crowd's folder; its reviews are the copies in this folder.
 std::string config_in_folder(Config config, const CrowdDirectory& directory);
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 

@@ -64,7 +64,7 @@ std::vector<FacePlan> read_faces(const Job& job, const std::filesystem::path& pl
   return faces;
 }
 
-/// A report marks a folder as complete, so it must be removed when the plan changes.
+/// Removes the report if the plan changes, because a report marks the folder as complete.
 void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPieces& plan) {
   if (!path_exists(directory.report()) || has_content(directory.plan(), digest_of(plan))) return;
   remove_if_exists(directory.report());

@@ -154,7 +154,8 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   return face;
 }
 
-/// For each shape: skin intersections that neither the template nor the face at rest has.
+/// For each blend shape: the number of skin intersections that neither the template nor the face at
+/// rest has.
 Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results) {
   Json shapes = Json::object();
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {

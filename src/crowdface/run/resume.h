@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// The steps by which a run continues the work of a run that was stopped.
+// SPDX-License-Identifier: Apache-2.0 The steps with which a run continues after an earlier run was
+// stopped.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePla
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
                           const std::vector<std::size_t>& todo);
 
-/// Writes the files that all faces share, if a format needs any and they do not exist yet.
+/// Writes the files that all faces share, if a format needs such files and they do not exist yet.
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
                         Ledger& ledger);
 

@@ -21,7 +21,7 @@ std::string asked_of(const Config& config, Reason reason) {
   return describe(reason, config.diversity, config.believability);
 }
 
-/// Advice for a crowd whose faces exist: other keys cannot change without replacing the crowd.
+/// Advice for extending an existing crowd: only keys that can change without replacing the crowd.
 std::vector<std::string> advice_for_existing(const Config& config, const Remedy& remedy,
                                              const Shortfall& shortfall) {
   std::vector<std::string> advice;

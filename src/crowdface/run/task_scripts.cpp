@@ -219,7 +219,7 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
   std::string script(kHead);
   script += "set -euo pipefail\n";
   script += assign("folder", job.directory.task_folder().string());
-  // The command that the shell of any machine runs.
+  // The command that every machine's shell can run.
   script += assign("task", "bash " + shell_word(script_of(job).string()));
   script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
   script += concat(

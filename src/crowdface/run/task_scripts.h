@@ -41,8 +41,8 @@ struct EngineOptions {
   std::vector<std::string> more;     ///< further arguments for the engine, passed unchanged
 };
 
-/// Returns a number of tasks from measured times (docs/farm.md): a task that makes faces then runs
-/// for about ten minutes, and a task that prepares heads for about one.
+/// Returns a number of tasks from measured times (docs/farm.md): a task that makes faces then takes
+/// about ten minutes, a task that prepares heads about one minute.
 /// \param faces  number of faces in the crowd
 std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
                              std::uint64_t processors);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t kSampledForAdvice = 400;
 
-/// The names of the heads, at most three, whose values lie farthest on the side that a limit
-/// requires.
+/// The names of at most three heads with the largest values if `upwards`, otherwise with the
+/// smallest.
 std::string farthest_heads(const Config& config, const std::vector<double>& of_heads,
                            const Measurement& measurement, bool upwards) {
   constexpr std::size_t kMost = 3;
@@ -31,7 +31,7 @@ std::string farthest_heads(const Config& config, const std::vector<double>& of_h
   return join(names);
 }
 
-/// A face of the kind that could not be found, with this kind's limits.
+/// A random face of the group, family or recipe that ran short; its limits are those of this kind.
 FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
                              std::uint32_t attempt) {
   const auto hand = std::ranges::find(casting.recipes, shortfall.recipe, &ManualRecipe::id);

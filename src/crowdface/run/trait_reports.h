@@ -18,7 +18,8 @@ struct TraitReport {
   Quartiles heads, crowd;
   /// Only for a measurement with a requested distribution. `difference`: largest difference between
   /// the requested cumulative distribution and the sampled faces' (Kolmogorov and Smirnov).
-  /// `below`, `above`: shares of the requested distribution outside the values of random faces.
+  /// `below`, `above`: fractions of the requested distribution below and above all values of random
+  /// faces.
   struct Asked {
     TraitTarget target;
     double mean = 0, deviation = 0;  ///< mean and standard deviation of the sampled faces
@@ -33,7 +34,7 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
 /// Warnings about requested distributions that the crowd does not have.
 std::vector<std::string> population_warnings(const std::vector<TraitReport>& reports);
 
-/// A readable table of the ranges that faces of these heads fill, for all measurements.
+/// A readable table of all measurements: the range of values that faces made from these heads have.
 std::string format_trait_ranges(const Config& config, const Inputs& inputs,
                                 const Prepared& prepared, const CastingOptions& casting);
 

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Part of the digest of the inputs. Increase this number when a change of the code changes the
+/// Part of the digest of the inputs. Increase this number when a code change alters the resulting
 /// heads, so that finished heads are wrapped again.
 constexpr int kWrapVersion = 7;
 
@@ -72,7 +72,7 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
   positions = inputs.model->mean;
 }
 
-/// Excludes the white areas of a mask from the fit: reduces the skin's openness there.
+/// Excludes the white areas of a mask from the fit: multiplies the skin's `openness` by 1 − mask.
 void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& shape, Hasher& digest) {
   const std::vector<double> ignored = mask_values(file.topology, file.uvs, MaskSource(mask));
   for (std::size_t v = 0; v < shape.skin.vertices.size(); ++v) {

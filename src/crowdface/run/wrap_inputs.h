@@ -64,7 +64,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
                                             const std::vector<std::string>& endings);
 
 /// Lists the scans in a folder, sorted by name. \throws MissingInput; UsageError if two scans would
-/// give heads of the same name; InvalidInput if there are none.
+/// give heads with the same name; InvalidInput if there are none.
 std::vector<std::filesystem::path> scans_in(const std::filesystem::path& folder);
 
 }  // namespace crowdface

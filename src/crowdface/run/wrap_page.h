@@ -12,9 +12,9 @@ struct WrappedScan {
   std::filesystem::path scan, report, picture;
 };
 
-/// An HTML page over the reports of a batch, to be written into their folder: one row for each scan,
-/// with its picture and warnings. Rows are sorted by doubt: first the scans without a head, then the
-/// heads whose worst feature agrees least.
+/// An HTML page over the reports of a batch, to be written into their folder: one row for each
+/// scan, with its image and warnings. The most doubtful rows come first: scans without a head, then
+/// heads whose worst feature agrees least with the scan.
 std::string wrap_page(const std::vector<WrappedScan>& scans);
 
 }  // namespace crowdface

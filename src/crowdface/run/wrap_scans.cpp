@@ -206,8 +206,9 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
   return result;
 }
 
-/// Returns hints for an error message if landmarks are missing: whether the scan is only a part of a
-/// head, and whether its relief has a face with other axes than --scan-up and --scan-front.
+/// Returns hints for an error message if landmarks are missing: whether the scan is only a part of
+/// a head, and whether a face is found in its relief, but with axes other than --scan-up and
+/// --scan-front.
 std::string likely_causes(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
   constexpr double kPart = 0.3;  // of the surface
@@ -248,7 +249,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
           concat(task.scan.string(), ": ", error.what(), likely_causes(shared, scan, landmarks)));
     }
   }();
-  // Write head, picture and report.
+  // Write head, image and report.
   const double scale = output_scale(options, result.pose);
   const std::vector<std::string> warnings =
       wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);

@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-/// Fits the template to a scan or to a folder of scans, and writes heads, reports and pictures. With
+/// Fits the template to a scan or to a folder of scans, and writes heads, reports and images. With
 /// `batch`, skips scans that are already wrapped, and reports the problems of all scans at the end.
 /// \throws Error that names the faulty file or option.
 void wrap_scans(const WrapOptions& options);

@@ -20,7 +20,7 @@ struct TextureFiles {
   std::vector<std::filesystem::path> maps;   ///< #pictures: colours, beside the head
   std::vector<std::filesystem::path> masks;  ///< #pictures: what was filled, beside the report
 
-  /// All files; none if there are no pictures.
+  /// The paths of all files; none if there are no images.
   std::vector<std::filesystem::path> all() const;
 };
 

@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-/// Writes one face outside a crowd: the mesh and, next to it, the files that a crowd's folder would
-/// contain: the face's own textures and materials, and its attachments.
+/// Writes one face that is not in a crowd's folder: the mesh and, in the same folder, the face's
+/// own textures, materials and attachments.
 /// \param textures   blends the face's own textures; has no images if faces have no textures of
 ///                   their own
 /// \param positions  #V by 3
