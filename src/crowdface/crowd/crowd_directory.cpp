@@ -60,7 +60,7 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
           directory.rejected(), directory.plan_marker(), directory.stage()};
 }
 
-/// Names of all files in the folder's ledgers whose items begin with `items`.
+/// Names of the files that the folder's ledgers list under items whose names begin with `items`.
 std::set<std::string> recorded_files(const CrowdDirectory& directory, std::string_view items) {
   std::set<std::string> names;
   for (const fs::path& ledger : directory.ledgers()) {
@@ -109,8 +109,8 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   return files;
 }
 
-/// Removes the files that a run over the crowd writes, identified by name, and the unaltered files
-/// that its ledgers list. Other files in the folder belong to the user.
+/// Removes the crowd's own files, which have fixed names, and the files that its ledgers list,
+/// unless they were altered. Keeps all other files, because they belong to the user.
 void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
   for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
@@ -165,8 +165,8 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether a folder without a config has files that a crowd would overwrite. A folder that has a
-/// ledger belongs to a crowd that lost only its config.
+/// Whether a folder without a config has files that a crowd would overwrite. False if a ledger
+/// proves that this crowd's config was in the folder, so that only the config was lost.
 bool holds_other_files(const CrowdDirectory& directory, const std::string& effective_config) {
   if (path_exists(directory.config())) return false;
   const std::string name = directory.relative(directory.config());
@@ -183,7 +183,7 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
   return holds_any && !path_exists(directory.config());
 }
 
-/// Moves the folder of reviews to a new folder beside it, such as "reviews-2026-11-27".
+/// Renames the folder of reviews to a new name with the date, such as "reviews-2026-11-27".
 void set_reviews_aside(const CrowdDirectory& directory) {
   if (directory.kept_reviews().empty()) return;
   const std::chrono::year_month_day today{
@@ -235,7 +235,7 @@ void refuse_links(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether the name of a file in the sheets folder is one that crowdface writes.
+/// Whether a file in the sheets folder has a name that crowdface gives to sheets.
 bool is_numbered_sheet(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string ending = path.extension().string();

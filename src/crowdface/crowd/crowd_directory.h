@@ -44,7 +44,8 @@ struct CrowdDirectory {
   std::filesystem::path log() const { return root / "crowdface.log"; }
   std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
   std::filesystem::path lock() const { return root / ".crowdface.lock"; }
-  /// Identifies the job to which the plan belongs, for shards that use the plan; see planned_faces.
+  /// A file that identifies the job to which the plan belongs, so that a shard uses only the plan
+  /// of its own job; see planned_faces.
   std::filesystem::path plan_marker() const { return root / "planned.json"; }
   /// Progress of a shard, for `crowdface status` and other observers.
   std::filesystem::path progress(const Shard& shard) const {
@@ -55,7 +56,8 @@ struct CrowdDirectory {
   }
   /// Scripts and logs of tasks that run on other machines.
   std::filesystem::path task_folder() const { return root / "submit"; }
-  /// The shard's own log, ledger and lock; the crowd's files above if the shard is the whole crowd.
+  /// The shard's own log, ledger and lock. If the shard is the whole crowd: the crowd's log, ledger
+  /// and lock.
   std::filesystem::path log(const Shard& shard) const { return of_shard(log(), shard); }
   std::filesystem::path ledger(const Shard& shard) const { return of_shard(ledger(), shard); }
   std::filesystem::path lock(const Shard& shard) const { return of_shard(lock(), shard); }
@@ -96,7 +98,7 @@ struct CrowdDirectory {
   std::filesystem::path gallery_face(const std::string& id) const {
     return gallery_faces() / folder_of(id) / (id + ".js");
   }
-  /// Scripts with the recipes of a large crowd; each holds as many faces as a numbered subfolder.
+  /// Scripts with the recipes of a large crowd; each script holds `faces_per_folder` faces.
   std::filesystem::path gallery_pages() const { return gallery() / "data/pages"; }
   std::filesystem::path gallery_head(const std::string& name) const {
     return gallery() / "data/heads" / (name + ".js");
@@ -108,8 +110,8 @@ struct CrowdDirectory {
   std::string relative(const std::filesystem::path& file) const {
     return file.lexically_relative(root).generic_string();
   }
-  /// Path of sheet number `page`, counted from 1. A subfolder holds as many sheets as another
-  /// subfolder holds faces.
+  /// Path of sheet number `page`, counted from 1. Each numbered subfolder holds `faces_per_folder`
+  /// sheets.
   std::filesystem::path sheet(std::size_t page) const;
   /// Subfolder of a face, such as "012", from the number at the end of its id; empty if the crowd
   /// has no subfolders.
@@ -148,11 +150,11 @@ inline std::filesystem::path attachment_folder(const std::string& name,
 /// Ledger item of the contact sheets and of all files that are made with them.
 inline constexpr std::string_view kSheetsItem = "sheets";
 
-/// The contact sheets in the folder. The ledger identifies the sheets of families, whose names are
-/// arbitrary; other sheets are identified by their names.
+/// The contact sheets in the folder. Sheets of families have arbitrary names, so they are looked up
+/// in the ledger; other sheets are recognised by their names.
 std::vector<std::filesystem::path> crowd_sheets(const CrowdDirectory& directory);
 
-/// The files made together with the sheets: pictures of heads and founders, and the gallery except
+/// The files made together with the sheets: images of heads and founders, and the gallery except
 /// for the meshes of faces.
 /// \throws IoError if a folder cannot be read.
 std::vector<std::filesystem::path> files_beside_sheets(const CrowdDirectory& directory);
@@ -162,7 +164,7 @@ void require_crowd(const CrowdDirectory& directory);
 
 enum class Replace { kRefuse, kForce };
 
-/// The configuration that distinguishes one crowd's folder from another's.
+/// A crowd's config as it is compared with the config.yaml in a folder.
 struct CrowdConfig {
   std::string text;                  ///< content to write to config.yaml
   std::vector<std::string> reviews;  ///< content of each review file
@@ -170,7 +172,7 @@ struct CrowdConfig {
   std::function<std::vector<std::string>(const std::string& other)> differences;
   /// #reviews: the content of each review file when this run read it
   std::vector<std::string> original_reviews = {};
-  /// Whether the reviews in the folder are moved into a folder that is named after the date.
+  /// Whether to rename the folder of reviews to a name with the date.
   bool without_kept_reviews = false;
 };
 

@@ -15,7 +15,7 @@ namespace crowdface {
 /// each other.
 class CrowdLock {
  public:
-  /// Creates the folder if necessary, waits for the lock and reports the wait. Then removes files
+  /// Creates the folder if necessary, waits for the lock and logs that it waits. Then removes files
   /// that killed runs left half written.
   /// \throws CannotCreate, IoError, Interrupted.
   CrowdLock(const CrowdDirectory& directory, const Shard& shard);

@@ -49,7 +49,7 @@ void for_each_line_of(const fs::path& path, const Use& use) {
 }
 
 /// Ids of faces that have a line in any ledger. Does not check the lines; runs that continue or
-/// gather the crowd do.
+/// gather the crowd check them.
 std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory) {
   std::unordered_set<std::string> ids;
   for (const fs::path& path : directory.ledgers()) {
@@ -61,7 +61,8 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
   return ids;
 }
 
-/// Number of shards of the last submission; 1 if the crowd was not sharded.
+/// Number of shards of the last submission to a farm, or else the number in the shards' file names;
+/// 1 if there are no shards.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
   const auto job = parse_shallow_json(text_of(directory.task_folder() / "job.json"));
   if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {

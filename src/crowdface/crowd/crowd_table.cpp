@@ -86,7 +86,7 @@ void add_neck_colours(const std::vector<FacePlan>& crowd,
       {"neck_srgb", [=](const FacePlan& face) { return hex_of_light(colour(face)); }});
 }
 
-/// By id: the families that a face is a parent of, with its role.
+/// By face id: the families that the face is a parent of, and its role in each, by family.
 using Parenthood = std::map<std::string, std::map<std::string, std::string>>;
 
 Parenthood parenthood_in(const std::vector<FacePlan>& crowd) {
@@ -109,7 +109,7 @@ std::string family_of(const FacePlan& face, const Parenthood& parenthood) {
   return join(families, ";");
 }
 
-/// Such as "child;mother" for a child of one family that is the mother of another family.
+/// Role of a member whose family has no parents. family_role returns, for example, "child;mother".
 constexpr const char* kMember = "member";
 
 std::string family_role(const FacePlan& face, const Parenthood& parenthood) {

@@ -23,7 +23,7 @@ struct TableFacts {
 };
 
 /// The text of crowd.csv: the crowd as a flat table (RFC 4180) for spreadsheets, one line for each
-/// face. The table depends on plan and heads only, so every run over a whole crowd writes it. All
+/// face. The table needs only plan and heads, so every run over a whole crowd can write it. All
 /// arguments except `facts` must outlive the text.
 /// \param neck_colours  #crowd, linear light of the skin above the neck's ring; or empty
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,

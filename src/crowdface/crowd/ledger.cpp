@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Item of the last line in a finished crowd's ledger; its key is the hash of all other lines.
+/// Item name of the last line in a finished crowd's ledger; the key in this line is the hash of all
+/// other lines.
 constexpr const char* kEndItem = "end";
 constexpr std::string_view kSum = R"(,"sum":")", kEnd = R"("})";
 
@@ -252,7 +253,8 @@ std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>&
   std::vector<LedgerEntry::File> files;
   try {
     for (const std::string& name : names) files.push_back({name, hash_file(root_ / name)});
-    // This run has just written the file, so a missing file is not the user's error.
+    // This run has just written the file, so report a missing file as IoError, not as missing
+    // input.
   } catch (const MissingInput& error) {
     throw IoError(error.what());
   }

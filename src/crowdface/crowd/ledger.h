@@ -46,8 +46,8 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
   std::size_t damaged = 0;  ///< number of invalid lines
-  /// Whether a run finished, all its lines still exist, and they list as many files of each kind as
-  /// the run counted.
+  /// Whether a run finished, the ledger still has all lines of this run, and the lines list as many
+  /// files of each kind as the run counted.
   bool complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
@@ -73,8 +73,8 @@ class Ledger {
   /// unfinished.
   /// \param own     the ledger to append to; created if it does not exist.
   /// \param others  ledgers of other runs, which are only read. If several ledgers list an item,
-  ///                any of their lines may prove that the item is finished: the order of the lines
-  ///                in time is unknown, so none takes precedence.
+  ///                any of the lines may prove that the item is finished. No line takes precedence,
+  ///                because their order in time is unknown.
   Ledger(std::filesystem::path root, const std::filesystem::path& own,
          const std::vector<std::filesystem::path>& others);
 
@@ -90,11 +90,12 @@ class Ledger {
   /// \param names  paths relative to the folder.
   void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
 
-  /// Writes and records a file whose key is its content. Does not write if the file exists with
-  /// this content.
+  /// Writes and records a file; its ledger key is the hash of its content. Does not write if the
+  /// file exists with this content.
   FileDigest write(const std::string& name, const TextPieces& text);
   FileDigest write(const std::string& name, std::string_view bytes);
-  /// Records an existing, correct file whose key is its content.
+  /// Records a file that already exists with the right content; its ledger key is the hash of its
+  /// content.
   void keep(const LedgerEntry::File& file);
 
   /// Records files that were made again, possibly in a format that the config does not ask for.

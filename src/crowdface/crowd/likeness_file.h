@@ -18,7 +18,7 @@ struct CrowdLikeness {
 };
 
 /// Computes the data of a crowd that was just cast. Rounds distances to four decimals, as the file
-/// does, so that pictures made from the file are the same.
+/// does, so that sheets made from the file are the same.
 /// \param points  #faces.
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points);

@@ -125,7 +125,7 @@ class LineReader {
     return values;
   }
 
-  /// Reads and checks a name that is used in the file names of pictures and meshes.
+  /// Reads and checks a name that is used in the file names of images and meshes.
   std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
     std::string name = text(json, key);
     if (!is_name(name, longest)) {

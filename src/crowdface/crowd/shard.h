@@ -28,8 +28,8 @@ std::optional<Shard> parse_shard(std::string_view text);
 /// Parses a name such as "2of7", with the same limits.
 std::optional<Shard> shard_of_name(std::string name);
 
-/// The shard's version of a crowd's file: "ledger-2of7.jsonl" for "ledger.jsonl". Returns `path`
-/// itself if the shard is the whole crowd.
+/// The shard's own file in place of a file of the crowd: "ledger-2of7.jsonl" for "ledger.jsonl".
+/// Returns `path` itself if the shard is the whole crowd.
 std::filesystem::path of_shard(const std::filesystem::path& path, const Shard& shard);
 /// The existing files of all shards that belong to `path`, sorted by name.
 std::vector<std::filesystem::path> of_all_shards(const std::filesystem::path& path);

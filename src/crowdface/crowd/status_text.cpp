@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A shard without any write for longer than this may have been killed.
+/// A shard that has written nothing for longer than this may have been killed.
 constexpr double kSilentSeconds = 60;
 
 std::string percent(std::uint64_t done, std::uint64_t faces) {

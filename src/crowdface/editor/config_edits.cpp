@@ -60,7 +60,8 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
   fs::path file = config.parent_path() / name;
 
   YamlNode edits;
-  // A file that the config does not name yet may contain the edits of an editor that was killed.
+  // If the config does not name the file yet, the file may still exist: an editor may have been
+  // killed after writing it.
   if (named != nullptr || path_exists(file)) edits = parsed(read_file(file), file.string());
   change(edits);
   const std::string text = text_of(edits);

@@ -23,7 +23,7 @@ namespace {
   try {
     where = read_file(address);
     // The file belongs to another user, or the other editor has just started and has not written
-    // it.
+    // the file yet.
   } catch (const RecoverableError&) {
   }
   throw UsageError(concat(folder.parent_path().string(),
@@ -60,7 +60,7 @@ class EditorLock {
   FileLock lock_;
 };
 
-/// The command line that makes the faces of the job as it was when opened.
+/// The command line that makes the faces of the job in the state in which the editor opened it.
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
                                             const EditOptions& options) {
   std::vector<std::string> arguments = {"generate", config.file.string(), "--cache",

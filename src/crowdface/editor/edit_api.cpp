@@ -164,7 +164,8 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   return json_answer({{"recipes", recipes}, {"mm", mm}});
 }
 
-/// The face at which a measurement comes as near to a value as the heads allow, and its measures.
+/// Changes a face so that a measurement comes as near to a value as the heads allow; answers with
+/// the new face and its measures.
 HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
   constexpr double kFarthest = 1e4;
   const Json body = body_of(request);
@@ -176,7 +177,7 @@ HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
   return json_answer(answer);
 }
 
-/// The picture of a face of the crowd on the contact sheets: its views side by side.
+/// The image of a face of the crowd, as on the contact sheets: its views side by side.
 HttpAnswer EditApi::face_picture(const HttpRequest&, const std::string& rest) {
   const std::vector<FacePlan>* crowd = session_.crowd();
   if (crowd == nullptr || std::ranges::find(*crowd, rest, &FacePlan::id) == crowd->end()) {
@@ -295,7 +296,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
 }
 
 /// The face's own skin: {"picture", "normals"} as JPEG files in the layout of the atlas, {"rough",
-/// "colours"} at the preview's vertices, each if faces have it.
+/// "colours"} at the preview's vertices. Omits keys for which faces have no textures.
 HttpAnswer EditApi::skin(const HttpRequest& request, const std::string&) {
   const FacePlan face = face_of(body_of(request));
   BinaryAnswer answer;

@@ -56,7 +56,7 @@ class EditApi {
   Handler begin_drop, drop_bytes, add_heads;
   HttpAnswer painted_masks() const;
   EditedFolder::WriteMesh mesh_writer();
-  /// A path for new masks: earlier masks stay, so that steps can be undone.
+  /// A path for new masks that overwrites no earlier masks, so that steps can be undone.
   std::filesystem::path unused_masks() const;
   void require_masks_of_config() const;
   void require_own_config() const;

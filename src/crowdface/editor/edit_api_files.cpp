@@ -259,7 +259,7 @@ HttpAnswer EditApi::begin_drop(const HttpRequest& request, const std::string&) {
   return json_answer(Json::object());
 }
 
-/// PUT api/dropped/OFFSET/NAME with the bytes of the file from this offset on.
+/// PUT api/dropped/OFFSET/NAME; the body holds the bytes of the file from this offset on.
 HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& rest) {
   const std::size_t slash = std::min(rest.find('/'), rest.size());
   const auto offset = parse_unsigned(std::string_view(rest).substr(0, slash));
@@ -269,7 +269,7 @@ HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& re
 }
 
 /// Adds the dropped heads to the config, or, with {"back": value}, puts earlier edits back. If the
-/// program cannot work with the heads, the config is as it was.
+/// heads cannot be loaded, restores the config.
 HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& rest) {
   require_own_config();
   require_no_run();

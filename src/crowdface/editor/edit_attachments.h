@@ -32,8 +32,8 @@ class EditAttachments {
   /// \param name  see AttachmentLook::name.
   std::optional<std::string> look(const std::string& name) const;
 
-  /// The attachments of a face; nothing while one of them is being bound to the heads for the first
-  /// time, which takes seconds if there are expressions.
+  /// The attachments of a face. Nothing while an attachment is being bound to the heads for the
+  /// first time, which takes seconds if there are expressions.
   /// \param face    the edited face; determines the attachments that are sampled for the face
   /// \param opened  id of the crowd's face from which the edit began, whose attachments the face
   ///                keeps; or empty

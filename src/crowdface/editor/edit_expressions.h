@@ -17,7 +17,7 @@ namespace crowdface {
 /// Expressions of the edited face. Thread-safe.
 class EditExpressions {
  public:
-  /// The displacements of some expressions, each multiplied by its share.
+  /// The displacements of some expressions; each is multiplied by the expression's weight.
   using Moves = std::vector<Displacements>;
 
   /// \param job  must outlive this object.
@@ -25,7 +25,8 @@ class EditExpressions {
 
   /// The names of the expressions.
   std::vector<std::string> names() const;
-  /// How a face moves in an expression. Computes all expressions of the face once.
+  /// The displacements of a face for some expressions. Computes and keeps all expressions of the
+  /// face at the first call.
   /// \param shares     {name: share 0 … 1}; missing expressions are at rest
   /// \param positions  the face at rest
   /// \throws UsageError if a name does not exist or a share is outside its range.

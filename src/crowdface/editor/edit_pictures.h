@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// Pictures for the editor's page. Prepares its resources at the first request. Thread-safe.
+/// Rendered images for the editor's page. Prepares its resources at the first request. Thread-safe.
 class EditPictures {
  public:
   /// \param job  must outlive this object.

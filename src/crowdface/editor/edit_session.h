@@ -34,7 +34,8 @@ Job load_edited_job(const std::filesystem::path& given, ConfigOverrides override
 struct FaceMeasures {
   Index head = 0;  ///< the nearest input head
   double head_mm = 0;
-  /// Distance to this head as built; head_mm ignores all extrapolation if that makes it smaller.
+  /// Distance to this head with the face as built. head_mm is the smaller of this and the distance
+  /// with all extrapolation factors 1.
   double head_as_built_mm = 0;
   /// The nearest face of the crowd other than the face itself and the face it was opened from.
   std::optional<std::size_t> face;
@@ -87,7 +88,8 @@ class EditSession {
   /// All vertex positions of a face, as a saved mesh has them. Fast if the face differs from the
   /// previous face in few regions.
   Positions build(const Recipe& recipe) const;
-  /// Measures a face without its mesh, and therefore does not check for gaps between parts.
+  /// Measures a face from its recipe, without its mesh; therefore does not check gaps between
+  /// parts.
   /// \param opened  id of the crowd's face from which the edit began, or empty
   FaceMeasures measure(const FacePlan& recipe, const std::string& opened = "") const;
   /// \param face  result of `build`
@@ -99,7 +101,8 @@ class EditSession {
   }
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
-  /// The face with weights at which a measurement comes as near to a value as the heads allow; see steer_trait.
+  /// Returns the face with weights changed so that a measurement comes as near to `wanted` as the
+  /// heads allow; see steer_trait.
   /// \param locked  parts that do not change, as in SampleRequest
   /// \throws UsageError if the measurement is not available, or weights cannot be given.
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
@@ -132,7 +135,7 @@ class EditSession {
 
   Job job_;
   TextureAtlas textures_;
-  /// Runs in parallel with the construction of the following members.
+  /// Reduces the mesh on another thread while the following members are constructed.
   std::future<PreviewMesh> reducing_;
   std::optional<std::vector<FacePlan>> crowd_;
   Prepared prepared_;

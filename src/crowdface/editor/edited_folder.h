@@ -55,8 +55,8 @@ class EditedFolder {
   /// or a disk error.
   void finish_saves(const Job& job, const WriteMesh& write);
   /// Writes a mark or a change to review.yaml, in place of the mark or change of the same face; an
-  /// empty change removes it. If the crowd already has the review in this file, begins another one,
-  /// so that nothing applies twice.
+  /// empty change removes it. If the crowd already has the review in this file, begins a new
+  /// review, so that no mark applies twice.
   /// \throws Error if a config would reject the existing review or the result.
   std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
   std::filesystem::path save_change(const Config& config, const FaceChange& change);

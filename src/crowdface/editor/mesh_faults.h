@@ -20,9 +20,9 @@ class MeshFaults {
   /// \param job, builder  must outlive this object.
   MeshFaults(const Job& job, const FaceBuilder& builder) : job_(job), builder_(builder) {}
 
-  /// One sentence for each fault that is visible on the mesh: gums or lining that stand out of the
-  /// skin, and limits of believability. Nothing if the config, or the size of the meshes, excludes
-  /// judging. Takes some tenths of a second.
+  /// One sentence for each fault that is visible on the mesh: gums or lining that protrude through
+  /// the skin, and exceeded limits of believability. Nothing if the config, or the size of the
+  /// meshes, excludes judging. Takes some tenths of a second.
   /// \param face  built from this recipe, #V by 3.
   std::vector<std::string> faults_of(const Recipe& recipe, const Positions& face) const;
 

@@ -24,7 +24,8 @@ bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sourc
 Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                   const CastingOptions& casting, const std::vector<std::string>& heads) {
   Json json;
-  // Empty weights, which a printed normalisation may yield, cannot be written out.
+  // The config has no notation for empty weights, which the normalisation printed in the paper may
+  // yield; write the position.
   if (comes_from_position(band, sources, target, casting) || band.weights.empty()) {
     const PlanePoint at = band.position.value_or(PlanePoint::Zero());
     json["position"] = {at.x(), at.y()};

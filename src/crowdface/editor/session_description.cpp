@@ -241,7 +241,7 @@ std::string EditSession::light() const {
 
 std::string EditSession::head(Index head) const {
   const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
-  // All numbers of a field share one quantisation step, because the page reads them as a texture.
+  // Quantise all numbers of a field with the same step, because the page reads them as a texture.
   std::vector<float> values;
   for (Index p = 0; p < levels.fields.rank; ++p) {
     for (const std::uint32_t vertex : preview_.vertices) {

@@ -52,7 +52,8 @@ PerHead moved(const PerHead& weights, const PerHead& gradient, double step) {
   return projected(std::move(row));
 }
 
-/// The derivative of the measurement along the way from a band's weights to each of its heads alone.
+/// For each head of a band: the derivative of the measurement as the weights move towards this head
+/// alone.
 PerHead gradient_of(const Recipe& recipe, const SteeredBand& band, double value,
                     const std::function<double(const Recipe&)>& measure) {
   constexpr double kStep = 0.05;
@@ -106,7 +107,8 @@ Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double 
       }
       return sum;
     };
-    // The gain grows with the length, so halving finds the length that gives what is missing.
+    // The predicted change of the measurement grows with the step length; bisect for the length
+    // that gives the missing change.
     const double missing = wanted - value;
     double low = 0, high = std::copysign(kLongest / widest, missing);
     for (int i = 0; i < kHalvings && std::abs(gain(high)) > std::abs(missing); ++i) {

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-// Width or height of a head's picture, and of the atlas.
+// Largest width or height of one cell, and of the whole atlas, in texels.
 constexpr int kMaxTexels = 2048, kMaxOfAll = 4096;
 
 std::array<std::uint8_t, 3> colour_texel(const Light& light) {
@@ -62,7 +62,7 @@ TextureCoordinates TextureAtlas::coordinates() const {
   const TextureCoordinates& uvs = inputs_.faces.uvs;
   if (cells_ < 2) return uvs;
   TextureCoordinates placed = TextureCoordinates::Zero(uvs.rows(), 2);
-  // Half a texel, so that the colours of neighbouring cells do not mix.
+  // Inset each cell by half a texel, so that the colours of neighbouring cells do not mix.
   const double margin = 0.5 / cell_px_;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t cell = cell_of_face_[static_cast<std::size_t>(f)];

@@ -11,21 +11,21 @@
 
 namespace crowdface {
 
-/// All pictures of a head's materials and UDIM tiles, combined in one picture, because the page
-/// shows a single picture at a time. The layout is the same for all heads.
+/// The textures of all materials and UDIM tiles of a head, combined in one image, because the page
+/// uses a single texture at a time. The layout is the same for all heads.
 class TextureAtlas {
  public:
   /// \param inputs  must outlive this object
   explicit TextureAtlas(const Inputs& inputs);
 
-  /// Coordinates in the atlas of the heads' texture coordinates, #uvs by 2.
+  /// The heads' texture coordinates converted to atlas coordinates, #uvs by 2.
   TextureCoordinates coordinates() const;
   bool has(Index head) const;
-  /// Texture coordinates of a place in the atlas; only their fractional parts count.
+  /// Converts atlas coordinates to coordinates in a cell; only the fractional parts count.
   Eigen::Vector2f in_cell(const Eigen::Vector2f& uv) const {
     return {uv.x() * static_cast<float>(columns_), uv.y() * static_cast<float>(rows_)};
   }
-  /// Whether a polygon has a place in the atlas.
+  /// Whether the texture of a polygon is in the atlas.
   bool shows(std::uint32_t face) const {
     return !cell_of_face_.empty() && cell_of_face_[face] != TextureLayer::kNone;
   }

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// One thread reads all requests and writes all answers without blocking; a pool of threads computes
-// the answers to complete requests. A slow client, or one that does not know the token, therefore
-// occupies only its own connection.
+// SPDX-License-Identifier: Apache-2.0 One thread reads all requests and writes all answers without
+// blocking; a pool of threads computes the answers to complete requests. A client that is slow or
+// does not know the token therefore occupies only its own connection.
 #include "crowdface/page/local_server.h"
 
 #include <algorithm>
@@ -179,8 +178,8 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
   return std::nullopt;
 }
 
-/// The connection to close for a new client: of the connections that had kMoment for the head of a
-/// request, the connection whose head has been incomplete for the longest time.
+/// The connection to close in favour of a new client: the one that has waited longest for the rest
+/// of its request's head, for more than kMoment.
 std::list<Connection>::iterator LocalServer::State::slowest() {
   auto oldest = connections.end();
   for (auto client = connections.begin(); client != connections.end(); ++client) {

@@ -15,13 +15,14 @@
 namespace crowdface {
 namespace {
 
-/// Largest distance between a found landmark and the template's in the estimated pose.
+/// Largest distance between a found landmark and the same landmark of the template in the estimated
+/// pose.
 constexpr double kFarMm = 25;
-/// Largest distance between a found landmark and the template's, after a fit to all landmarks.
-/// Faces of different people differ by less.
+/// Largest distance between a found landmark and the same landmark of the template, after a fit to
+/// all landmarks. Faces of different people differ by less.
 constexpr double kOffMm = 14;
 /// Uncertainty of found landmarks: twice the errors of 1.3 to 2.4 mm that scripts/measure_wrap.sh
-/// shows, because the errors of neighbouring landmarks are alike.
+/// shows, because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
 
 /// Landmarks of a scan whose head has the axes `axes`; empty if the mesh is not usable as a head
@@ -39,8 +40,8 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
   }
 }
 
-/// Removes the worst landmark, one at a time, until all lie within kOffMm of a similarity fitted to
-/// them.
+/// Repeatedly removes the worst landmark, until a similarity transform fits all remaining landmarks
+/// to within kOffMm.
 void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmarks) {
   while (landmarks.size() > kMinLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));

@@ -148,7 +148,7 @@ std::string_view opening_comments(std::string_view text) {
 }
 
 bool has_more_comments(std::string_view text) {
-  // A quoted name may contain " #" and cause a false positive; the user is then warned needlessly.
+  // Also true if a quoted name contains " #"; the user then gets a needless warning.
   text.remove_prefix(opening_comments(text).size());
   return text.find(" #") != std::string_view::npos || text.find("\n#") != std::string_view::npos ||
          text.starts_with('#');

@@ -31,7 +31,7 @@ bool PickScans::is_picked(std::size_t number) const {
 void PickScans::open(std::size_t number) {
   PickInputs inputs = read_(entries_[number]);
   const std::lock_guard lock(mutex_);
-  // Template landmarks picked for the previous scan are reused for the next.
+  // Use the template landmarks that were picked with the previous scan.
   if (inputs.template_landmarks.empty() && current_ && is_picked(number_)) {
     inputs.template_landmarks = entries_[number_].landmarks;
   }

@@ -17,8 +17,8 @@
 namespace crowdface {
 namespace {
 
-/// Tries all axis-aligned orientations. A scan that stands at an angle is turned by the user or by
-/// its first landmarks.
+/// Tries all axis-aligned orientations. If the scan is tilted, the user turns it, or its first
+/// landmarks determine the rotation.
 PoseHint guess_bearing(const Scan& scan) {
   constexpr std::size_t kEnough = 30000;
   const std::vector<Triangle> reduced = reduce_triangles(scan.triangles, scan.positions, kEnough);

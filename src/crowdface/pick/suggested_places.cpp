@@ -70,7 +70,8 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
 /// Returns the index of the pair whose residual is far larger than the other pairs' residuals, or
 /// residuals.size() if there is no such pair.
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
-  // Corresponding points of two faces differ by about 5 mm after a similarity fit.
+  // Far above the usual residual: corresponding points of two faces differ by about 5 mm after a
+  // fit.
   constexpr double kMinMm = 15, kTimes = 3;
   std::vector<double> sorted;
   std::size_t farthest = residuals.size();
@@ -111,7 +112,7 @@ std::optional<PickedPlace> outermost(const PickableMesh& mesh,
 }
 
 /// Likely template vertices for names that are not picked: the mirror image of a picked landmark,
-/// or else an entry of `proposals`.
+/// otherwise an entry of `proposals`.
 std::map<std::string, PickedPlace> suggest_on_template(
     const std::vector<PickedLandmark>& landmarks, const PickableMesh& mesh,
     const MirrorPlane& plane, const std::map<std::string, std::uint32_t>& proposals) {

@@ -31,7 +31,7 @@ PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
   const auto material_of_triangle = [&](const Triangle& t) { return split.corners[t[0]].material; };
   PreviewMesh mesh;
   std::vector<std::uint32_t> number(split.corners.size(), kNoIndex);
-  // For each vertex of the whole mesh: its first index.
+  // For each vertex of the whole mesh: its first index in `mesh.vertices`.
   std::map<std::uint32_t, std::uint32_t> first;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (t == 0 || material_of_triangle(triangles[t]) != material_of_triangle(triangles[t - 1])) {

@@ -12,10 +12,10 @@ namespace crowdface {
 /// Whether simplification may remove vertices of open borders.
 enum class Borders { kCollapse, kKeep };
 
-/// Collapses edges until at most `most` triangles are left, those with the least error first
-/// (quadric error metrics, Garland & Heckbert 1997, by meshoptimizer). Edges of open borders, and
-/// of seams (borders where several vertices share one position), collapse along the border only. If
-/// these constraints block further collapses, more than `most` triangles remain.
+/// Collapses edges in order of increasing error, until at most `most` triangles are left (quadric
+/// error metrics, Garland & Heckbert 1997, by meshoptimizer). Edges of open borders, and of seams
+/// (borders where several vertices share one position), collapse along the border only. If these
+/// constraints block further collapses, more than `most` triangles remain.
 /// \param positions  #V by 3, finite.
 /// \param borders    whether vertices of open borders may be removed.
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,

@@ -32,7 +32,8 @@ std::vector<std::uint32_t> first_of_equal(const TextureCoordinates& uvs) {
   return first;
 }
 
-/// The texture tile that contains the mean coordinate of a face; (0, 0) if a corner lacks one.
+/// The texture tile that contains the mean coordinate of a face; (0, 0) if a corner has no
+/// coordinate.
 std::array<double, 2> tile_of(std::span<const std::uint32_t> corners,
                               const TextureCoordinates& uvs) {
   Eigen::RowVector2d sum(0, 0);

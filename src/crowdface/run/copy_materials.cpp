@@ -90,8 +90,8 @@ class MaterialCopies {
     }
   }
 
-  /// \param told  earlier warnings. They are not repeated, even if the earlier warning lists more
-  ///   heads.
+  /// \param told  earlier warnings. The result omits them, even if this object has found the
+  ///   problem in more heads.
   std::vector<std::string> warnings(const std::vector<std::string>& told) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {

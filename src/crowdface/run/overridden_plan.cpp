@@ -169,8 +169,8 @@ class OverriddenPlan {
     not_in_group_.add(face.id, concat(target, ", ", *face.group));
   }
 
-  /// Finds the keys of the config's `changes` entry for a face that a later change in a review
-  /// overrides.
+  /// Finds keys that the config's `changes` set for a face and that a review's later change sets to
+  /// another value.
   void find_replaced(const FaceChange& later) {
     for (const FaceChange& change : config_.changes) {
       if (change.id != later.id) continue;
