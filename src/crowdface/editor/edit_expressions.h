@@ -25,8 +25,8 @@ class EditExpressions {
 
   /// The names of the expressions.
   std::vector<std::string> names() const;
-  /// The displacements of a face for some expressions. Computes and keeps all expressions of the
-  /// face at the first call.
+  /// The displacements of a face for some expressions. Computes all expressions of a face at once
+  /// and keeps them until the face changes.
   /// \param shares     {name: share 0 … 1}; missing expressions are at rest
   /// \param positions  the face at rest
   /// \throws UsageError if a name does not exist or a share is outside its range.

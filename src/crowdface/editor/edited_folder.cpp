@@ -54,7 +54,7 @@ std::string other_lines(const fs::path& plan, const std::string& id, const PlanN
   return lines;
 }
 
-/// Restores the former lines of a plan; ignores write errors.
+/// Restores the former lines of a plan; only logs a write error.
 void take_back(const fs::path& plan, const std::string& lines) {
   try {
     write_file(plan, lines);
