@@ -23,7 +23,7 @@ struct AttachmentOptions {
   /// By kind, name or colour of items: fraction of each group's sampled faces that wear such an
   /// item. A kind has either a quota of its own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
-  std::vector<std::string> heads = {};  ///< names of the heads, because parents may be heads
+  std::vector<std::string> heads = {};  ///< names of the heads; a parent may be a head
   /// By group: fraction of the faces with each named hair colour, before age makes hair grey; the
   /// key "" is for groups without an entry and faces without a group. Children inherit their
   /// parents' colours; other faces without an entry have the colour of their head's tags.

@@ -44,7 +44,7 @@ struct AppliedChange {
 struct ChangedFace {
   FacePlan face;  ///< without colours and attachments
   FaceSpace::Point point;
-  std::vector<AppliedChange> changes = {};             ///< as applied: changes of the config first
+  std::vector<AppliedChange> changes = {};             ///< in order; changes of the config first
   TraitLimits traits = {};                             ///< the limits of all changes
   bool is_other_person = false;                        ///< whether the face was redrawn
   std::shared_ptr<const ChangedFace> variant_of = {};  ///< the face that this is a variant of

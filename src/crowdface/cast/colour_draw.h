@@ -14,7 +14,7 @@ namespace crowdface {
 /// Parameters for choosing colours (textures) at random, independently of shapes.
 struct ColourOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> heads;  ///< names of the heads, because parents may be heads
+  std::vector<std::string> heads;  ///< names of the heads; a parent may be a head
   HeadTags tags;                   ///< #heads, or empty
   /// Tags in which the head that lends colours must agree with the face's typical head. Empty
   /// optional: all tags.

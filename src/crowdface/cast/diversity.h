@@ -60,7 +60,7 @@ struct BelievabilityOptions {
   /// Whether whole meshes are checked in addition to the coarse samples. Except with kJudge, the
   /// check takes place after casting, when the meshes are built, and only adds to the report.
   enum class Meshes {
-    kAuto,  ///< up to 200,000 polygons
+    kAuto,  ///< check whole meshes of up to 200,000 polygons
     kAll,
     kNone,
     /// casting accepts a candidate only after judging its mesh; the report lists the results, too

@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// The part of the head over which the distance between two faces is measured.
 enum class FaceArea {
-  kFront,  ///< the skin in front of the head's middle
+  kFront,  ///< the front half of the skin
   kSkin,   ///< the whole skin, including the back of the head and the neck
 };
 

@@ -21,7 +21,7 @@ struct Nearest {
 
 /// How casting found a face. Meshes do not depend on these notes.
 struct CastingNotes {
-  std::uint32_t attempt = 0;  ///< number of rejected candidates before this face
+  std::uint32_t attempt = 0;  ///< number of earlier, rejected candidates for this face
   std::optional<Nearest> nearest;
   std::optional<std::string> review;  ///< a reviewer's note
   /// Changes of the face, in order: who changed which keys, such as "review 2: age, hair".

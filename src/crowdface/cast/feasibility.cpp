@@ -85,7 +85,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 }
 
 std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge) {
-  constexpr std::uint64_t kBetter = 8;  // with a margin: spread finds twice as many faces at most
+  constexpr std::uint64_t kBetter = 8;  // spread finds at most twice as many faces; 8 adds a margin
   const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {

@@ -19,7 +19,7 @@ namespace crowdface {
 struct HairOptions {
   std::uint64_t seed = 1;
   HeadTags tags;                   ///< #heads
-  std::vector<std::string> heads;  ///< names of the heads, because parents may be heads
+  std::vector<std::string> heads;  ///< names of the heads; a parent may be a head
   std::map<std::string, std::map<std::string, double>> hair_colours;
   std::set<std::string> twins;
 };
@@ -49,9 +49,8 @@ class HairChooser {
   std::map<std::string, std::uint64_t> sizes_;  ///< by entry: its number of faces
   /// by entry: for each of its faces, the index of the named colour, or −1
   std::map<std::string, std::vector<int>> schedules_;
-  std::map<std::string, HairColour> known_;  ///< colours without the grey of age, by face
-  std::map<std::string, HairColour>
-      family_colours_;  ///< by name: colours of families without parents
+  std::map<std::string, HairColour> known_;     ///< colours without the grey of age, by face
+  std::map<std::string, HairColour> family_colours_;  ///< families' colours, by family
 };
 
 }  // namespace crowdface

@@ -6,9 +6,9 @@
 namespace crowdface {
 namespace {
 
-/// Only triangles whose distance on the mean head is within this reach are checked for
-/// intersections.
-constexpr double kReach = 3;  // mm, for each of the two parts
+/// Two triangles are checked for intersection if their bounding boxes on the mean head overlap
+/// after growing by this margin.
+constexpr double kReach = 3;  // mm
 /// Triangles at most this many edges apart are neighbours. Folds between neighbours are detected as
 /// flips.
 constexpr int kNeighbourEdges = 3;

@@ -95,7 +95,7 @@ const auto& weighted_choice(const Things& things, double random, const Weight& w
   return things.back();  // rounding errors: `random` exceeds the sum of the weights
 }
 
-/// Whether faces are mirrored as wholes.
+/// Whether whole faces are mirrored.
 enum class Mirroring {
   kNone,
   kRandom,  ///< half of the faces, at random

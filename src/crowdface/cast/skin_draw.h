@@ -15,7 +15,7 @@ namespace crowdface {
 /// Parameters for choosing the skin colours of children.
 struct SkinOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> heads;  ///< names of the heads, because parents may be heads
+  std::vector<std::string> heads;  ///< names of the heads; a parent may be a head
   HeadTags tags;                   ///< #heads
   std::vector<double> tones;       ///< #heads: mean optical density of the colour textures
   /// Weights of the heads in a face's colours, #heads; they sum to one.

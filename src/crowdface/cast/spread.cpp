@@ -128,7 +128,7 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
     FarthestPoints::Pick pick = points.farthest(kind);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      pool.faces[at].index = index;  // the index of the face that the candidate may become
+      pool.faces[at].index = index;  // index in the crowd if this candidate is picked
       std::optional<Reason> why = judge.check_traits(pool.faces[at]);
       if (!why) why = judge.check_skin(pool.faces[at].recipe);
       if (!why && family_separation.intrudes(pool.points[at])) why = Reason::kFamily;

@@ -61,8 +61,8 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
   return ids;
 }
 
-/// Number of shards of the last submission to a farm, or else the number in the shards' file names;
-/// 1 if there are no shards.
+/// Number of shards of the last submission to a farm, otherwise the number in the shards' file
+/// names; 1 if there are no shards.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
   const auto job = parse_shallow_json(text_of(directory.task_folder() / "job.json"));
   if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {

@@ -280,7 +280,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   const std::string opened = opened_in(body);
   answer.head["worn"] = Json::array();
   const auto worn = placed_.attachments_of(face, opened, chosen, positions, moves);
-  answer.head["bare"] = !worn;  // the page asks again
+  answer.head["bare"] = !worn;  // attachments are still being bound; the page asks again
   for (const PlacedAttachment& one : worn.value_or(std::vector<PlacedAttachment>())) {
     const std::vector<float> places = placed_.points(one);
     const std::string name = one.look().name();

@@ -87,7 +87,7 @@ class EditApi {
   /// Number of sampling attempts so far, so that each request samples different faces.
   std::atomic<std::uint32_t> draws_ = 0;
   std::mutex turns_mutex_;
-  std::map<std::string, std::uint64_t> turns_;  ///< newest turn of each page
+  std::map<std::string, std::uint64_t> turns_;  ///< number of the newest request of each page
 };
 
 }  // namespace crowdface

@@ -44,7 +44,7 @@ struct FaceMeasures {
   struct Trait {
     std::size_t trait = 0;  ///< index into measurements()
     double value = 0, more = 0;
-    double low = 0, high = 0;  ///< least and greatest of the heads
+    double low = 0, high = 0;  ///< smallest and largest value of the heads
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads
   /// One sentence for each limit of the config that the face violates.

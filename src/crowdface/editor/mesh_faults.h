@@ -30,7 +30,7 @@ class MeshFaults {
   /// The faults of a target head itself, which its faces may have too.
   struct Target {
     SkinCheck skin;
-    double parts_mm2;  ///< area of its parts that stands out of the skin
+    double parts_mm2;  ///< area of the head's parts that protrudes through the skin
   };
   std::shared_ptr<const Target> target(Index head) const;
 

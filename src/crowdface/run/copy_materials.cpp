@@ -80,7 +80,7 @@ class MaterialCopies {
         const Dyed& dyed = textures[first + t];
         try {
           encoded[t] = coloured_texture(dyed.neutral, dyed.colour);
-        } catch (const InvalidInput&) {  // pictures and layers warn
+        } catch (const InvalidInput&) {  // other code warns about unreadable textures
           encoded[t] = read_file(dyed.neutral);
         }
       });

@@ -30,7 +30,7 @@ constexpr std::string_view kHead = R"(<!doctype html>
 struct ScanRow {
   std::string name, picture;
   std::string worst;       ///< the feature that agrees least
-  double agreement = 1;    ///< of this feature
+  double agreement = 1;    ///< agreement of this feature with the scan
   double distance_mm = 0;  ///< 95th percentile
   bool has_head = false;
   std::vector<std::string> warnings;

@@ -211,7 +211,7 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
 /// --scan-front.
 std::string likely_causes(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
-  constexpr double kPart = 0.3;  // of the surface
+  constexpr double kPart = 0.3;  // fraction of a head's surface that may be missing
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
   if (picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
   std::string part =

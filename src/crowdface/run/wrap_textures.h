@@ -17,8 +17,8 @@ namespace crowdface {
 /// The files of one wrapped head that have textures.
 struct TextureFiles {
   std::filesystem::path materials;           ///< beside the head
-  std::vector<std::filesystem::path> maps;   ///< #pictures: colours, beside the head
-  std::vector<std::filesystem::path> masks;  ///< #pictures: what was filled, beside the report
+  std::vector<std::filesystem::path> maps;   ///< one colour texture per image
+  std::vector<std::filesystem::path> masks;  ///< masks of filled texels, in the report's folder
 
   /// The paths of all files; none if there are no images.
   std::vector<std::filesystem::path> all() const;
