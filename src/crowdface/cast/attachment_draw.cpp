@@ -333,8 +333,8 @@ class AttachmentDrawing {
     return one && !items.empty() ? items[0]->colour : std::string();
   }
 
-  /// Returns the names of the remaining items, in their order, after each item in turn has removed
-  /// the items that it excludes.
+  /// Removes, for each item in turn, the items that it excludes. Returns the names of the others in
+  /// their order.
   std::vector<std::string> without_excluded(const Items& placed) const {
     std::vector<bool> left(options_.items.size(), false);
     for (const AttachmentItem* item : placed) {

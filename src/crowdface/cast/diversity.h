@@ -75,7 +75,7 @@ struct BelievabilityOptions {
   double max_flipped = 0.003;
   /// fraction of triangles that intersect others where the target's triangles do not
   double max_intersecting = 0.01;
-  /// limit for the gap between the lips minus the largest gap of any head, see SkinContacts
+  /// how much the gap between the lips may exceed the largest gap of any head, see SkinContacts
   double max_gap_mm = 0.5;
   /// Area of skin that may show its back side, in excess of the target's; see skin_check.h.
   double max_exposed_mm2 = 3;

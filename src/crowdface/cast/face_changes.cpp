@@ -265,7 +265,7 @@ class Changing {
 void apply(const CastingOptions& casting, const FaceJudge& judge,
            const std::vector<FaceChange>& changes, const std::string& by, bool first,
            CastingResult& cast) {
-  // A variant is compared with the face without these changes.
+  // Copy the original of each variant before any of these changes is applied.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
     const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;

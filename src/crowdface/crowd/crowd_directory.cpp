@@ -138,7 +138,7 @@ void remove_crowd(const CrowdDirectory& directory) {
 /// Checks each path with a single call, because another run may remove its lock file between two
 /// calls.
 /// \throws CannotCreate if one of the crowd's folders is a file or not writable, or one of its
-///   files is a folder.
+///         files is a folder.
 void refuse_obstacles(const CrowdDirectory& directory) {
   const auto stands_at = [](const fs::path& path) {
     std::error_code error;

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 One thread reads all requests and writes all answers without
-// blocking; a pool of threads computes the answers to complete requests. A client that is slow or
-// does not know the token therefore occupies only its own connection.
+// SPDX-License-Identifier: Apache-2.0
+// One thread reads all requests and writes all answers without blocking; a pool of threads computes
+// the answers to complete requests. A client that is slow or does not know the token therefore
+// occupies only its own connection.
 #include "crowdface/page/local_server.h"
 
 #include <algorithm>

@@ -20,8 +20,8 @@ struct HttpAnswer {
   std::string bytes;
 };
 
-/// An HTTP/1.1 server for one user on this machine, that does not support ranges, chunked encoding
-/// or compression. It listens on 127.0.0.1 only and answers only requests whose path starts with a
+/// An HTTP/1.1 server for one user on this machine. It does not support ranges, chunked encoding or
+/// compression. It listens on 127.0.0.1 only and answers only requests whose path starts with a
 /// random token. It refuses requests from pages of other sites by their Host or Origin header. It
 /// limits the sizes and times of heads and bodies and the number of connections, so a slow client
 /// does not delay others.

@@ -28,8 +28,8 @@ Json to_json(const Quartiles& q) {
           {"max", rounded(q.max)}};
 }
 
-/// Distances from each face to its nearest neighbour, without the key "pairs", because each
-/// distance belongs to one face.
+/// Quartiles of the distances from each face to its nearest neighbour. Without the key "pairs",
+/// because these distances are not over all pairs.
 Json nearest_to_json(const Quartiles& q) {
   Json json = to_json(q);
   if (json.is_object()) json.erase("pairs");

@@ -91,7 +91,7 @@ class MaterialCopies {
   }
 
   /// \param told  earlier warnings. The result omits them, even if this object has found the
-  ///   problem in more heads.
+  ///              problem in more heads.
   std::vector<std::string> warnings(const std::vector<std::string>& told) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {

@@ -24,7 +24,7 @@ struct Rows {
   }
 };
 
-/// Spacing along an axis: the heads' largest extent times 4/3.
+/// Spacing of the faces along an axis: the largest extent of any head along this axis times 4/3.
 double room(const Inputs& inputs, Eigen::Index axis) {
   double most = 0;
   for (const Head& head : inputs.faces.heads) {

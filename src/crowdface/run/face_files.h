@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Lists the files of a face, for building, resuming, `sheet`,
-// `blend` and the report.
+// SPDX-License-Identifier: Apache-2.0
+// Lists the files of a face, for building, resuming, `sheet`, `blend` and the report.
 #pragma once
 
 #include <filesystem>

@@ -11,8 +11,8 @@ namespace crowdface {
 void check_output(const Job& job, Replace replace);
 
 /// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
-/// checks of check_output whose result may have changed since, because of another run. \throws
-/// UsageError, CannotCreate, IoError.
+/// checks of check_output whose result may have changed since, because of another run.
+/// \throws UsageError, CannotCreate, IoError.
 void open_output(const Job& job, Replace replace);
 
 /// \throws UsageError if the folder's crowd was cast from other heads, because it could not be made

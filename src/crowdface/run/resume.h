@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 The steps with which a run continues after an earlier run was
-// stopped.
+// SPDX-License-Identifier: Apache-2.0
+// The steps with which a run continues after an earlier run was stopped.
 #pragma once
 
 #include <cstddef>
