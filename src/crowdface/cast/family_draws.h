@@ -114,7 +114,7 @@ class FamilySampler {
   FacePointIndex kin_, strangers_;  ///< points of relatives, and of all other faces
 };
 
-/// Returns "NAME_FAMILY_01".
+/// Returns the id of a family's member, such as "NAME_FAMILY_01".
 std::string member_id(const std::string& crowd, const std::string& family, int member);
 
 /// Returns the full id of a new parent of a family: "NAME_FAMILY_mother".

@@ -13,7 +13,7 @@ struct PlanNames {
   std::vector<std::string> heads;
   std::vector<std::string> regions;
   std::vector<std::string> bands = {};  ///< empty: detail is one band
-  /// Empty: recipes have no attachments.
+  /// Names of the attachments. Empty: recipes have no attachments.
   std::vector<std::string> attachments = {};
   std::vector<std::string> traits = {};  ///< names of the measurements that a plan records
 };

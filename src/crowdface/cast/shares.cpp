@@ -54,7 +54,7 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
   double total = 0;
   for (const double share : shares) total += share;
   const bool all_taken = total > 1 - kRounding;
-  // Beyond this number of faces, the result of must_serve cannot change (docs/method.md).
+  // `horizon`: looking ahead farther cannot change the result of must_serve (docs/method.md).
   const auto kinds = static_cast<double>(shares.size());
   const std::uint64_t horizon =
       shares.size() <= 1 || all_taken

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// In the order of ShardState.
+/// Names of the states, in the order of ShardState.
 constexpr std::array<std::string_view, 5> kStateNames = {"waiting", "working", "done",
                                                          "interrupted", "failed"};
 

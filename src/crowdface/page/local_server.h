@@ -38,7 +38,7 @@ class LocalServer {
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
 
-  /// "http://127.0.0.1:PORT/TOKEN/".
+  /// The address of the page: "http://127.0.0.1:PORT/TOKEN/".
   const std::string& address() const;
   /// Serves until `stop` returns true; `stop` is called every 100 ms.
   void run(const std::function<bool()>& stop);

@@ -47,7 +47,7 @@ Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
   return rows;
 }
 
-/// "prepend references = @./meshes/ID.usda@".
+/// The text that references a face's layer: "prepend references = @./meshes/ID.usda@".
 std::string reference(const CrowdDirectory& here, const std::string& id, std::size_t level) {
   return concat("prepend references = @./",
                 here.relative(here.mesh(id, MeshFormat::kUsd, suffix_of(level, ""))), "@\n");

@@ -83,7 +83,7 @@ class FaceBuilder {
   const Prepared& prepared_;
   mutable std::once_flag mirror_once_;
   mutable std::shared_ptr<const MirrorMap> mirror_;
-  /// The masks for blending; see regions().
+  /// The masks for blending, which regions() returns.
   RegionWeights regions_;
   std::optional<CrowdBlender> blender_;             ///< empty with `levels: exact`
   std::optional<FaceTurns> turns_;                  ///< empty if all heads have one pose

@@ -94,7 +94,7 @@ struct SharedFiles {
   /// Writes the files below the folder of meshes. \return their paths.
   std::function<std::vector<std::filesystem::path>(const std::filesystem::path& folder)> write;
 };
-/// Nothing if the format needs no shared files.
+/// The shared files of a format; nothing if the format needs none.
 std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
                                         const Inputs& inputs);
 

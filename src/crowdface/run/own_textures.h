@@ -22,7 +22,7 @@ struct OwnTextureFile {
   std::string name;                     ///< path relative to the folder of the face's meshes
   std::size_t picture = 0, format = 0;  ///< indices into OwnTextures::Encoded
 };
-/// Empty if faces have no textures of their own.
+/// The own texture files of the face with this id; empty if faces have no textures of their own.
 std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
                                               const std::string& id);
 
@@ -39,7 +39,7 @@ std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs)
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id);
 
-/// "ID.mtl".
+/// Name of a face's own material file: "ID.mtl".
 std::string material_file_name(const std::string& id);
 
 /// Encodes the textures of faces and makes their material files.
