@@ -16,7 +16,8 @@ namespace {
 // Lengths are fractions of the distance from mouth to eyes. The upper border runs under the brows,
 // the lower border between nose and lips. Blending extends by kSoft to either side of a border, so
 // that a transition is about four centimetres wide. Adjacent bands come from different people,
-// whose surfaces are often a centimetre apart; a narrower transition shows as a ridge.
+// whose surfaces are often a centimetre apart, so that a narrower transition would be visible as a
+// ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
 // How far the ear regions extend beyond the ears (kAroundEar, kBelowEar, kFrontOfEar), how far
 // below the chin the neck begins (kBelowChin), and how wide the soft borders are (kEarSoft,
@@ -28,12 +29,12 @@ constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSof
 // kAbove above the eyes and down to kBelow below the mouth. kMinEar is the smallest distance by
 // which an ear protrudes from the head.
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
-/// A height belongs to an ear if the ear protrudes there by more than this fraction of its maximum
+/// The ear extends over the heights at which it protrudes by more than this fraction of its maximum
 /// protrusion.
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
-/// Weight of the ear region at a point.
+/// Weight of the ear region at a point, 0 … 1.
 double ear_share(const EarBox& ears, double face, double side, double height, double front) {
   const double around = kAroundEar * face, soft = kEarSoft * face;
   const auto inside = [&](double from, double to, double x) {
@@ -68,7 +69,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   const auto breadth_at = [&](const Eigen::Vector3d& p) {
     return std::abs(p.dot(side) - marks.middle);
   };
-  // Half breadth of the head at each height, from the edges of the skin.
+  // Half breadth of the head in each height bin, measured at the edges of the skin mesh.
   std::array<double, kBins> breadth{};
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face_corners = topology.face(f);
@@ -103,13 +104,14 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     at = i;
   }
   if (most < kMinEar * face) return std::nullopt;
-  // Find the range of heights around `at` in which the ears protrude enough.
+  // Find the range of heights around `at` in which the ears protrude by more than kOfMost.
   int bottom = at, top = at;
   while (bottom > 0 && stands_out(bottom - 1) > kOfMost * most) --bottom;
   while (top < kBins - 1 && stands_out(top + 1) > kOfMost * most) ++top;
   EarBox ears{low + bottom * step, low + top * step, std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  // Compute the extent of the ears from front to back and their inner rim from these vertices.
+  // From the vertices at these heights, compute the inner rim of the ears and their extent from
+  // front to back.
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double height = p.dot(axes.up), front = p.dot(axes.front);

@@ -15,7 +15,7 @@
 
 namespace crowdface {
 
-/// Parts of a head that are found from the shape of the head.
+/// Regions of a head that can be computed from the head's shape.
 enum class Band : std::uint8_t {
   kBrow,   ///< brows and above
   kNose,   ///< eyes and nose
@@ -46,7 +46,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
 /// \throws InvalidInput unless the eyes are above the mouth.
 RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, double mouth);
 
-/// Computes weights of soft bands of a head from the head's shape.
+/// Computes the weights of the given bands, with soft borders, from the shape of a head.
 /// \param marks  the result of find_face_marks for this head
 /// \param bands  kBrow, kNose and kMouth, and optionally other bands
 /// \return #V by #bands, not negative; each row sums to one.

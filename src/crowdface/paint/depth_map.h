@@ -11,14 +11,16 @@
 
 namespace crowdface {
 
-/// Depth map of a surface seen from the front: the foremost depth in each square of a grid.
+/// Depth map of a surface seen from the front: the depth of the foremost point in each square of a
+/// grid.
 class DepthMap {
  public:
   /// \param square  edge length of a square
   DepthMap(const Positions& samples, const HeadAxes& axes, double square);
 
-  /// Reduces noise: replaces each depth by the mean of the known depths in three by three squares.
-  /// Also fills empty squares next to the surface. The outermost squares of the grid do not change.
+  /// Reduces noise: replaces each depth by the mean of the known depths in the three by three
+  /// squares around it. Also fills empty squares next to the surface. The outermost squares of the
+  /// grid do not change.
   void soften();
 
   const Eigen::AlignedBox2d& box() const { return box_; }

@@ -201,7 +201,7 @@ class LandmarkSearch {
            best(skin_between(front->at.up, lower->at.up), behind(lower->at, front->at)), reason);
     }
     if (upper && lower) {
-      // The lowest point of the upper lip that is visible from the front. Below this point the skin
+      // The lowest visible point of the upper lip, seen from the front. Below this point the skin
       // recedes into the slit, or turns forward again onto the lower lip.
       std::optional<Hit> rim;
       for (const Hit& hit : skin_between(lower->at.up, upper->at.up, 0.1)) {
@@ -212,8 +212,8 @@ class LandmarkSearch {
       keep("mouth_middle", rim, reason);
     }
     if (front) {
-      // The lower border of the chin: the profile's farthest point in a direction 30° in front of
-      // straight down.
+      // The lower border of the chin: the extreme point of the profile in the direction 30° in
+      // front of straight down.
       keep("chin_lowest",
            best(skin_between(chin - kChinBelow, front->at.up),
                 [](const InHead& p) { return 0.5 * p.front - 0.8660254037844386 * p.up; }),
@@ -242,7 +242,7 @@ class LandmarkSearch {
     }
     return opening;
   }
-  /// The first skin visible from the front on the way from a point in a direction.
+  /// Walks from a point in a direction, and returns the first skin that is visible from the front.
   std::optional<Hit> skin_beside(const InHead& from, double across, double up) const {
     constexpr double kStep = 0.1, kReach = 8;
     for (double way = 0; way <= kReach; way += kStep) {
@@ -319,7 +319,8 @@ class LandmarkSearch {
     return from;
   }
 
-  /// How far in front the skin is at a distance from the symmetry plane, averaged over both sides.
+  /// The front coordinate of the skin at a distance `across` from the symmetry plane, averaged over
+  /// the left and right sides.
   std::optional<double> depth(double across, double up) const {
     const auto left = rays_.from_front(across, up), right = rays_.from_front(-across, up);
     if (!left || !right || !left->is_skin || !right->is_skin) return std::nullopt;
@@ -330,21 +331,21 @@ class LandmarkSearch {
     keep(name + "_right", rays_.from_front(-across, up), reason);
   }
 
-  /// The wings of the nose: between the base and the tip of the nose, the widest place where the
-  /// skin falls off steeply from the wing to the cheek.
+  /// The wings of the nose: between the base and the tip of the nose, the height at which the steep
+  /// slope from wing to cheek is farthest from the symmetry plane.
   void nose_wings() {
     const char* const reason = "the nose has no wings that stand out from the cheeks";
     const auto tip = at("nose_tip"), base = at("nose_base");
     if (!tip || !base) return miss({"nose_wing_left", "nose_wing_right"}, reason);
     constexpr double kFrom = 9, kTo = 25, kStep = 0.25, kSpan = 1, kMinSlope = 0.6;
-    // Beside the wing the cheek is flatter than the wing by this factor.
+    // The slope of the cheek beside the wing is at most kFlatter times the slope of the wing.
     constexpr double kBeside = 4, kFlatter = 0.7;
     const auto slope = [&](double x, double up) {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);
       return inner && outer ? (*inner - *outer) / (2 * kSpan) : 0;
     };
-    // The wings are at the height of the tip of the nose or a little lower. Below the wings, the
-    // fold between cheek and lip is as steep as they are.
+    // The wings are at the height of the tip of the nose or a little lower. Lower down, the fold
+    // between cheek and lip is as steep as the wings and could be mistaken for them.
     constexpr double kLowest = 0.4, kAboveTip = 4;
     double widest = 0, at_height = 0;
     for (double up = base->up + kLowest * (tip->up - base->up); up <= tip->up + kAboveTip;
@@ -362,7 +363,8 @@ class LandmarkSearch {
     keep_pair("nose_wing", widest, at_height, reason);
   }
 
-  /// The corners of the mouth: the groove between the lips is followed outwards until it is shallow.
+  /// Finds the corners of the mouth: follows the groove between the lips outwards until the groove
+  /// is shallow.
   void mouth_corners() {
     constexpr double kFrom = 4, kTo = 42, kStep = 0.5, kWander = 1.2, kLip = 3.5;
     constexpr double kShallow = 0.3;  // as a fraction of the groove's median depth
@@ -395,7 +397,8 @@ class LandmarkSearch {
     keep_pair("mouth", end->across, end->up, reason);
   }
 
-  /// A landmark of the outline: the places on both sides where the head is widest.
+  /// Finds a pair of landmarks on the outline: the points on both sides at which the head is
+  /// widest.
   /// \param from, to  range of heights and of depths to search
   void widest(const std::string& name, const InHead& from, const InHead& to, const char* reason) {
     constexpr double kStep = 1;
@@ -424,7 +427,8 @@ class LandmarkSearch {
       return miss({"cheek_left", "cheek_right", "jaw_left", "jaw_right"}, reason);
     }
     const double eyes = height(marks_.eyes);
-    // Where the face ends at the ears; without ears about 95 mm behind the tip of the nose.
+    // The front coordinate at which the face ends: at the ears, or without ears about 95 mm behind
+    // the tip of the nose.
     const double back = ears ? ears->front / mm_ + kBeforeEar : base->front - 80;
     const double front = outer ? outer->front - kBehindEyes : base->front - 30;
     widest("cheek", {0, base->up, back}, {0, eyes - kBelowEyes, front}, reason);

@@ -18,12 +18,12 @@ struct FaceLandmarks {
   std::map<std::string, std::string> missing;  ///< reasons, as phrases
 };
 
-/// Finds the landmarks of Farkas' measurements (docs/traits.md) on a head by its shape: the profile
-/// in the symmetry plane, the visible parts of the eyeballs, the relief of nose and mouth seen from
-/// the front, and the outline seen from the sides. Left and right are searched together, at the
-/// same heights and depths.
+/// Finds the landmarks of Farkas' measurements (docs/traits.md) on a head from these parts of its
+/// shape: the profile in the symmetry plane, the visible parts of the eyeballs, the relief of nose
+/// and mouth seen from the front, and the outline seen from the sides. Left and right are searched
+/// together, at the same heights and depths.
 /// \param head  usually the mean head
-/// \param face  where the face is on the head
+/// \param face  position of the face on the head
 FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
                                   const PartList& parts, const HeadShape& head,
                                   const ReliefMatch& face);

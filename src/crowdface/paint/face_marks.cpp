@@ -19,8 +19,8 @@ namespace {
 
 constexpr Index kHeights = 720;
 
-/// Profile of the skin near the symmetry plane: how far in front the skin reaches at each of
-/// kHeights heights.
+/// Profile of the skin near the symmetry plane: the front coordinate of the foremost skin at each
+/// of kHeights heights.
 class Outline {
  public:
   /// \param mm  a millimetre on a face of average size, in the unit of the positions
@@ -37,7 +37,7 @@ class Outline {
     step_ = (high - low_) / static_cast<double>(kHeights - 1);
     front_.assign(kHeights, kNothing);
     if (!(step_ > 0)) return;
-    // Take the median of several parallel planes, so that small holes and noise have no effect.
+    // Take the median over several parallel planes, so that small holes and noise have no effect.
     constexpr std::array<double, 5> kBesideMm = {-6, -3, 0, 3, 6};
     std::array<std::vector<double>, kBesideMm.size()> fronts;
     for (std::size_t i = 0; i < fronts.size(); ++i) {
@@ -111,7 +111,7 @@ class Outline {
     for (Index f = 0; f < topology.face_count(); ++f) {
       const auto face = topology.face(f);
       if (!skin[face[0]]) continue;
-      // Height and front of the points where edges cross the plane.
+      // Height and front coordinate of the points at which edges cross the plane.
       std::vector<Eigen::Vector2d> cut;
       for (std::size_t c = 0; c < face.size(); ++c) {
         const Eigen::Vector3d a = row3(positions, face[c]);
@@ -173,7 +173,8 @@ class Outline {
 constexpr double kSlitMm = 11;  ///< an open mouth is a narrower hollow
 constexpr double kBridgeMm = 5, kTipMm = -34;
 constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
-/// Half widths of the bridge's hollow, of the mouth's hollow and of the chin.
+/// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
+/// the lips and of the chin.
 constexpr double kBridgeWayMm = 15, kLipWayMm = 5, kChinWayMm = 10;
 constexpr double kPriorMm = 3;  ///< penalty at the end of the search range
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;

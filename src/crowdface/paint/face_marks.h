@@ -35,7 +35,7 @@ struct HeadShape {
 /// Returns the shape of the mean of all heads.
 HeadShape shape_of_mean(const HeadSet& faces);
 
-/// Position of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
+/// Offset of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
 double symmetry_offset(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
 
 /// Finds the face on a head by its relief, see match_relief.
@@ -64,11 +64,12 @@ std::vector<Orientation> all_orientations();  ///< the 24 axis-aligned orientati
 /// \return nothing if no orientation shows a face.
 std::optional<Orientation> find_orientation(const Topology& topology, const HeadShape& head);
 
-/// A message if the mesh has the relief of a face but edges too long to show the face; else
-/// nothing.
+/// Returns a message if the mesh has the relief of a face, but its edges are too long to represent
+/// the features of a face; otherwise nothing.
 std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
                                                      const HeadShape& head, const HeadAxes& axes);
-/// Message why `find_face` finds nothing: other axes, edges that are too long, or no face.
+/// Explains why `find_face` found nothing: the axes are wrong, edges are too long, or there is no
+/// face.
 std::string reason_of_no_face(const Topology& topology, const HeadShape& head,
                               const HeadAxes& axes);
 

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// A position of the relief on the surface, and the agreement there.
+/// A candidate position of the face on the surface, with its agreement.
 struct Candidate {
   double across = 0, height = 0, scale = 1, stretch = 1;
   ReliefFit fit;
@@ -47,8 +47,8 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
 
 constexpr double kVoteOfEyes = 0.15;
 
-/// Compares the known eyeballs with the positions of the eyes in a match: 1 if they agree, −1 if
-/// not, 0 if there are no eyeballs.
+/// Compares the midpoint of the known eyeballs with the point between the eyes of a match: 1 if
+/// they are near each other, −1 if not, 0 if no eyeballs are known.
 int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                  double height, double scale) {
   constexpr double kNearMm = 20;
@@ -86,7 +86,7 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
     const double scale = best.scale;
     const double top = box.max().y() - 0.5 * kReliefTopMm * scale,
                  low = box.min().y() + kReliefTopMm * scale;
-    // All heights, and positions across up to a quarter of the breadth from the middle.
+    // Try all heights, and lateral positions up to a quarter of the breadth from the middle.
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {
       for (int i = -aside; i <= aside; ++i) {
@@ -169,7 +169,7 @@ class Refinement {
     }
   }
 
-  /// Replaces the best match by the same place seen along other axes.
+  /// Replaces the best match by a match at the same position with other axes.
   void restart(const ReliefMatch& match, const HeadAxes& axes) {
     ReliefMatch next = match;
     next.frame = axes;
@@ -359,7 +359,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
   constexpr std::size_t kRefined = 6;
-  // step width is larger in the rotated views, because there are many
+  // factor on the step width in the rotated views, because there are many
   constexpr double kCoarser = 1.5;
   constexpr double kTurn = 25;  // rotation of the rotated views, in degrees
   // A face within this angle in degrees counts as aligned with the axes.
@@ -390,7 +390,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
-    // Find the requested axes nearest to the axes of the face.
+    // Of the requested axes, choose the axes nearest to those of the face.
     match.view = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -

@@ -19,7 +19,7 @@ inline constexpr Index kSkinSamples = 150'000;
 Positions sample_skin(const Topology& topology, const Positions& positions,
                       const std::vector<bool>& skin, Index count);
 
-/// Where on a surface the relief of a face was found, and how well it matches.
+/// Position, size and orientation of a face found on a surface, and how well its relief matches.
 struct ReliefMatch {
   /// Partial correlation between the depths of the surface and the depths of the mean face, after
   /// an offset, slopes and curvatures are removed from both surfaces. 1 for the mean face itself,
@@ -32,8 +32,8 @@ struct ReliefMatch {
   std::size_t view = 0;
   double degrees_off = 0;  ///< angle between the nearest requested axes and the face's axes
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
-  /// Axes in which the face is symmetric and as upright as the mean face. A small rotation from the
-  /// requested axes comes from the posture and form of the face; `axes` ignores it.
+  /// Axes of the face: in these axes the face is symmetric and as upright as the mean face. Small
+  /// rotations from the requested axes are due to the posture and shape of the face.
   HeadAxes frame;
   Eigen::Vector3d between_eyes;  ///< point on the surface between the eyes
   double scale = 1;    ///< horizontal: units of the positions per millimetre of the mean face

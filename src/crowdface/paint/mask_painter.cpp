@@ -19,7 +19,7 @@ using Alpha = RegionWeights::Alpha;
 constexpr double kSmoothReach = 0.25, kGrowReach = 0.125;
 constexpr int kMaxRounds = 400;
 
-/// A vertex under the brush.
+/// A vertex under the brush, and the strength of the brush there.
 struct Touched {
   std::uint32_t vertex;
   double strength;
@@ -89,7 +89,7 @@ int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }
 
-/// Moves the weights of each touched vertex towards the mean of its neighbours.
+/// Moves the weights at each touched vertex towards the mean weights of the vertex's neighbours.
 void smooth_once(const std::vector<Touched>& touched,
                  const CompressedRows<std::uint32_t>& neighbours, Alpha& alpha) {
   Alpha next(static_cast<Index>(touched.size()), alpha.cols());
@@ -204,8 +204,8 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
       unassigned.push_back(static_cast<std::uint32_t>(v));
     }
   }
-  // Fill the vertices that belonged only to the removed region, from the border of this region
-  // inwards.
+  // Give weights to the vertices that belonged only to the removed region, from the border of this
+  // region inwards.
   while (!unassigned.empty()) {
     std::vector<std::uint32_t> left;
     std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;

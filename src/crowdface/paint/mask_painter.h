@@ -44,8 +44,8 @@ class MaskPainter {
   const Alpha& alpha() const { return alpha_; }
   const SurfaceDistance& surface() const { return surface_; }
 
-  /// Applies one brush stroke at several places. Where the places overlap, the largest strength
-  /// counts.
+  /// Applies the brush at several points of the surface. Where the discs of the brush overlap, the
+  /// largest strength applies.
   /// \param continues_stroke  whether the stroke continues the previous stroke, so that one undo
   ///                 reverts both.
   /// \return the vertices that may have changed, ascending.

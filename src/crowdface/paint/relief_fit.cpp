@@ -61,8 +61,8 @@ const Terms& terms() {
 
 using UsedCells = std::bitset<kReliefCells>;
 
-/// A fit over the selected cells. The relief is the last term, so the last row of the Cholesky
-/// factor of the normal matrix yields the part that only the relief explains.
+/// A fit over the selected cells. The relief of the mean face is the last term, so the last row of
+/// the Cholesky factor of the normal matrix yields the variance that only this term explains.
 struct CellFit {
   ReliefFit fit;
   Products factor = Products::Zero();  ///< lower triangle

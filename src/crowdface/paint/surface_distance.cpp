@@ -36,7 +36,7 @@ double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return std::sqrt((c_x - x) * (c_x - x) + (c_y + y) * (c_y + y));
 }
 
-/// Links coinciding boundary vertices of different components in rings.
+/// Links coinciding boundary vertices of different components in cyclic lists.
 std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Positions& positions) {
   std::vector<std::uint32_t> twins(static_cast<std::size_t>(positions.rows()));
   std::iota(twins.begin(), twins.end(), 0U);
@@ -104,8 +104,8 @@ std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::within(
     front.emplace(way, vertex);
   };
   for (const SurfacePoint& place : places) {
-    // Start from all corners of the polygons that contain the triangle of the place, so that quads
-    // count as a whole.
+    // Start from all corners of the polygon that contains the place's triangle, so that both
+    // triangles of a quad are treated alike.
     for (const std::uint32_t f : faces_.of(place.corners[0])) {
       const auto face = topology_.face(f);
       if (!contains(face, place.corners[1]) || !contains(face, place.corners[2])) continue;

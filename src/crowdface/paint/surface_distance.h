@@ -33,8 +33,8 @@ class SurfaceDistance {
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }
-  /// Returns the neighbours of a vertex and of all boundary vertices that coincide with it; the
-  /// list may contain duplicates.
+  /// Returns the neighbours of a vertex and of its twins (see twins_); the list may contain
+  /// duplicates.
   std::vector<std::uint32_t> around(std::uint32_t vertex) const;
 
  private:
@@ -42,8 +42,8 @@ class SurfaceDistance {
   const Positions& positions_;
   Adjacency adjacency_;
   VertexFaces faces_;
-  /// #V: links coinciding boundary vertices of different components in rings; a vertex without a
-  /// twin links to itself.
+  /// #V: the next vertex in the cyclic list of boundary vertices of different components that
+  /// coincide; a vertex without a twin links to itself.
   std::vector<std::uint32_t> twins_;
   PointGrid grid_;
 };

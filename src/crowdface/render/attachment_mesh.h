@@ -21,8 +21,8 @@ struct AttachmentMaterial {
   float share = 1;                              ///< factor on the opacity
 };
 
-/// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Both of its
-/// sides look the same. The mesh may be transparent.
+/// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Front and back
+/// faces look the same. The mesh may be transparent.
 class AttachmentSurface {
  public:
   /// \param uvs        #T by 2, may be empty.

@@ -32,8 +32,8 @@ double turn_degrees(View view) {
   return 0;
 }
 
-/// Vertices above this fraction of the total height belong to heads. The image is centred on these
-/// vertices, so that shoulders do not shift it.
+/// Vertices above this fraction of the mesh's height belong to the head. Only these vertices
+/// determine the centre of the image, so that shoulders do not shift it.
 constexpr double kNeck = 0.45;
 
 Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
@@ -93,7 +93,7 @@ Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3
 /// Returns the height of the throat: the highest slice below the tip of the nose at which the
 /// surface lies at least a quarter of the head's width behind the tip. A chin never lies that far
 /// behind.
-/// \return nothing if the head has no throat, as a mask or a head that ends at its chin.
+/// \return nothing if the mesh shows no throat, for example a mask or a head that ends at its chin.
 std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   constexpr std::size_t kSlices = 32, kLowestNose = 9;
   constexpr double kBehind = 0.25;
@@ -114,8 +114,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
     double& slice = ahead[slice_of(head.row(i).dot(up))];
     slice = std::max(slice, head.row(i).dot(front));
   }
-  // The slice of the tip of the nose. The lowest part is not searched, because the chest of a bust
-  // may be farther in front.
+  // The slice that contains the tip of the nose. The lowest slices are not searched, because the
+  // chest of a bust may protrude farther than the nose.
   const auto nose = static_cast<std::size_t>(
       std::max_element(ahead.begin() + kLowestNose, ahead.end()) - ahead.begin());
   // The width of the head at the nose and above.
@@ -127,7 +127,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   }
   // Search downwards from the nose.
   for (std::size_t s = nose; s-- > 0;) {
-    // Neighbouring slices count too: on a coarse mesh, a slice may have no vertex on the midline.
+    // Take the foremost of three slices, because on a coarse mesh a slice may have no vertex on the
+    // midline.
     const double nearest = std::max({ahead[s], ahead[s + 1], s > 0 ? ahead[s - 1] : kNone});
     if (nearest != kNone && nearest < ahead[nose] - kBehind * (right - left)) {
       return heights.low + static_cast<double>(s) / scale;
@@ -181,7 +182,8 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
     along.add(height, z);
   }
   require(nearest >= furthest, "camera: no vertex to look at");
-  // Put the target half-way through the heads, so that half_extent() is about the size of a head.
+  // Put the point that the camera looks at half-way through the heads, so that half_extent() is
+  // about the size of a head.
   const double middle = (nearest + furthest) / 2;
   const double x = head_across.centre(), y = along.centre();
   camera.target = x * camera.right + y * camera.up + middle * camera.back;

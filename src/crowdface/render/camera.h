@@ -23,7 +23,8 @@ struct Camera {
   double half_tangent = 0.17632698070846498;        ///< tangent of half the field of view
 
   Eigen::Vector3d position() const { return target + distance * back; }
-  /// Half the side of the square that the image shows of the plane through the target.
+  /// Half the side of the square that the image shows in the plane through the target (the point
+  /// that the camera looks at).
   double half_extent() const { return distance * half_tangent; }
 };
 
@@ -37,10 +38,10 @@ struct FramingOptions {
   double field_of_view_degrees = 20;
   double margin = 0.06;  ///< free border on each side, as a fraction of the image's side
   /// Fraction of the height of all heads, from the lowest vertex, that may lie outside the image,
-  /// so that the face of a bust appears larger. Chins always stay visible.
+  /// so that the face of a bust fills more of the image. Chins always stay visible.
   double cut_below = 0;
-  /// Points that must be visible too, such as hair, unless they lie below the visible part of the
-  /// heads.
+  /// Additional points that must be visible, such as points of the hair. Points below the visible
+  /// part of the heads are ignored.
   std::vector<Eigen::Vector3d> extra_points = {};
 };
 

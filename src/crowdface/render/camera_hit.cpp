@@ -57,7 +57,7 @@ Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal
                const Light& slopes) {
   const Quad& quad = stage.quads[primitive];
   const TexturedQuad& textured = stage.uvs[primitive];
-  // Derive the texture axes from the triangle at the first corner; they hold for the whole quad.
+  // Derive the texture axes from the triangle at the first corner, and use them for the whole quad.
   const std::size_t last = quad[2] == quad[3] ? 2 : 3;
   const Vector origin = stage.point(quad[0]);
   const Vector one = stage.point(quad[1]) - origin;
@@ -122,8 +122,8 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   result.may_see_key = faces_key(result.surface.normal, result.surface.kind);
   // Start shadow rays on the smooth surface that the vertex normals imply, which lies above the
   // facets, so that facets do not show at grazing light (Hanika 2021, "Hacking the shadow
-  // terminator"). Skip vertices at sharp edges whose normal faces away from the face, because they
-  // would move the start below the face.
+  // terminator"). At sharp edges a vertex normal may point below the facet; skip such vertices,
+  // because they would move the start below the facet.
   Vector lift = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];

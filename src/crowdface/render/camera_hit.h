@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Shadow rays towards a light: how many reached the light, and how many were traced.
+/// Numbers of shadow rays towards one light: rays that reached the light, and all traced rays.
 struct Visibility {
   float visible = 0;  ///< rays that reached the light
   float traced = 0;   ///< rays traced

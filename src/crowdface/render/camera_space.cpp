@@ -42,7 +42,7 @@ void to_camera(const Positions& positions, const Camera& camera, std::vector<flo
   Eigen::Matrix3d axes;
   axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
   axes /= camera.half_extent();
-  // RayScene appends one number
+  // reserves one more float, which RayScene appends
   points.reserve(static_cast<std::size_t>(positions.rows()) * 3 + 1);
   points.resize(static_cast<std::size_t>(positions.rows()) * 3);
   parallel_blocks(positions.rows(), kVertexBlock, [&](Index begin, Index end) {

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-// Camera space: x right, y up, z towards the camera, origin at the camera's target. The unit is
-// half the side of the image in the plane through the target, so that tolerances do not depend on
+// Camera space: x right, y up, z towards the camera, origin at the point that the camera looks at.
+// One unit is half the side of the image in the plane z = 0, so that tolerances do not depend on
 // the unit of the files.
 
 /// Transforms positions to camera space: x, y, z of each vertex. \throws InvalidInput if a position
@@ -25,7 +25,7 @@ void to_camera(const Positions& positions, const Camera& camera, std::vector<flo
 /// Transforms an axis of the file to a unit vector in camera space.
 Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
 
-/// #V unit vertex normals times `sign`, in single precision, which is enough for rendering.
+/// Returns #V unit vertex normals times `sign`, in single precision.
 /// \param fans    faces around each vertex of the topology.
 /// \param points  positions from to_camera.
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,

@@ -28,7 +28,7 @@ int lines_of(const std::string& label) {
   return 1 + static_cast<int>(std::count(label.begin(), label.end(), '\n'));
 }
 
-/// Draws the lines of a label, the first in the brightest colour.
+/// Draws the lines of a label; the first line has the brightest colour.
 void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& layout, int left,
                 int top) {
   const int line_height = layout.label_height / layout.label_lines;

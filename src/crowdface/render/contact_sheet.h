@@ -11,9 +11,9 @@
 namespace crowdface {
 
 struct SheetCell {
-  /// All images of a sheet have the same size.
+  /// Must have the same size in all cells of a sheet.
   Rgb8Image image;
-  /// Text under the image. Each line shrinks to fit.
+  /// Text under the image. The font size of each line is reduced until the line fits.
   std::string label;
 };
 
@@ -63,15 +63,16 @@ SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOpt
 /// Computes the layout for given cells. \throws InvalidInput also if their images differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
-/// Largest number of rows that a sheet of such cells can have; 0 if not even one row fits.
+/// Largest number of rows that a sheet with cells of this size can have; 0 if not even one row
+/// fits.
 int max_rows(const CellSize& cell, const SheetOptions& options);
 
-/// Draws pictures in a grid, row by row, with a label under each and a header above the grid.
+/// Draws the cells in a grid, row by row, with a label under each and a header above the grid.
 /// \throws InvalidInput like layout_sheet; MissingInput if the font is not installed.
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
-/// Like contact_sheet, for pictures of different heights: each picture goes into the column that is
-/// shortest at that time. Ignores `rows` and `legend` of the options.
+/// Like contact_sheet, for images of different heights: adds each image to the column that is
+/// shortest so far. Ignores `rows` and `legend` of the options.
 Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Scales a picture down by box filtering in linear light.

@@ -13,7 +13,7 @@
 
 namespace crowdface::embree {
 
-/// Whether the rays of a packet have similar directions, which lets Embree trace them faster.
+/// Coherent: the rays of a packet have similar directions; Embree then traces them faster.
 enum class Rays { kIncoherent, kCoherent };
 
 #if CROWDFACE_EMBREE == 4

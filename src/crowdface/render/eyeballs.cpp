@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// A smooth step from 0 to 1 of width 2 · kIrisSoftness, centred at `edge`.
+/// A smooth step from 0 to 1 over the interval `edge` ± kIrisSoftness.
 float beyond(float edge, float x) {
   const float t = std::clamp((x - edge + kIrisSoftness) / (2 * kIrisSoftness), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);

@@ -30,7 +30,7 @@ namespace crowdface {
 
 namespace {
 
-/// Used in place of kRayClearance if occluders are reduced, so that rays start outside the reduced
+/// Replaces kRayClearance if the occluding mesh is reduced, so that rays start outside the reduced
 /// surface.
 constexpr float kReducedClearance = 2e-3F;
 
@@ -43,8 +43,9 @@ struct Workspace {
   std::unique_ptr<RayScene> occluders;
 };
 
-/// Idle workspaces; each is used by one thread at a time. All build their tree for the typical
-/// face, so that pixels do not depend on which workspace renders a face.
+/// Idle workspaces. One thread at a time uses a workspace. Every workspace builds its ray-tracing
+/// tree for the typical face, so that the pixels of a face do not depend on which workspace renders
+/// it.
 class WorkspacePool {
  public:
   std::unique_ptr<Workspace> take() {
@@ -68,7 +69,7 @@ class WorkspacePool {
 struct Occluders {
   std::vector<std::uint32_t> vertices;  ///< vertices of the mesh; empty: all
   std::vector<Quad> quads;              ///< indices into `vertices`; empty: all quads of the mesh
-  /// Positions of the occluding vertices in the typical face; empty: a new scene for each face.
+  /// Positions of the occluding vertices in the typical face. If empty, each face gets a new scene.
   std::vector<float> typical;
 };
 
@@ -120,7 +121,7 @@ struct FaceRenderer::Prepared {
         options(choice),
         sampling(choice.samples_per_side, choice.key_rays, choice.sky_rays) {}
 
-  /// Updates the workspace's scene of occluders to its points.
+  /// Moves the occluders in the workspace's scene to the workspace's points.
   void put_into_scene(Workspace& workspace) const {
     std::vector<float>& points = workspace.occluder_points;
     if (occluders.vertices.empty()) {
@@ -163,7 +164,7 @@ void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, In
   for (const Quad& quad : fan) {
     TexturedQuad textured{static_cast<std::uint32_t>(face), {}};
     for (std::size_t c = 0; c < 4; ++c) {
-      // A face with a corner without coordinates gets no texture.
+      // If a corner of the face has no texture coordinates, the face gets no texture.
       if (quad[c] == kNoIndex) textured.face = TextureSet::kNone;
       if (quad[c] != kNoIndex) textured.uvs[c] = uvs.row(quad[c]).transpose().cast<float>();
     }

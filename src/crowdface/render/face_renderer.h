@@ -17,10 +17,10 @@ namespace crowdface {
 
 struct RenderOptions {
   int size_px = 256;  ///< side of the square image, in pixels
-  /// Antialiasing: samples_per_side² samples at fixed positions in each pixel with edges, and fewer
-  /// samples in other pixels.
+  /// Antialiasing: pixels at edges get samples_per_side² samples at fixed positions; other pixels
+  /// get fewer samples.
   int samples_per_side = 3;
-  /// Rays per pixel towards the key light. Neighbouring pixels share their results.
+  /// Rays per pixel towards the key light. Neighbouring pixels pool the results of their rays.
   int key_rays = 3;
   /// Rays per pixel towards the sky, whose light has no sharp shadows.
   int sky_rays = 2;
@@ -28,10 +28,10 @@ struct RenderOptions {
   Axis front = {2, 1};    ///< viewing direction of the eyes, for painted irises
 };
 
-/// Renders faces of one topology as clay in a portrait studio. Construct once, then render any
-/// number of faces from any thread. On one machine the pixels are reproducible and do not depend on
-/// the thread count. Triangles and quads are drawn as they are, larger polygons as fans around
-/// their first corner; faces with fewer than three corners are skipped.
+/// Renders human faces of one topology in portrait light; without colours and textures they look
+/// like clay. Construct once, then render any number of faces from any thread. On one machine the
+/// pixels are reproducible and do not depend on the thread count. Larger polygons than quads are
+/// drawn as fans around their first corner; polygons with fewer than three corners are skipped.
 class FaceRenderer {
  public:
   /// \param typical  #V by 3, an average face, or null. If given, the ray tracer's tree is built

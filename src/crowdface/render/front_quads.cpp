@@ -107,7 +107,8 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
 /// Tolerance in pixels, larger than the rounding errors of positions.
 constexpr float kBlur = 1e-2F;
 
-/// Bounding boxes of kCount quads in pixels, relative to the rim's corner of the first square.
+/// Bounding boxes of kCount quads in pixels, relative to the upper left corner of the first
+/// square's rim.
 struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
@@ -142,7 +143,7 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   const auto has_middle = [&](auto from, auto to) {
     return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
   };
-  // A square's rim ends 2 · kRim pixels after the start of the next square's rim.
+  // Rims overlap: a square's rim ends 2 · kRim pixels after the start of the next square's rim.
   const auto first_square = [&](auto from) {
     return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRim)), none));
   };

@@ -31,8 +31,8 @@ struct alignas(16) ProjectedVertex {
   float nearness;
 };
 
-/// A quad and its bounding box in pixels, relative to the corner of a square's rim; both ends
-/// inclusive.
+/// A quad and its bounding box in pixels, relative to the upper left corner of a square's rim; both
+/// ends inclusive.
 struct QuadOnPixels {
   std::uint32_t quad;
   std::uint8_t left, top, right, bottom;
@@ -87,7 +87,7 @@ inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1
 
 /// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier quad
 /// stays. The result has the same bits with every instruction set.
-/// \param corner  image pixel at the corner of the square's rim
+/// \param corner  image pixel at the upper left corner of the square's rim
 /// \param pixels  kRimmed² pixels of the square and its rim, row by row
 void rasterize_quads(std::span<const QuadOnPixels> pixel_quads, std::span<const Quad> quads,
                      std::span<const ProjectedVertex> placed, std::array<int, 2> corner,

@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-// Yellow is lightest and red differs in lightness from blue, so that in greyscale the order stays
-// visible on each side of yellow.
+// Lightness rises up to yellow and falls after it, so that the order on each side of yellow stays
+// visible in greyscale.
 constexpr std::array<std::array<float, 3>, 6> kStops = {{{0.16F, 0.22F, 0.56F},
                                                          {0.13F, 0.48F, 0.72F},
                                                          {0.35F, 0.72F, 0.66F},

@@ -14,7 +14,8 @@ float encode_srgb(float linear) {
   return 1.055F * std::pow(std::min(linear, 1.0F), 1 / 2.4F) - 0.055F;
 }
 
-/// Tone curve: identity up to kKnee, compressed above, so that highlights do not clip.
+/// Tone curve: the identity up to kKnee; larger values are compressed so that highlights do not
+/// clip.
 float soft_shoulder(float x) {
   constexpr float kKnee = 0.6F;
   if (x <= kKnee) return x;
@@ -22,7 +23,7 @@ float soft_shoulder(float x) {
   return kKnee + (1 - kKnee) * over / (1 + 0.55F * over);
 }
 
-/// The byte that a screen shows for a linear value.
+/// The 8-bit sRGB value of a linear value.
 int find_byte(float light) {
   return static_cast<int>(std::lround(255 * encode_srgb(soft_shoulder(light))));
 }
@@ -31,8 +32,8 @@ int find_byte(float light) {
 class ByteTable {
  public:
   ByteTable() {
-    // For each byte, bisect for the least value that maps to it. The bit patterns of positive
-    // floats have the same order as their values.
+    // For each byte, find the least float that maps to this byte by bisection. The bit patterns of
+    // positive floats have the same order as their values.
     for (int byte = 1; byte < 256; ++byte) {
       std::uint32_t below = 0, first = std::bit_cast<std::uint32_t>(kWhite);
       while (first - below > 1) {

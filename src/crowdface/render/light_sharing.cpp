@@ -39,8 +39,9 @@ template <bool kInARow>
 void share(const PointLights& points, std::size_t count, const PixelLights& pixels,
            std::size_t pixel, float pixel_side, float* key_shares, float* sky_shares) {
   using Field = PointLights;
-  // The point's own rays get a small extra weight, so that they decide if the point matches none of
-  // the 3 by 3 pixels. If it matches a pixel, that pixel's rays outweigh the extra weight.
+  // The point's own rays get a small weight, so that the result comes from these rays alone if the
+  // point matches none of the 3 by 3 pixels. Otherwise the rays of the matching pixels outweigh
+  // them.
   const Numbers own = number(0.01F);
   const Numbers zero = number(0), one = number(1);
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {

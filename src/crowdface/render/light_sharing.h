@@ -32,7 +32,7 @@ class PixelLights {
       kSquare + 2 + 14;  ///< row length, padded to a multiple of 16
 
   PixelLights() { clear(); }
-  /// Marks all pixels as empty. The normal of an empty pixel is 0, so that share_lights ignores it.
+  /// Marks all pixels as empty: sets their normals to 0, so that share_lights ignores the pixels.
   void clear();
   /// \param x, y  from −1 to kSquare, relative to the square's corner
   static std::size_t index(int x, int y) {

@@ -73,7 +73,7 @@ std::vector<Triangle> split(const std::vector<Quad>& quads) {
 }
 
 /// Embree filter for stochastic transparency (see Ray::opacity_seed): rejects a hit with
-/// probability 1 − opacity. The hash of the primitive makes surfaces behind each other reject
+/// probability 1 − opacity. Hashing the primitive's index makes surfaces behind each other reject
 /// different rays.
 void pass_holes(const RTCFilterFunctionNArguments* met) {
   const Opacity& opacity = *static_cast<const Opacity*>(met->geometryUserPtr);
@@ -186,11 +186,11 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kMovable;
-  // Robust mode avoids gaps along edges. Scenes with kMovable do not need it, because they only
-  // occlude light.
+  // Robust mode avoids gaps along edges. Scenes with kMovable do without robust mode, because they
+  // only cast shadows, where gaps are not visible.
   rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
-  // Embree refits trees only in scenes of low quality. This quality affects only how the trees of
-  // several geometries are joined, and there is one geometry here.
+  // Embree refits trees only in scenes of low build quality. The scene's quality affects only how
+  // the trees of several geometries are joined, and this scene has one geometry.
   if (moves) rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);
   if (!quads.empty()) {
     state.geometry =

@@ -32,9 +32,9 @@ struct Ray {
   Eigen::Vector3f direction;
   float nearest = 0;
   float max_distance = 1e30F;
-  /// Number in 0 … 65535 for stochastic transparency: a surface with opacity α lets rays with a
-  /// fraction 1−α of all numbers through, always the same numbers. The rays of a pixel have evenly
-  /// spread numbers.
+  /// Seed in 0 … 65535 for stochastic transparency: a surface with opacity α lets through the rays
+  /// whose seeds are in a fixed subset, the fraction 1−α of all seeds. The rays of a pixel have
+  /// evenly spread seeds.
   std::uint32_t opacity_seed = 0;
 };
 
@@ -54,8 +54,8 @@ using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 /// Quads for ray queries. Queries are thread-safe; move_points is not.
 class RayScene {
  public:
-  /// kStatic: a tree of high quality. kMovable: a tree that move_points can refit quickly; with
-  /// kMovable, rays may slip between quads, and only `occluded` is available.
+  /// kStatic: a tree of high quality. kMovable: a tree that move_points can refit quickly; rays may
+  /// slip through between quads, and only `occluded` is available.
   enum class Tree { kStatic, kMovable };
 
   /// \param points  x, y, z of each vertex; the scene keeps them.
@@ -73,11 +73,12 @@ class RayScene {
   /// Moves the vertices and refits the tree. At 1.2 million vertices this takes a fifteenth of the
   /// time of building the tree. Tracing stays as fast as before if the new points resemble the
   /// first. The structure of the tree depends only on the first points, not on earlier calls.
-  /// \param points  as many points as before. On return, holds the memory of the previous points.
+  /// \param points  as many points as before. On return, holds the buffer of the previous points,
+  ///   for reuse.
   void move_points(std::vector<float>& points);
 
-  /// The first hit of each ray, if any. Neighbouring rays in the list are traced together, which is
-  /// fast if their directions are similar. Not available with kMovable.
+  /// The first hit of each ray, if any. Consecutive rays are traced together, which is fast if
+  /// their directions are similar. Not available with kMovable.
   std::vector<std::optional<RayHit>> nearest_hits(std::span<const Ray> rays) const;
   /// Whether each ray hits anything.
   std::vector<bool> occluded(std::span<const Ray> rays) const;

@@ -24,7 +24,8 @@ struct Rgb8Image {
   std::uint8_t* at(int x, int y) { return pixels.data() + offset(x, y); }
   const std::uint8_t* at(int x, int y) const { return pixels.data() + offset(x, y); }
   bool operator==(const Rgb8Image&) const = default;
-  /// Copies another image into this one. It must fit completely.
+  /// Copies `other` into this image, with its upper left corner at (left, top). `other` must fit
+  /// completely.
   void paste(const Rgb8Image& other, int left, int top) {
     for (int y = 0; y < other.height; ++y) {
       std::copy_n(other.at(0, y), 3 * other.width, at(left, top + y));

@@ -8,7 +8,8 @@
 namespace crowdface {
 namespace {
 
-/// The binary digits of i mirrored at the point: 1/2, 1/4, 3/4, 1/8 … (van der Corput).
+/// The binary digits of i mirrored at the binary point (van der Corput): 1/2, 1/4, 3/4, 1/8 … for i
+/// = 1, 2, 3, 4 …
 float radical_inverse(int i) {
   float value = 0;
   float digit = 0.5F;

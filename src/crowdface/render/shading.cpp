@@ -46,7 +46,7 @@ HWY_INLINE Numbers wrapped(Numbers cosine, Numbers wrap) {
   return hn::Mul(number(0.5F), hn::Div(hn::Add(square(lit), lit), whole));
 }
 
-/// Visible fraction of the sky including light that bounces inside a crevice, which takes on the
+/// Visible fraction of the sky, increased by light that bounces inside a crevice and takes on the
 /// colour of the surface (fit by Jimenez et al. 2016, "Practical realtime strategies for accurate
 /// indirect occlusion").
 HWY_INLINE Numbers with_bounces(Numbers visible, Numbers albedo) {
@@ -152,10 +152,12 @@ HWY_AFTER_NAMESPACE();
 namespace crowdface {
 namespace {
 
-/// Lower bound of roughness: lamps are points, and a smoother surface would show them as dots.
+/// Lower bound of roughness: the lamps are point lights, which a smoother surface would reflect as
+/// dots.
 constexpr float kMinRoughness = 0.14F;
 
-/// Specular factor for albedos darker than any skin: painted hair has weaker highlights.
+/// Specular factor for an albedo. Albedos darker than any skin are painted hair, which has weaker
+/// highlights.
 float dark_specular(const Light& albedo) {
   constexpr float kDarkestSkin = 0.055F;
   return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);

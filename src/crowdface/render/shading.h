@@ -23,7 +23,7 @@ struct ShadePoint {
 };
 
 /// Radiance from a point in the studio. Diffuse light is wrapped: skin scatters light past the edge
-/// of shadows, red light farthest. Highlights use a microfacet model (Walter et al. 2007).
+/// of shadows, and red light farthest. Highlights use a microfacet model (Walter et al. 2007).
 /// \param specular  factor on the specular reflection.
 Light shade(const ShadePoint& point, float specular = 1);
 

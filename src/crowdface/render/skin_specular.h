@@ -5,8 +5,8 @@
 
 namespace crowdface {
 
-/// Brightness of a face's skin, estimated from its texture: 70th percentile over the texels of the
-/// mean of the channels.
+/// Brightness of a face's skin, estimated from its texture: takes the mean of the channels in each
+/// texel, and returns the 70th percentile over all texels.
 float skin_lightness(const Texture& texture);
 
 /// Factor on the specular reflection of skin with colour `albedo`, at most 1. Texels much darker

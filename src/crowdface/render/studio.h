@@ -31,7 +31,7 @@ struct Studio {
 
 const Studio& studio();
 
-/// Albedo of surfaces of this kind that have no colour of their own.
+/// Default albedo of surfaces of this kind, for surfaces without a colour of their own.
 Light albedo_of(SurfaceKind kind);
 
 /// Whether a surface with this normal reflects any light of the key lamp.

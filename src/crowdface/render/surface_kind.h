@@ -20,7 +20,7 @@ enum class SurfaceKind : std::uint8_t {
   kTeeth,
   kGums,        ///< gums and tongue
   kAttachment,  ///< attachment with colours of its own: hair, glasses
-  /// Not rendered: lashes, tear fluid and shells that would need textures to be transparent.
+  /// Not rendered: lashes, tear fluid, and shells that are transparent only with their textures.
   kHidden,
 };
 

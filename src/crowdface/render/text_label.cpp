@@ -115,7 +115,7 @@ std::u32string characters_of(std::string_view text) {
   return characters;
 }
 
-/// Horizontal extent of a line's ink, in pixels from the start of the pen.
+/// Horizontal extent of a line's visible pixels, relative to the start of the line.
 struct Extent {
   int begin = 0, end = 0;
   int width() const { return end - begin; }
@@ -145,7 +145,7 @@ Extent extent_of(const std::u32string& line, int text_px) {
   return extent;
 }
 
-/// Replaces the middle of a text by "...", keeping as many characters as fit.
+/// Replaces the middle of a line by "..." and keeps as many characters as fit into `width_px`.
 std::u32string shortened(const std::u32string& line, int width_px, int text_px) {
   const auto keep = [&](std::size_t kept) {
     const std::size_t tail = kept / 2;

@@ -22,7 +22,7 @@ Texture shrunk_texture(int width, int height, int max_px,
     for (int y = 0; y < height; ++y) row(y, row_of(y));
     return small;
   }
-  // If the texture's size is not a multiple of the block size, some blocks are one texel larger.
+  // If the source's size is not a multiple of the block size, some blocks are one texel larger.
   const auto begins = [](int count, int of) {
     std::vector<std::size_t> at;
     for (int i = 0; i <= count; ++i) {

@@ -34,7 +34,7 @@ Texture shrunk_texture(int width, int height, int max_px,
 void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 
 /// The texture's colour, interpolated bilinearly between texel centres and clamped at the edges.
-/// Only the fractional part of the coordinates counts, so that every tile shows the same texture.
+/// Uses only the fractional parts of `uv`, so that the texture repeats in every unit square.
 Light colour_at(const Texture& texture, const Eigen::Vector2f& uv);
 
 /// A texture for each face of one head.
@@ -45,8 +45,8 @@ struct TextureLayer {
   std::vector<std::uint32_t> of_face;
 };
 
-/// Colour textures, normal maps and roughness maps of one head. Faces with kNone have the colour of
-/// their surface.
+/// Colour textures, normal maps and roughness maps of one head. Faces with kNone have the default
+/// colour of their surface kind.
 struct TextureSet : TextureLayer {
   /// Slopes of the surface to the right and upwards, from tangent-space normal maps.
   TextureLayer slopes = {};

@@ -23,7 +23,7 @@ using Vector = Eigen::Vector3f;
 constexpr float kSkyReach = 0.55F;  // reach of ambient occlusion
 // Offset of ray origins. Softens shadow edges, as light that enters skin does.
 constexpr float kThickness = 0.012F;
-// Least fraction of the sky's light that hair receives, because hair scatters light.
+// Fraction of the sky's light that even occluded hair receives, because hair scatters light.
 constexpr float kScattered = 0.2F;
 constexpr float kThrough = 0.8F;  // fraction of light that a thin surface transmits
 
@@ -37,11 +37,11 @@ Vector disc_offset(const Vector& axis, const Eigen::Vector2f& disc) {
   return disc.x() * s + disc.y() * t;
 }
 
-/// How the samples of a pixel differ from each other and from the neighbouring pixels' samples: not
-/// at all, only in the normal, or in surface or colour.
+/// How the samples of a pixel differ among themselves and from the samples of neighbouring pixels.
+/// kNone: not at all; kRelief: only in the normal; kEdge: in surface or colour.
 enum class PixelVariation : std::uint8_t { kNone, kRelief, kEdge };
 
-/// One list per field of PointLights, for a row of points.
+/// Storage for PointLights of a row of points: one list per field.
 class PointLists {
  public:
   void resize(std::size_t count) {
@@ -156,7 +156,7 @@ class Tile {
     // Shadow rays.
     trace_key_rays();
     if (stage_.occlusion) trace_sky_rays();
-    // Share the rays between pixels, and shade.
+    // Average the rays over neighbouring pixels, and shade.
     summarize();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
   }
@@ -349,9 +349,9 @@ class Tile {
     add_light_through(memory_.rays, memory_.asking, blocked);
   }
 
-  /// Transmission through attachments, such as a thin lock of hair seen from its dark side: if a
-  /// sky ray is blocked on the visible side, the mirrored ray on the other side adds part of its
-  /// light.
+  /// Transmission through attachments, for example through a thin lock of hair whose visible side
+  /// is dark: if a sky ray is blocked on the visible side, part of the light of the mirrored ray,
+  /// on the other side of the surface, is added.
   void add_light_through(const std::vector<Ray>& rays, const std::vector<CameraHit*>& asking,
                          const std::vector<bool>& blocked) {
     std::vector<Ray> behind;
@@ -419,7 +419,7 @@ class Tile {
     memory_.batch.add(surface, skin_specular(surface.albedo, hit.skin_lightness));
   }
 
-  /// Adds each sample of a pixel whose samples vary to the batch for shading.
+  /// For a pixel whose samples differ: adds each sample to the batch for shading.
   void add_each(std::span<const CameraHit> camera_hits, int x, int y) {
     memory_.points.resize(camera_hits.size());
     for (std::size_t m = 0; m < camera_hits.size(); ++m) put(camera_hits[m], m, memory_.points);

@@ -29,8 +29,8 @@ struct Sampling {
 };
 
 /// Renders one square of an image, independently of the other squares. Each pixel traces a few
-/// shadow rays, in other directions than its neighbours. Pixels that show the same surface share
-/// the results of their rays, which reduces noise.
+/// shadow rays; neighbouring pixels use different directions. The results of the rays are averaged
+/// over neighbouring pixels that show the same surface, which reduces noise.
 /// \param left, top  upper left corner of the square; parts outside the image are skipped.
 void render_tile(const Stage& stage, const Sampling& sampling, int left, int top, Rgb8Image& image);
 

@@ -15,7 +15,7 @@ namespace crowdface {
 /// #V by 3 sRGB colours, each in [0, 1].
 using VertexColours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Colour number k of a palette of distinct colours, repeated cyclically.
+/// Colour k of a palette of distinct colours; the palette repeats cyclically.
 Eigen::Vector3f palette_colour(Eigen::Index k);
 
 /// One colour per region, blended where regions overlap.
@@ -29,9 +29,10 @@ VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha,
 VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
                               const Positions& positions, Axis front);
 
-/// #V by 3: coordinates of eyeball vertices relative to the eyeball's centre, in units of its
-/// radius: two perpendicular to the gaze, the third along the gaze. The coordinates are linear in
-/// the position, so that an iris painted from interpolated coordinates is round on coarse meshes.
+/// #V by 3: position of each eyeball vertex relative to the eyeball's centre, in units of its
+/// radius. Two coordinates are perpendicular to the gaze, the third is along the gaze. The
+/// coordinates are linear functions of the position, so that an iris painted from interpolated
+/// coordinates is round even on a coarse mesh.
 using EyeCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 inline constexpr float kNoEye = -2;  ///< third coordinate of vertices that belong to no eyeball
 

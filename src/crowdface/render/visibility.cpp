@@ -22,7 +22,7 @@ using Vector = Eigen::Vector3f;
 
 constexpr int kRays = 64;  // per vertex
 constexpr std::size_t kVerticesPerBlock = 64;
-// As fractions of the head's largest extent.
+// Lengths as fractions of the head's largest extent.
 constexpr float kReach = 0.3F;
 constexpr float kClearance = 5e-4F;
 

@@ -11,8 +11,8 @@
 namespace crowdface {
 
 /// Ambient visibility of some vertices: the cosine-weighted fraction of the hemisphere above the
-/// surface that is free of obstacles, 0 … 1. It is small between lips, in nostrils and at teeth.
-/// Faces of kind kHidden are not obstacles.
+/// surface that is free of obstacles, 0 … 1. Visibility is small between lips, in nostrils and at
+/// teeth. Faces of kind kHidden are not obstacles.
 /// \param kinds      #F, or empty: all skin.
 /// \param positions  #V by 3, any unit.
 /// \return           one value for each of `vertices`.
