@@ -30,8 +30,8 @@ Texture opacity_texture(const Image& image, int max_px) {
   });
 }
 
-/// Weights colours by opacity, so that the paint of transparent texels does not bleed into visible
-/// edges.
+/// Weights colours by opacity, so that the colours of transparent texels do not bleed into the
+/// visible texels next to them.
 void keep_to_what_is_seen(const Image& image, const LightRows& light, int max_px,
                           const Texture& opacity, Texture& colours) {
   const Texture weighted =

@@ -24,7 +24,8 @@ class AttachmentSurfaces {
 
   /// \param item  attachment of the inputs.
   const AttachmentSurface& at(const Attachment& item) const;
-  /// The attachments of a face, for rendering. The result refers to `placed` and to this object.
+  /// The attachments of a face, for rendering. The result holds references to `placed` and to this
+  /// object.
   std::vector<AttachmentMesh> meshes(const std::vector<PlacedAttachment>& placed) const;
 
  private:
@@ -37,7 +38,7 @@ class AttachmentSurfaces {
   int max_px_;
   bool textured_;
   mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;
-  // Many attachments share the same textures.
+  // A cache by file, because many attachments share the same textures.
   mutable LazyMap<std::filesystem::path, Picture> colour_maps_;
   mutable LazyMap<std::filesystem::path, std::shared_ptr<const Texture>> opacity_maps_;
 };

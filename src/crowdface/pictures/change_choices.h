@@ -7,8 +7,9 @@
 
 namespace crowdface {
 
-/// Adds what a page needs to offer changes of faces: `reviews`, the number of reviews of the crowd;
-/// `hair_colours`, if attachments have a tint; `skins`, if the textures of heads are blended.
+/// Adds the JSON keys that a page needs for offering changes of faces: `reviews`, the number of
+/// reviews of the crowd; `hair_colours`, if attachments have a tint; `skins`, if the textures of
+/// heads are blended.
 void add_change_choices(const Config& config, bool has_textures, nlohmann::ordered_json& json);
 
 }  // namespace crowdface

@@ -19,9 +19,9 @@ namespace {
 /// judging faces.
 constexpr double kCutBelow = 0.22;
 
-/// Extreme points of the attachments on all heads, estimated without fitting the attachments: some
-/// of their vertices are scaled from the bounding box of the head that the attachment was made for
-/// to the bounding box of the other head. This is exact enough for framing.
+/// Extreme points of the attachments on all heads, estimated without fitting the attachments: maps
+/// a sample of their vertices from the bounding box of the head for which the attachment was made
+/// to the bounding box of each other head. This is accurate enough for framing.
 std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
@@ -51,8 +51,8 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
   return reach;
 }
 
-/// For each vertex, the lowest displacement of any shape, because an open jaw reaches below the
-/// neutral head.
+/// For each vertex, the displacement of the shape that moves the vertex lowest, because an open jaw
+/// reaches below the neutral head.
 Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {
@@ -65,7 +65,8 @@ Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   return lowest;
 }
 
-/// Converts vertex colours for rendering; nothing if there are none or if textures cover them.
+/// Converts vertex colours for rendering; nothing if there are no colours or if textures replace
+/// them.
 std::optional<VertexColours> shown_colours(const ColourRows& colours,
                                            const TextureSet* texture_set) {
   constexpr float kMaxByte = 255;
@@ -134,7 +135,7 @@ std::string CrowdRenders::head_script(Index head, std::span<const Displacements>
   const std::optional<TextureSet> texture_set = texture_set_of(head);
   const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
   const auto body = body_of(recipe_of_head(head));
-  // The prefix avoids a clash with a face of the same name.
+  // The prefix "head" distinguishes the script from the script of a face with the same name.
   return gallery_->face_script(concat("head ", name), positions, moves,
                                texture_set ? &*texture_set : nullptr, colours ? &*colours : nullptr,
                                {}, body ? &*body : nullptr);

@@ -23,7 +23,7 @@ namespace crowdface {
 
 class CrowdRenders;
 
-/// A crowd with pictures in its folder. All members must outlive this object.
+/// A crowd whose folder contains rendered images. All referenced objects must outlive this object.
 struct PicturedCrowd {
   const Config& config;  ///< must have contact sheets
   const Inputs& inputs;
@@ -45,7 +45,8 @@ struct FacePictures {
 class CrowdRenders {
  public:
   /// \param inputs    must outlive this object.
-  /// \param textures  paint the body; null: pictures do not show it. Must outlive this object.
+  /// \param textures  provide the body's texture; null: images do not show the body. Must outlive
+  ///   this object.
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                const FaceTextures* textures = nullptr);
 
@@ -74,12 +75,13 @@ class CrowdRenders {
   /// The script of a head for the gallery.
   std::string head_script(Index head, std::span<const Displacements> moves) const;
 
-  /// Textures of a head; nothing if it has none or if textures are not shown.
+  /// Textures of a head; nothing if the head has no textures or if textures are not shown.
   std::optional<TextureSet> texture_set_of(Index head) const;
-  /// Vertex colours of a head; nothing if the head has none or if textures hide them.
+  /// Vertex colours of a head; nothing if the head has no vertex colours or if textures replace
+  /// them.
   std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
-  /// An empty set of textures for a face, to be filled; nothing if faces have no textures of their
-  /// own or if textures are not shown.
+  /// Returns a texture set for a face that the caller fills; nothing if faces have no textures of
+  /// their own or if textures are not shown.
   std::optional<FaceTextureSet> face_texture_set(Index target) const;
   /// Returns a face_texture_set filled with the textures of a face.
   std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,
@@ -88,7 +90,7 @@ class CrowdRenders {
   /// Renders all views of a face side by side, as the bytes of a PNG file.
   std::string render_png(const Positions& positions, const FaceTextures& textures,
                          const Recipe& recipe) const;
-  /// \param head  the head whose textures the face shows, if there are any.
+  /// \param head  the head whose textures the face shows, if the head has any.
   std::string render_png(const Positions& positions, Index head) const;
   /// \param colours  vertex colours; if null, each surface has its own colour.
   /// \param texture_set  textures, or null.
@@ -106,7 +108,7 @@ class CrowdRenders {
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
  private:
-  /// The body's texture for a recipe; nothing if pictures do not show it.
+  /// The body's texture for a recipe; nothing if images do not show the body.
   std::optional<BlendedPicture> body_of(const Recipe& recipe) const;
 
   PicturedMesh mesh_;
@@ -120,7 +122,7 @@ class CrowdRenders {
   const GalleryMeshes* gallery_ = nullptr;
 };
 
-/// Reads a picture from the crowd's folder. \throws MissingInput, InvalidInput.
+/// Reads a rendered image from the crowd's folder. \throws MissingInput, InvalidInput.
 Rgb8Image read_render(const std::filesystem::path& path);
 
 }  // namespace crowdface

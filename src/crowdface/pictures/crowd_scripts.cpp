@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// The gallery's scripts with the recipes of a crowd.
+// SPDX-License-Identifier: Apache-2.0 Writes the gallery's scripts, which contain the recipes of a
+// crowd.
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 /// Largest number of faces in the plane view if the recipes are split into several scripts.
 constexpr std::size_t kMaxOnPlane = 2000;
 
-/// All data except the faces.
+/// All data of the crowd's script except the faces.
 Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
                     const std::vector<std::vector<double>>& head_traits, bool has_textures) {
   const PlanNames names = config.plan_names();
@@ -79,7 +79,7 @@ Json whole_crowd(Json json, const std::vector<FacePlan>& crowd, const PlanNames&
   return json;
 }
 
-/// "[a,b,…]" with of(i) for each face i.
+/// Returns the JSON array [of(0), of(1), …] over all faces.
 template <class Of>
 std::string list_of(std::size_t faces, const Of& of) {
   std::string text = "[";
@@ -87,7 +87,8 @@ std::string list_of(std::size_t faces, const Of& of) {
   return text + ']';
 }
 
-/// {"12":…} with of(face) for each face, keyed by index. Faces whose value is null are omitted.
+/// Returns the JSON object {"0": of(face 0), "1": of(face 1), …}, keyed by the index of the face,
+/// without faces whose value is null.
 template <class Of>
 Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
   Json json = Json::object();
@@ -156,7 +157,7 @@ std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
                        ",\n\"note\":", notes.dump(), '}');
 }
 
-/// The recipes and nearest faces of the faces [begin, end).
+/// A script with the recipes of the faces [begin, end) and the nearest faces of each.
 std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, std::size_t end,
                         std::size_t page, const PlanNames& names, const Digest& settings,
                         const Likeness& likeness) {
@@ -169,7 +170,7 @@ std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, s
                 ");\n");
 }
 
-/// A regular sample of at most kMaxOnPlane faces for the plane view.
+/// Evenly spaced faces, at most kMaxOnPlane, for the plane view.
 Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const Digest& settings) {
   Json json = Json::object();
   const std::size_t step = (crowd.size() + kMaxOnPlane - 1) / kMaxOnPlane;

@@ -9,13 +9,13 @@
 namespace crowdface {
 namespace {
 
-/// Points that divide edges between rows of numbers, one for each edge.
+/// New points on edges, interpolated between the rows of both ends; at most one point per edge.
 template <class Rows>
 class EdgePoints {
  public:
   explicit EdgePoints(const Rows& rows) : rows_(rows) {}
 
-  /// \return the row of the point in `all()`.
+  /// \return the row of the new point in `all()`.
   std::uint32_t at(std::uint32_t from, std::uint32_t to, double share) {
     if (from > to) {  // the same bits in both directions
       std::swap(from, to);
@@ -27,7 +27,7 @@ class EdgePoints {
     if (is_new) points_.push_back((1 - share) * rows_.row(from) + share * rows_.row(to));
     return found->second;
   }
-  /// The rows, then the points.
+  /// The original rows, followed by the new points.
   Rows all() const {
     Rows all(rows_.rows() + static_cast<Index>(points_.size()), rows_.cols());
     all.topRows(rows_.rows()) = rows_;

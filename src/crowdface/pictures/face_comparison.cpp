@@ -38,7 +38,7 @@ MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
 }
 
-/// The folder of a crowd, with the layout that its config file states.
+/// The folder of another crowd, with the folder layout that the config file in it states.
 CrowdDirectory crowd_at(const std::filesystem::path& folder) {
   CrowdDirectory directory{folder};
   if (!is_surely_there(directory.config())) return directory;
@@ -75,7 +75,8 @@ Positions FaceComparison::mesh_of(std::size_t face) const {
                    crowd_.inputs.faces.topology.vertex_count);
 }
 
-/// Nothing if faces are not compared, or if the face has no neighbour.
+/// The mesh to compare with the face; nothing if faces are not compared, or if the crowd has no
+/// other face.
 std::optional<Positions> FaceComparison::other(std::size_t face) const {
   switch (comparison_.with) {
     case With::kTarget:

@@ -19,7 +19,7 @@ struct ComparedFace {
   Eigen::VectorXd mm;  ///< #V distances
 };
 
-/// Compares the faces of a crowd with other meshes, which the contact sheet's key `compare` names.
+/// Compares the faces of a crowd with other meshes, as the contact sheet's key `compare` specifies.
 class FaceComparison {
  public:
   /// \throws Error if a file to compare with cannot be read.
@@ -45,7 +45,8 @@ class FaceComparison {
 /// `problems`.
 void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems);
 
-/// Checks before any face is made that the crowd to compare with has a mesh for every face.
+/// Checks, before the run makes any face, that the crowd to compare with has a mesh for every face
+/// of this crowd.
 /// \throws MissingInput if a mesh is missing.
 void check_compared_crowd(const Config& config, const std::vector<FacePlan>& crowd);
 

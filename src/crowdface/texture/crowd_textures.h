@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The texture maps of all heads: #pictures by #heads; null if a head has no map for a picture.
-/// Each map has the size of its picture.
+/// The texture maps of all heads: one row per picture (image of the common layout), one column per
+/// head; null if a head has no map for a picture. Each map has the size of its picture.
 using HeadMaps = std::vector<std::vector<std::shared_ptr<const TextureMap>>>;
 
 /// The textures of a crowd's heads in one common layout.
@@ -20,13 +20,14 @@ struct CrowdTextures {
   HeadMaps maps;
 };
 
-/// One picture of a face's texture: colours, or other numbers such as normals.
+/// One texture image of a face, blended from the heads' maps: colours, or other values such as
+/// normals.
 struct BlendedPicture {
   int width = 0;
   int height = 0;
   /// Height by width by 3, first row on top; empty if `words` is used.
   std::vector<std::uint8_t> srgb;
-  /// Height by width by `channels`, instead of `srgb`: number = low + step · word. Normals are
+  /// Height by width by `channels`, used instead of `srgb`: value = low + step · word. Normals are
   /// stored as x, y, z mapped to 0 … 1, as in normal map files.
   std::vector<std::uint16_t> words = {};
   int channels = 3;

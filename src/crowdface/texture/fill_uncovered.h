@@ -10,7 +10,8 @@
 
 namespace crowdface {
 
-/// Fills the uncovered texels of a picture with one value, and then copies the gutter.
+/// Fills the uncovered texels of a texture image with one value per channel, and then copies
+/// colours into the gutter.
 /// \param fill    #channels
 /// \param values  height by width by #channels.
 template <class Value>

@@ -8,7 +8,8 @@ namespace crowdface {
 
 /// Optical density: −ln of the reflected light, quantized to 16 bits. Densities of pigments add up.
 /// Value 0 is white and 65,535 black; 1/4096 is added to all light, so that black has a finite
-/// density. A step of this value is everywhere finer than a step of 8-bit sRGB.
+/// density. One step of the quantized density is finer than one step of 8-bit sRGB for every
+/// colour.
 using Density = std::uint16_t;
 inline constexpr float kMaxDensity = 65535;
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kPictureRowsPerBlock = 16;
 
-/// Sums of the covered texels of a row, one per channel.
+/// For each channel, the sum of the values of the covered texels of a row.
 using RowSums = std::array<std::uint64_t, 3>;
 
 /// Working memory for one row: a float for each texel and field.
@@ -64,7 +64,8 @@ std::uint16_t word_of(float share) {
   return static_cast<std::uint16_t>(std::clamp(65535 * share + 0.5F, 0.0F, 65535.0F));
 }
 
-/// Writes the colours of covered texels. Returns the sum of each channel's written values.
+/// Writes the colours of covered texels as sRGB bytes. Returns the sum of the written values of
+/// each channel.
 /// \param sums  densities, one row per channel.
 /// \param out   the row of bytes.
 RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
@@ -113,7 +114,8 @@ RowSums write_values(std::span<const SurfaceTexels::Span> spans, std::span<float
   return total;
 }
 
-/// Fills uncovered texels with the mean of the covered texels, and then copies the gutter.
+/// Fills uncovered texels with the mean of the covered texels, and then copies colours into the
+/// gutter.
 /// \param sums    #rows: sums of covered texels.
 /// \param values  height by width by `channels`.
 template <class Value>
@@ -128,7 +130,7 @@ void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, st
   fill_uncovered(texels, std::span<const Value>(fill).first(channels), values.data());
 }
 
-/// A picture with the right size and encoding, not yet painted.
+/// Returns a texture image with the right size and encoding whose texels are not yet set.
 BlendedPicture blank_picture(const SurfaceTexels& texels, const MapCoding& coding) {
   BlendedPicture picture{texels.width(), texels.height(), {}};
   const std::size_t count =

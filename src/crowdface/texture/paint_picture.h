@@ -8,8 +8,9 @@
 
 namespace crowdface {
 
-/// The input for one picture of one face: at each vertex that the picture shows, a base value per
-/// channel and a factor for each head's map. Values are interpolated linearly within triangles.
+/// The input of paint_picture for one texture image of one face: at each vertex that the image
+/// covers, a base value per channel and a factor for each head's map. Values are interpolated
+/// linearly within triangles.
 struct PictureFields {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads with a non-zero factor, ascending
@@ -17,9 +18,9 @@ struct PictureFields {
   std::size_t width() const { return channels + heads.size(); }
 };
 
-/// Paints a picture: the value of a covered texel is base + Σ_h factor_h · (stored value of head
-/// h's map). Texels beyond the gutter get the mean of the covered texels.
-/// \param coding  meaning of the picture's numbers, and the range to which the numbers are clamped.
+/// Computes a texture image of a face: the value of a covered texel is base + Σ_h factor_h ·
+/// (stored value of head h's map). Texels beyond the gutter get the mean of the covered texels.
+/// \param coding  content of the image, and the range to which its values are clamped.
 /// \param maps    #heads, each map with the size of the picture.
 BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
                              const std::vector<std::shared_ptr<const TextureMap>>& maps,

@@ -24,7 +24,7 @@ struct Ramp {
 /// \param rows  #ramps rows.
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 
-/// One row of a head's texture map, with the head's factors.
+/// One row of a head's texture map, and the factor by which each texel is multiplied.
 struct BorrowedRow {
   /// The head's factor at each texel.
   const float* factors;

@@ -19,7 +19,7 @@ using Colours = SurfaceStatistics::Colours;
 constexpr double kMaxSamples = 1 << 21;
 constexpr Index kBlock = 1024;
 
-/// A texel and its point on the surface.
+/// A sampled texel and its position on the surface.
 struct Sample {
   std::uint32_t picture = 0;
   std::uint32_t texel = 0;  ///< row · width + column
@@ -28,7 +28,7 @@ struct Sample {
   std::array<float, 3> shares = {};
 };
 
-/// The numbers of a texel; 0 for channels that the map does not have.
+/// The decoded values of a texel; 0 for channels that the map does not have.
 Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   const auto channels = static_cast<std::size_t>(map.coding.channels);
   const std::span<const Density> stored = map.stored();
@@ -142,8 +142,8 @@ void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_
   }
 }
 
-/// The means of a head's three channels over the samples at a vertex, and 1; zeros if the head has
-/// no map there.
+/// The means of a head's three channels over the samples at a vertex, followed by 1; four zeros if
+/// the head has no map there.
 Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, std::size_t head) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   double count = 0;
@@ -158,14 +158,14 @@ Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, s
   return {mean[0], mean[1], mean[2], 1};
 }
 
-/// Computes the mean product of the details of each pair of heads at each vertex, not yet smoothed;
-/// NaN where one of the heads has no map.
+/// For each vertex and each pair of heads, computes the mean product of both heads' details, not
+/// yet smoothed; NaN where one of the heads has no map.
 void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& maps,
                       SurfaceStatistics& statistics) {
   const std::size_t heads = statistics.coarse_values.size(), pairs = statistics.pairs;
   parallel_blocks(static_cast<Index>(samples.group_count()), kBlock, [&](Index begin, Index end) {
-    // For each head: the differences from `coarse_values` in three channels, and 1 if the head has
-    // a map.
+    // For each head: the differences between the map and `coarse_values` in three channels, and 1
+    // if the head has a map.
     std::array<std::vector<float>, 4> detail;
     detail.fill(std::vector<float>(heads));
     std::vector<float> sums(pairs), counts(pairs);

@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Low-frequency statistics of the heads' texture maps, per vertex. They are computed on the mesh
+/// Low-frequency statistics of the heads' texture maps, per vertex. They are smoothed on the mesh
 /// and not in texture space, so that texture seams have no effect.
 struct SurfaceStatistics {
   using Colours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
@@ -21,7 +21,8 @@ struct SurfaceStatistics {
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {
     return covariances[vertex * pairs + pair(a, b)];
   }
-  /// Index of a pair of heads, in any order, among `pairs`: packed lower triangle of a matrix.
+  /// Index of an unordered pair of heads in `pairs`, which is the packed lower triangle of a
+  /// symmetric matrix.
   std::size_t pair(std::size_t a, std::size_t b) const {
     return a < b ? pair(b, a) : a * (a + 1) / 2 + b;
   }

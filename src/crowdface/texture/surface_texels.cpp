@@ -14,8 +14,8 @@ using Point = Eigen::Vector2d;
 /// Index of the triangle that covers each texel, or kNoIndex.
 using Owners = std::vector<std::uint32_t>;
 
-/// Computes the barycentric coordinates as linear functions of the texel. Returns false for a
-/// triangle without area.
+/// Computes the barycentric coordinates as linear functions of the texel's column and row. Returns
+/// false for a triangle without area.
 bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle) {
   const Point u = at[1] - at[0], v = at[2] - at[0];
   const double area = cross(u, v);
@@ -28,8 +28,8 @@ bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle
   return true;
 }
 
-/// Width of the gutter in texels: 1/64 of the longer side, at least 4. Of 1024 texels that is 16,
-/// the size of one texel of mip level 4.
+/// Width of the gutter in texels: 1/64 of the longer side, at least 4. For a side of 1024 texels
+/// the gutter has 16 texels, the size of one texel of mip level 4.
 int gutter_width(const TextureLayout::Picture& size) {
   return std::max(4, std::max(size.width, size.height) / 64);
 }

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Assigns each polygon to a picture of the texture.
+/// Assigns each polygon to one of the texture's images (pictures).
 struct TextureLayout {
   struct Picture {
     int width = 0;   ///< texels
@@ -22,8 +22,8 @@ struct TextureLayout {
   std::vector<std::array<std::int32_t, 2>> tile;
 };
 
-/// The rasterized surface in one picture: the triangle that covers each texel's centre; where
-/// several triangles overlap, the first.
+/// The mesh rasterized into one texture image: for each texel, the triangle that covers the texel's
+/// centre. Where several triangles overlap, the first one is used.
 class SurfaceTexels {
  public:
   /// A triangle of a polygon's fan. At the centre of texel (x, y), the barycentric coordinate of
@@ -51,7 +51,7 @@ class SurfaceTexels {
 
   int width() const { return size_.width; }
   int height() const { return size_.height; }
-  /// Vertices of the mesh that the picture shows, ascending.
+  /// Vertices of the triangles in this texture image, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   std::span<const Span> row(int y) const {

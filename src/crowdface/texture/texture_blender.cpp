@@ -20,8 +20,8 @@ constexpr Index kVerticesPerBlock = 1024;
 
 using HeadWeights = std::vector<double>;  ///< #heads; the sum is one, or all are zero
 
-/// The heads' weights in the target: the recipe's colour weights, or else the heads' shares of the
-/// target shape.
+/// Each head's weight in the target colours: the recipe's colour weights if given, otherwise the
+/// head's share of the target shape.
 HeadWeights shares_by_head(const Recipe& recipe, std::size_t heads) {
   HeadWeights shares(heads, 0.0);
   for (const SourceWeight& share :
@@ -37,7 +37,8 @@ HeadWeights mean_of(const HeadWeights& a, const HeadWeights& b) {
   return mean;
 }
 
-/// W: half the target's weights plus half the area-weighted mean of the regions' weights.
+/// The weights W: half the target's weights plus half the area-weighted mean of the regions'
+/// weights.
 HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWeights>& regions,
                              const std::vector<double>& region_shares) {
   HeadWeights mean(target.size(), 0.0);
@@ -47,9 +48,9 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
   return mean_of(target, mean);
 }
 
-/// Moves the weight of heads without a map to heads with a map: takes the first of `choices` that
-/// gives weight to a head with a map, and normalizes it over the heads with a map. If there is no
-/// such choice, all heads with a map get equal weights.
+/// Removes heads without a map: takes the first of `choices` in which a head with a map has weight,
+/// and normalizes its weights over the heads with a map. If no choice gives weight to a head with a
+/// map, all heads with a map get equal weights.
 HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> choices,
                                     const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
@@ -66,7 +67,7 @@ HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> ch
   return weights;
 }
 
-/// The heads' weights in one picture of one face.
+/// The heads' weights in one texture image of one face.
 struct FaceWeights {
   HeadWeights of_target;               ///< τ, for vertices that only the target colours
   HeadWeights of_face;                 ///< W
@@ -106,8 +107,8 @@ double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
                                                        : 1 / std::sqrt(squares);
 }
 
-/// The common coding of all maps of a picture. Its range is the union of the maps' ranges, so that
-/// a blend is clamped to the range of the heads.
+/// The common coding of all maps of a texture image. Its range is the smallest range that contains
+/// the ranges of all maps; blended values are clamped to it.
 MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   std::optional<MapCoding> common;
   float high = 0;

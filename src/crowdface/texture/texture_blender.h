@@ -15,7 +15,7 @@ namespace crowdface {
 
 struct TextureBlending {
   StatisticsScale scale;
-  /// #V: weight of each vertex in the mean over the face; not all zero.
+  /// #V: weight of each vertex in means over the face; not all zero.
   std::vector<double> areas;
   /// #V, or empty: vertices whose colours come from the target alone (eyes, teeth).
   std::vector<bool> target_only;
@@ -50,7 +50,7 @@ class TextureBlender {
       const RegionWeights& regions, const CrowdTextures& textures, TextureBlending options,
       const FindStatistics& find = [](const auto& make) { return make(); });
 
-  /// Blends one picture of a face. Thread-safe.
+  /// Blends one texture image of a face. Thread-safe.
   /// \param picture  index of a picture of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
@@ -58,11 +58,12 @@ class TextureBlender {
 
   /// Memory of this object in bytes.
   std::size_t memory_bytes() const;
-  /// Additional memory to blend the largest picture, in bytes.
+  /// Additional memory in bytes that `blend` needs for the largest texture image.
   std::size_t blend_bytes() const;
 
  private:
-  /// Computes the base values and factors of one picture of a face.
+  /// Computes, for one texture image of a face, the base value and the heads' factors at each
+  /// vertex.
   PictureFields fields(std::size_t picture, const Recipe& recipe) const;
 
   const RegionWeights& regions_;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kRowsPerBlock = 16;
 
-/// Filter weights of one resampled texel: the source texels in a row or column that contribute to
-/// it.
+/// Filter of one resampled texel: the source texels of a row or column that contribute to it, and
+/// their weights.
 struct Taps {
   int first = 0;
   std::vector<float> weights;  ///< summing to one

@@ -18,7 +18,7 @@
 
 namespace crowdface {
 
-/// The meaning of a map's numbers.
+/// The meaning of a map's values.
 enum class MapContent {
   kColours,  ///< optical densities of red, green and blue
   kSlopes,   ///< slopes x/z and y/z of a tangent-space normal
@@ -32,9 +32,9 @@ struct MapCoding {
   float low = 0;
   float step = 1;
 
-  /// The number that a stored value encodes.
+  /// Decodes a stored value.
   float decode(Density stored) const { return low + step * static_cast<float>(stored); }
-  /// The nearest stored value of a number, clamped to 0 … 65,535.
+  /// Encodes a number: the nearest stored value, clamped to 0 … 65,535.
   Density stored(float number) const;
 
   /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
@@ -60,7 +60,7 @@ struct TextureMap {
   std::size_t texels() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
-  /// All planes, in memory or on disk.
+  /// The stored values of all channels, plane by plane, in memory or on disk.
   std::span<const Density> stored() const {
     if (scratch == nullptr) return planes;
     const std::string_view bytes = scratch->bytes();
@@ -82,21 +82,22 @@ struct TextureMap {
 /// \throws CannotCreate, IoError.
 void move_to_disk(TextureMap& map, const std::filesystem::path& folder);
 
-/// A picture that is read row by row, from any thread. Rows contain linear light, or numbers that a
-/// MapCoding encodes.
+/// A source image that is read row by row, from any thread. Rows contain linear light, or the
+/// numbers that a MapCoding encodes.
 struct LightRows {
   int width = 0;
   int height = 0;
   /// Reads row y: writes `width` texels.
   std::function<void(int y, std::span<Eigen::Array3f> texels)> row;
-  /// Optional, for pictures that contain light: a faster alternative to `row` that writes row y as
-  /// densities. The result equals density_of_light of each value but needs no logarithms.
+  /// Optional, for images that contain linear light: a faster alternative to `row` that writes row
+  /// y as densities. The result equals density_of_light of each value but needs no logarithms.
   /// \param planes  red, green, blue.
   std::function<void(int y, const std::array<Density*, 3>& planes)> densities = {};
 };
 
-/// Resamples a picture to another size: by linear interpolation if it grows, and by a tent filter
-/// with a width of two new texels if it shrinks. A picture of the same size is copied exactly.
+/// Makes a map from an image and resamples it to `width` by `height`: with linear interpolation to
+/// enlarge, and with a tent filter two new texels wide to shrink. An image of the same size is
+/// copied exactly.
 TextureMap make_texture_map(int width, int height, const LightRows& picture,
                             const MapCoding& coding = {});
 
