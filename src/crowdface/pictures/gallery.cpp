@@ -27,8 +27,8 @@ using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
 constexpr std::size_t kMaxTriangles = 24'000;
-/// Limit for triangles behind closed lips: teeth and the lining of the mouth are finer than the
-/// face.
+/// Limit for triangles behind closed lips, because the meshes of teeth and mouth cavity are finer
+/// than the face's mesh.
 constexpr std::size_t kMaxHidden = 2'000;
 /// Width and height of a face's textures; half of this if there are more than two textures.
 constexpr int kMaxTexels = 1024;
@@ -36,7 +36,8 @@ constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are om
 constexpr float kMinLight = 0.004F;  ///< lower bound of `visibility_` if there are shapes
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 
-/// Visible fraction of the sky at the vertices of `triangles`, a part of a split mesh.
+/// Returns the visible fraction of the sky at the vertices of `triangles`, which are part of a
+/// split mesh.
 /// \return #V; 0 for other vertices.
 std::vector<float> openness_at(const Topology& topology, const std::vector<SurfaceKind>& kinds,
                                const Positions& mean, const SplitMesh& split,
@@ -86,8 +87,8 @@ std::vector<const Positions*> positions_of(const HeadSet& faces) {
   return heads;
 }
 
-/// The coordinate frame for packing positions: the box enclosing all heads and attachments, because
-/// long hair reaches outside the heads' box.
+/// The coordinate frame for packing positions: a box that encloses all heads and attachments,
+/// because long hair reaches outside the bounding box of the heads.
 PackingFrame frame_of(const Inputs& inputs, const Positions& body) {
   std::vector<const Positions*> all = positions_of(inputs.faces);
   if (body.rows() > 0) all.push_back(&body);
@@ -105,12 +106,13 @@ Json to_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// A JavaScript call with one argument. (JSON is valid JavaScript.)
+/// Returns the text of a JavaScript call with one argument. (JSON is valid JavaScript.)
 std::string call(const char* function, const Json& value) {
   return concat("crowdface.", function, "(", value.dump(), ");\n");
 }
 
-/// Adds eye coordinates, from which the page paints irises more finely than vertex colours could.
+/// Adds each eyeball vertex's position relative to its eyeball (EyeCoordinates). The page paints
+/// irises from these positions in each pixel, more finely than vertex colours could.
 void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& whole,
               const PreviewMesh& mesh, Json& json) {
   const PicturedFace mean(whole, inputs.mean);
@@ -156,7 +158,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
                static_cast<std::size_t>(inputs.faces.topology.face_count()));
   const SplitMesh split = split_mesh(topology, surfaces.uvs, looks);
   const Positions split_mean = split.corner_positions(mean);
-  // Reduce to twice the limit, and find which of the remaining triangles are hidden.
+  // Reduce the mesh to twice the limit, and find which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
       reduce_triangles(split.triangles, split_mean, 2 * kMaxTriangles);
   const std::vector<float> open = openness_at(topology, surfaces.kinds, mean, split, triangles);
@@ -166,7 +168,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
       return open[split.corners[corner].vertex] > kUnseen;
     }));
   }
-  // Reduce to the limit; hidden triangles get a smaller one.
+  // Reduce the mesh to the limit, and the hidden triangles to a smaller limit.
   triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
   mesh_ = preview_of(split, triangles, surfaces.uvs);
   draft_triangles_ = draft_triangles(mesh_, mean, kMaxDraftTriangles);
@@ -199,7 +201,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   if (inputs_.shapes.shapes.empty()) return;
   const double least = min_move();
   for (const Shape& shape : inputs_.shapes.shapes) {
-    // Keep the vertices of the reduced mesh that the shape moves visibly.
+    // Store the vertices of the reduced mesh that the shape moves visibly.
     ShownMoves& shown = shown_moves_.emplace_back();
     const auto& moved = shape.moves.vertices;
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
@@ -211,7 +213,8 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shown.vertices.push_back(v);
     }
   }
-  // In the shape that moves most, the sky is visible from more vertices.
+  // Use the larger visibility of the neutral head and of the shape that moves most, because an open
+  // mouth lets light in.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
   widest_shape_ = static_cast<std::size_t>(

@@ -20,8 +20,8 @@
 
 namespace crowdface {
 
-/// The meshes of a gallery, reduced and encoded as scripts: a page opened from disk can load
-/// scripts but no other files. The data that all faces share is computed once.
+/// The meshes of a gallery, reduced and encoded as scripts, because a web page opened from disk can
+/// load scripts but no other files. The data that all faces share is computed once.
 class GalleryMeshes {
  public:
   /// \param inputs, shown  must outlive this object.
@@ -47,12 +47,12 @@ class GalleryMeshes {
                                 const AttachmentSurfaces& surfaces) const;
 
  private:
-  /// Three bytes (sRGB) per vertex, darkened where the vertex sees little of the sky.
+  /// Three bytes (sRGB) per vertex; colours are darker where little of the sky is visible.
   std::string shades(const VertexColours& colours) const;
-  /// The textures of a set as JSON, and the index of the texture for each material of the reduced
-  /// mesh.
+  /// Returns as JSON the textures of a set, and for each material of the reduced mesh the index of
+  /// its texture.
   std::string skin(const TextureSet& texture_set) const;
-  /// One byte per vertex; empty if the set has no roughness maps.
+  /// The roughness of each vertex, one byte per vertex; empty if the set has no roughness maps.
   std::string roughness(const TextureSet& texture_set) const;
   double min_move() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);

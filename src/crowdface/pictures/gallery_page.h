@@ -14,7 +14,8 @@ namespace crowdface {
 /// the program is unknown.
 std::optional<std::filesystem::path> gallery_page_folder();
 
-/// Returns gallery_page_folder(), or nothing if that folder does not contain the gallery's page.
+/// Returns gallery_page_folder(); nothing if there is no such folder or if the folder does not
+/// contain the gallery's page.
 std::optional<std::filesystem::path> find_gallery_page();
 
 /// Whether a crowd with this config gets a gallery with this installation.

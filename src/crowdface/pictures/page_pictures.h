@@ -8,11 +8,12 @@
 
 namespace crowdface {
 
-/// Converts light in [0, 1] to an sRGB byte with a table, because a texture has a million texels.
+/// Converts light in [0, 1] to an sRGB byte; uses a lookup table, because a texture has a million
+/// texels.
 std::uint8_t srgb_byte(float light);
 
-/// Pictures encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
-/// load textures from files. Larger pictures are reduced to `max_px` texels a side.
+/// Images encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
+/// load textures from files. Larger images are reduced to `max_px` texels a side.
 
 /// The texture as JPEG in sRGB.
 std::string colour_picture(const Texture& texture, int max_px);

@@ -14,11 +14,12 @@
 namespace crowdface {
 namespace {
 
-/// Farthest distance of the shown body from the middle of the ring, as a fraction of the height of
-/// the heads.
+/// The body is shown up to this distance from the middle of the neck ring, as a fraction of the
+/// height of the heads.
 constexpr double kChest = 0.85;
 
-/// For each vertex of the body, its distance from the cut; negative: pictures do not show it.
+/// For each vertex of the body, its signed distance from the cut at the chest; images do not show
+/// vertices with negative distances.
 std::vector<double> above_chest(const Config& config, const Inputs& inputs, const Positions& body) {
   const Eigen::VectorXd heights = inputs.mean * unit_vector(config.faces.up);
   const Eigen::RowVector3d middle = inputs.neck->seam.positions.colwise().mean();
@@ -28,7 +29,7 @@ std::vector<double> above_chest(const Config& config, const Inputs& inputs, cons
   return above;
 }
 
-/// A place in the texture for each corner of a polygon at one of these vertices.
+/// For each polygon corner at a vertex of the rim, the corner's position in the texture.
 std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& faces) {
   std::vector<TexturePlace> places;
   const VertexFaces around(faces.topology);

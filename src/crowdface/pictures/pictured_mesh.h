@@ -14,16 +14,17 @@
 
 namespace crowdface {
 
-/// The mesh that pictures show: the faces' mesh or, with `neck.show_body`, a joint mesh of face and
-/// body. The body's rim is joined to the ring of the face, so that both have the same normals
-/// there. The body is cut at the chest. Vertices and polygons of the face come first.
+/// The mesh that rendered images show: the faces' mesh or, if `neck.show_body` is set, a joint mesh
+/// of face and body. The body's rim is joined to the ring of the face, so that both have the same
+/// normals there. The body is cut at the chest. Vertices and polygons of the face come first.
 class PicturedMesh {
  public:
-  /// Height of the body in pictures of faces, below the heads, as a fraction of the heads' height.
+  /// Height of the part of the body that images of faces show below the heads, as a fraction of the
+  /// heads' height.
   static constexpr double kShoulderHeight = 0.1;
 
   /// \param inputs    must outlive this object.
-  /// \param textures  paint the body; null: the body is not shown.
+  /// \param textures  provide the body's texture; null: the body is not shown.
   PicturedMesh(const Config& config, const Inputs& inputs, const FaceTextures* textures);
 
   bool has_body() const { return body_.has_value(); }
@@ -31,15 +32,16 @@ class PicturedMesh {
   const TextureCoordinates& uvs() const { return body_ ? body_->uvs : inputs_.faces.uvs; }
   /// The kinds of surfaces; the surfaces of the body are skin.
   Surfaces surfaces() const;
-  /// The points of the body; no rows if it is not shown.
+  /// The vertex positions of the body; no rows if the body is not shown.
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }
 
-  /// A point at the lower edge of pictures that show the body. Requires has_body().
+  /// The lowest point that images of faces with the body must show. Requires has_body().
   Eigen::Vector3d lowest_shown() const;
 
   /// Adds the body to a face. Requires has_body().
   Positions with_body(const Positions& face) const;
-  /// The body has the mean roughness of the face at the ring.
+  /// Adds the body's texture to the face's textures. The body gets the mean roughness of the face
+  /// at the neck ring.
   /// \param body    texture of the body, or null
   /// \param max_px  maximum side length of that texture
   TextureSet with_body(TextureSet textures, const BlendedPicture* body, int max_px) const;
@@ -58,7 +60,7 @@ class PicturedMesh {
   std::optional<Body> body_;
 };
 
-/// A face as pictures show it: alone, or with the body.
+/// A face as images show it: alone or with the body.
 class PicturedFace {
  public:
   /// The arguments must outlive this object. \param textures, colours, body  may be null

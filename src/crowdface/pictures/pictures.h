@@ -19,7 +19,7 @@ class CrowdPictures {
   /// \param config, inputs, directory  must outlive this object; the config must have contact
   ///                sheets.
   /// \param settings  from settings_digest; the gallery shows it.
-  /// \param textures  textures of the faces themselves, if any; must outlive this object.
+  /// \param textures  blended textures of the faces, if any; must outlive this object.
   /// \param shapes    shapes of the faces; must outlive this object.
   CrowdPictures(const Config& config, const Inputs& inputs, const Digest& settings,
                 const CrowdDirectory& directory, const FaceTextures& textures,
@@ -27,14 +27,15 @@ class CrowdPictures {
 
   const CrowdRenders& renders() const { return renders_; }
 
-  /// Sets the measurements of the heads for the gallery. \param of_heads  #heads by #named traits
+  /// Sets the measurements of the input heads that the gallery shows. \param of_heads  #heads by
+  /// #named traits
   void show_traits(std::vector<std::vector<double>> of_heads) {
     head_traits_ = std::move(of_heads);
   }
 
-  /// Renders the heads. Further calls do nothing.
+  /// Renders the input heads. Further calls do nothing.
   void write_heads();
-  /// Renders the founder of a family, who has no mesh file in the crowd.
+  /// Renders the founder of a family; the founder has no mesh file in the crowd's folder.
   void write_founder(const std::string& family, const Positions& positions,
                      const Recipe& recipe) const;
 
@@ -64,8 +65,8 @@ class CrowdPictures {
   std::vector<std::vector<double>> head_traits_;
 };
 
-/// The files in the folder that `finish` and the steps before it wrote, sorted, except the renders
-/// and meshes of the faces. \throws IoError if a folder cannot be read.
+/// The image and gallery files in the crowd's folder, sorted, without the renders and meshes of the
+/// faces. \throws IoError if a folder cannot be read.
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets);
 

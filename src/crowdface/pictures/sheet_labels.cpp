@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-/// The target head, "ann", or of a mixture "ann 60 %, bob 40 %".
+/// The target head, such as "ann"; for a mixture of heads, such as "ann 60 %, bob 40 %".
 std::string target_label(const Recipe& recipe, const std::vector<std::string>& heads) {
   if (recipe.mixture.empty()) return heads[static_cast<std::size_t>(recipe.target)];
   std::vector<std::string> parts;
@@ -26,8 +26,8 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
   return join(parts);
 }
 
-/// The regions inherited from `parent`: "brow", or "brow/skin" if the parents share the region's
-/// bands.
+/// The regions inherited from `parent`. A region of which only some bands come from this parent is
+/// listed by band: "brow/skin".
 std::vector<std::string> given_by(std::string_view parent, const FacePlan& face,
                                   const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});

@@ -104,8 +104,8 @@ class CrowdSheets {
     return pages;
   }
 
-  /// Adds cells in as many rows as they need; on several pages if one would be too large.
-  /// \param stem  file name of a page, given its number from 1.
+  /// Adds cells in as many rows as needed, on several pages if one page would be too large.
+  /// \param stem  returns the file name of a page without extension; takes the page number, from 1.
   void add_tall_pages(const std::function<std::string(std::size_t)>& stem,
                       const std::string& caption, const std::string& title, const std::string& note,
                       std::size_t count, const std::function<SheetCell(std::size_t)>& cell) {
@@ -149,8 +149,8 @@ class CrowdSheets {
     for (const auto& family : families) write_family(family.first, family.second);
   }
 
-  /// With parents, the sheet is a family tree with a row per generation: grandparents, parents,
-  /// children. Otherwise the founder comes first.
+  /// The sheet of a family with parents is a family tree with a row per generation: grandparents,
+  /// parents, children. On other sheets the founder comes first.
   void write_family(const std::string& family, const std::vector<std::size_t>& members) {
     const std::vector<std::string>& parents = crowd_.faces[members.front()].parents;
     std::vector<Relative> cells;
@@ -180,7 +180,7 @@ class CrowdSheets {
       const Rgb8Image face = read_render(crowd_.directory.render(crowd_.faces[members.front()].id));
       return {pad_picture({}, face.width, face.height), ""};
     };
-    // Unambiguous, because names of families contain no '+'.
+    // The file name is unambiguous, because names of families contain no '+'.
     const auto stem = [&](std::size_t page) {
       return concat("family_", family, page > 1 ? concat('+', page) : std::string());
     };
@@ -211,7 +211,7 @@ class CrowdSheets {
             concat(name, '\n', role)};
   }
 
-  /// Inheritance of a child; for other members the nearest face.
+  /// The label of a family member: for a child its inheritance, for other members the nearest face.
   std::string label_of_member(std::size_t member) const {
     const FacePlan& face = crowd_.faces[member];
     if (face.parents.empty()) {

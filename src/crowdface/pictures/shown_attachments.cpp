@@ -15,13 +15,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Limit for all materials of an attachment together. A vertex takes 8 bytes of text per face.
+/// Limit for all materials of an attachment together. Each vertex takes 8 characters per face.
 constexpr std::size_t kMaxAttachmentTriangles = 24'000;
 constexpr std::size_t kMaxAttachmentDraft = 6'000, kMinAttachmentDraft = 300;
 constexpr int kMaxAttachmentTexels = 512;
 
-/// The numbers of the vertices that move by at least `least`, 4 bytes each, followed by their
-/// displacements.
+/// The indices, 4 bytes each, of the vertices that the shape moves by at least `least`, followed by
+/// the displacements of these vertices.
 /// \param shown  rows of the full mesh that the page shows
 std::string packed_moves(std::span<const std::uint32_t> shown, const Displacements& shape,
                          const PackingFrame& frame, double least) {
@@ -38,7 +38,7 @@ std::string packed_moves(std::span<const std::uint32_t> shown, const Displacemen
   return little_endian(vertices) + moves;
 }
 
-/// \param positions  of the attachment's file
+/// \param positions  the vertex positions in the attachment's file
 Json part_to_json(const PreviewMesh& mesh, const Positions& positions,
                   const AttachmentMaterial& material) {
   Json json;

@@ -20,7 +20,7 @@ class ShownAttachments {
   /// for each material.
   std::string look(const AttachmentLook& look, const AttachmentSurface& surface) const;
   /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
-  /// of the face the vertices that move and their displacements.
+  /// of the face the vertices that the shape moves, with their displacements.
   /// \param least  shortest displacement to store, in the unit of the positions
   std::string packed(const PlacedAttachment& placed, const PackingFrame& frame, double least) const;
   /// Positions on a face as plain numbers, three per vertex.

@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Mean of an image channel over some faces, estimated from samples within each face.
+/// Mean of an image channel over some polygons of the mesh, estimated from samples within each
+/// polygon.
 /// \param value  value(image, x, y) returns the channel at a pixel
 template <class Value>
 double covered(const Image& image, const Topology& topology, const TextureCoordinates& uvs,
@@ -43,7 +44,8 @@ double covered(const Image& image, const Topology& topology, const TextureCoordi
   return count == 0 ? 1 : sum / static_cast<double>(count);
 }
 
-/// Whether a material is transparent on these faces, like shells over the eyes and lash cards.
+/// Whether a material is mostly transparent on these polygons, as on shells over the eyes and on
+/// lash cards.
 bool is_see_through(const SurfaceMaterial& material, const HeadSet& faces,
                     const std::vector<Index>& of_material) {
   constexpr double kSolid = 0.9;

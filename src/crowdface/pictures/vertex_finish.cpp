@@ -11,15 +11,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The layer's texture at a place, or null.
+/// The texture of the layer at a vertex, or null.
 const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
   if (place.face < 0 || layer.of_face.empty()) return nullptr;
   const std::uint32_t picture = layer.of_face[static_cast<std::size_t>(place.face)];
   return picture == TextureLayer::kNone ? nullptr : layer.textures[picture].get();
 }
 
-/// Mean of 3 by 3 samples around a point. They extend 1/512 of the texture's side in each
-/// direction.
+/// Mean of 3 by 3 samples around a point. The outer samples are 1/512 of the texture's side away in
+/// each direction.
 Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
   constexpr float kReach = 1.0F / 512;
   Light sum = Light::Zero();

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Position of a vertex of a reduced mesh in the textures.
+/// Position, in the textures, of a vertex of a reduced mesh.
 struct TexturePlace {
   Index face = -1;  ///< face of the full mesh at the vertex; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();

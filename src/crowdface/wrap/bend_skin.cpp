@@ -23,7 +23,7 @@ constexpr double kHiddenStiffnessMm = 10;  // smallest stiffness where the scan 
 constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
-/// The correspondence found for a vertex of the skin or for a point of the scan.
+/// The corresponding point found for a vertex of the skin or for a sampled point of the scan.
 struct Correspondence {
   bool found = false;
   Eigen::Vector3d normal, offset;  ///< normal of the scan; vector from the skin to the scan
@@ -96,7 +96,7 @@ class Bending {
     scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / count;
   }
 
-  /// Selects the outer boundaries of skin and scan, without small holes.
+  /// Selects the outer boundaries of skin and scan; ignores the boundaries of small holes.
   void choose_rims() {
     const auto ends = long_boundaries(scan_.scan().triangles, scan_.scan().positions, kEndMm);
     if (ends.empty()) return;

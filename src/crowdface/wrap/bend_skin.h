@@ -10,8 +10,8 @@
 namespace crowdface {
 
 struct BendOptions {
-  /// Stiffness of each round, given as a wavelength: the round suppresses shorter waves in the
-  /// displacements, independently of the mesh resolution.
+  /// Stiffness of each round, given as a wavelength: the round suppresses variations of the
+  /// displacements with shorter wavelengths, independently of the mesh resolution.
   std::vector<double> stiffness_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
   /// Weight of offsets along the surface, relative to 1 for offsets along the normal, in the first
   /// and in the last round.

@@ -10,8 +10,8 @@ namespace crowdface {
 
 /// A scan and its landmarks, translated so that the centre of the scan's bounding box is the
 /// origin, and rounded to about a millionth of the box. Wrapping makes discrete choices, such as
-/// the nearest triangle, that depend on the last digits of coordinates and accumulate. Without
-/// centring and rounding, the result would depend on the scan's position.
+/// the nearest triangle, that depend on the last digits of coordinates; their effects accumulate.
+/// Without centring and rounding, the result would depend on the scan's position.
 struct CentredScan {
   Scan scan;
   std::vector<WrapLandmark> landmarks;

@@ -27,7 +27,8 @@ constexpr double kNoDataWeight = 1e-4;  ///< weight of a zero offset at vertices
 constexpr int kSteps = 30;
 constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
-/// Least ratio of a moved triangle's area, projected on its previous normal, to its previous area.
+/// Smallest allowed ratio of a triangle's area after the move, projected onto the plane of the
+/// triangle before the move, to its area before the move.
 constexpr double kMinAreaRatio = 0.05;
 /// Smallest cosine between the normals of a triangle on the skin and on the template.
 constexpr double kMinFaceCosine = 0.05;
@@ -115,8 +116,9 @@ TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const P
   return asked;
 }
 
-/// Whether a triangle flips relative to its state before the offsets, or relative to the template
-/// unless it was already flipped relative to the template.
+/// Whether the offsets flip a triangle relative to its orientation before the offsets, or relative
+/// to the template. A triangle that was flipped relative to the template before the offsets is
+/// compared only with its orientation before the offsets.
 bool flips(const Positions& rest, const Positions& before, const Positions& normals,
            const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
@@ -148,8 +150,8 @@ std::vector<std::uint32_t> flipped_triangles(const SkinMesh& skin, const Positio
   return turned;
 }
 
-/// Reduces offsets around flipped triangles: to zero at the triangle, and gradually less towards
-/// the border of the patch.
+/// Reduces the offsets in a patch around each flipped triangle: to zero at the triangle, and less
+/// and less towards the border of the patch.
 void reduce_offsets(const Positions& rest, const Positions& before, const Positions& normals,
                     std::span<const std::uint32_t> turned, const PatchMender& mender,
                     Eigen::VectorXd& along) {
@@ -166,9 +168,9 @@ void reduce_offsets(const Positions& rest, const Positions& before, const Positi
   mender.mend(turned, is_bad, change);
 }
 
-/// Removes folds between neighbouring vertices that found different layers of the scan. At these
-/// vertices and in a neighbourhood that grows as needed, the mean of the neighbours replaces each
-/// offset.
+/// Removes folds that arise if the closest points of neighbouring vertices lie on different layers
+/// of the scan. At these vertices and in a neighbourhood that grows as needed, the mean of the
+/// neighbours replaces each offset.
 /// \param mender  repairs the skin; created on first use.
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
                     const Positions& normals, std::optional<PatchMender>& mender,
@@ -190,8 +192,8 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
       }
     }
     std::ranges::sort(evened);
-    // In a crease, even equal offsets make normals cross; so shrink the offsets a little in each
-    // sweep.
+    // In a crease, the normals cross, so that even equal offsets produce folds; therefore shrink
+    // the offsets a little in each sweep.
     const double kept = round < kEvenOnly ? 1 : kKeptOffset;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {

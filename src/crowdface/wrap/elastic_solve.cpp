@@ -128,7 +128,7 @@ struct ElasticSolver::State {
   SparseMatrix stiffness;
   Factors factors;
 
-  /// (W + B) x; because B is symmetric, the code reads its columns as rows.
+  /// Returns (W + B) x. Uses the columns of B as its rows, because B is symmetric.
   Positions times(const DataTerms& data_terms, const Positions& x) const {
     Positions y(x.rows(), 3);
     parallel_for_each(x.rows(), kElasticBlock, [&](Index i) {

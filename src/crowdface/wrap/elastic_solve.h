@@ -18,7 +18,8 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
 
 /// The cotangent Laplacian (Pinkall & Polthier 1993), #V by #V, not divided by areas. Weights of
 /// obtuse triangles are clamped to a small positive value, so that the discrete maximum principle
-/// holds. Boundary vertices have the same kind of row as others: a boundary can move, but not bend.
+/// holds. The rows of boundary vertices follow the same rule, so that a boundary can move but not
+/// bend.
 SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& positions);
 
 /// The bending energy ∫ s |Δd|² of a displacement field d as dᵀ B d; B is #V by #V, symmetric.
@@ -56,7 +57,8 @@ class ElasticSolver {
     int steps = 60;
     double tolerance = 1e-3;  ///< residual relative to the right-hand side
   };
-  /// Improves `displacements`, #V by 3. The result is bitwise identical for any number of threads.
+  /// Starts from `displacements`, #V by 3, and replaces them by the solution. The result is bitwise
+  /// identical for any number of threads.
   void solve(const DataTerms& data_terms, const Limits& limits, Positions& displacements) const;
 
  private:

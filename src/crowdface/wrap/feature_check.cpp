@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// The landmarks of a feature, in order along its outline, and how far the feature reaches.
+/// The landmarks of a feature, in order along the feature's outline, and the distance from the
+/// outline up to which vertices belong to the feature.
 struct Outline {
   std::string_view name;
   std::vector<std::string> landmarks;
@@ -55,7 +56,7 @@ Eigen::VectorXd areas_at_vertices(const SkinMesh& skin, const Positions& positio
   return areas;
 }
 
-/// Heights of vertices over the quadratic surface that fits them best.
+/// Heights of vertices above the quadratic surface that fits these vertices best.
 /// \param weights  #vertices
 Eigen::VectorXd relief(const Positions& positions, const Positions& normals,
                        const std::vector<std::uint32_t>& vertices, const Eigen::VectorXd& weights) {

@@ -23,10 +23,10 @@ struct FaceFeature {
 std::vector<FaceFeature> face_features(const WrapTemplate& shape,
                                        const std::map<std::string, std::uint32_t>& landmarks);
 
-/// Compares the relief of each feature before and after a wrap: the correlation of the heights of
-/// the skin over a quadratic surface fitted to the feature. The correlation is above 0.75 if the
-/// feature lies on the same feature of the scan (measured by scripts/measure_wrap.sh), and mostly
-/// below 0.5 if the feature lies elsewhere.
+/// Compares the relief of each feature before and after a wrap: the correlation of the skin's
+/// heights above a quadratic surface that is fitted to the feature. The correlation is above 0.75
+/// if the feature lies on the same feature of the scan (measured by scripts/measure_wrap.sh), and
+/// mostly below 0.5 if the feature lies elsewhere.
 /// \param wrapped  positions of the whole template, #V by 3
 /// \return #features
 std::vector<double> relief_agreements(const WrapTemplate& shape,

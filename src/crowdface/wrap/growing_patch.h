@@ -21,7 +21,7 @@ class GrowingPatch {
   void grow();
   std::span<const std::uint32_t> vertices() const { return vertices_; }
   /// Weight of vertex `i` of the patch: 1 at the triangle, 0 beyond the last ring. A larger
-  /// steepness makes the slope at the patch's border steeper.
+  /// steepness makes the weight fall off faster at the patch's border.
   double share(std::size_t i) const {
     return std::min(1.0, steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
   }
@@ -48,8 +48,8 @@ class PatchMender {
   /// in `rest`.
   PatchMender(const SkinMesh& skin, const Positions& rest);
 
-  /// For each bad triangle, applies the operation to the smallest patch for which it reduces the
-  /// number of bad triangles. Leaves the triangle unchanged if there is no such patch.
+  /// For each bad triangle, applies the operation to the smallest patch for which the operation
+  /// reduces the number of bad triangles. Leaves the triangle unchanged if there is no such patch.
   void mend(std::span<const std::uint32_t> triangles,
             const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 

@@ -41,8 +41,8 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& a
   const ShapeFitOptions options{.reach_mm = {40, 30, 20, 12}, .steps = 4};
   ShapeFit best;
   best.residual = 1e300;
-  // Scale by the width, because scans show different parts of the height. Align the tops of the
-  // heads and the foremost points of the faces.
+  // Take the scale from the widths of the heads, because scans show different parts of the height.
+  // Align the tops of the heads and the foremost points of the faces.
   for (const double wider : {1.0, 0.85, 1.15}) {
     for (const double lower : kLower) {
       Similarity pose;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kMinMm = 6;  ///< natural variation between people
 constexpr double kTimesWorse = 2.5;
 
-/// Median distance of the landmarks after the best similarity, in mm.
+/// Median distance in mm between corresponding landmarks after the similarity that fits best.
 double residual_of(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
   const Similarity pose = pose_of_landmarks(positions, landmarks);
   std::vector<double> off;
@@ -28,7 +28,8 @@ double residual_of(const Positions& positions, const std::vector<WrapLandmark>& 
   return nth_smallest(std::move(off), middle);
 }
 
-/// "eye_left" for "eye_right"; the name itself if it has no side.
+/// The name of the landmark on the other side: "eye_left" for "eye_right"; the same name for a
+/// landmark without a side.
 std::string other_side(const std::string& name) {
   static const std::array<std::pair<const char*, const char*>, 6> sides = {{{"left", "right"},
                                                                             {"Left", "Right"},

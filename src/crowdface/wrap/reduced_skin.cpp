@@ -82,8 +82,8 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::s
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
   reduced.places = find_places(skin, positions, reduced.mesh);
-  // One smoothing step acts over half an edge; creases in the interpolated values are one edge of
-  // the reduced skin apart.
+  // One smoothing step acts over half an edge of the original skin, and the interpolated values
+  // have creases at the edges of the reduced skin.
   const auto ratio = static_cast<double>(skin.vertices.size()) /
                      static_cast<double>(std::max<std::size_t>(1, small.vertices.size()));
   reduced.smoothings = static_cast<int>(std::clamp(ratio, 2.0, 120.0));

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// A skin with fewer vertices that replaces a skin with many vertices during deformation.
+/// A simplified skin mesh that replaces a skin with many vertices during deformation.
 struct ReducedSkin {
   SkinMesh mesh;  ///< the reduced mesh; its `vertices` are rows of the original skin
   /// Position of a vertex of the original skin on the reduced skin: triangle and barycentric

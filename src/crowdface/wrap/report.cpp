@@ -38,7 +38,7 @@ bool seen(const WrapTemplate& shape, Index v) {
   return shape.skin.openness[static_cast<std::size_t>(v)] > kSeen;
 }
 
-/// Distances of the visible vertices with scan data.
+/// Distances to the scan of the visible vertices that have scan data.
 /// \param regions, region  restrict the result to one region; null: the whole skin
 std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& result,
                                    const SkinRegions* regions = nullptr, std::size_t region = 0) {
@@ -58,7 +58,8 @@ double share_far(const std::vector<double>& distances) {
   return distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
 }
 
-/// Returns ", most of all of the brow (12.5 %)", or an empty text.
+/// Returns a clause that names the region farthest from the scan, such as ", most of all of the
+/// brow (12.5 %)"; or an empty text.
 std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
                             const SkinRegions& regions) {
   double most = 0;

@@ -27,8 +27,8 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_heads);
 
-/// The warnings about places where the head may be wrong: features, found landmarks and the place
-/// of the face.
+/// The warnings about parts of the wrapped head that may be wrong: features, automatically found
+/// landmarks, and the position of the face.
 std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result);
 
 /// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
@@ -44,7 +44,7 @@ struct WrapFacts {
   std::map<std::string, double> left_out_mm;
   /// Result of `unseen_landmarks`; empty if the user did not request it.
   std::map<std::string, double> unseen_mm = {};
-  /// Share of the textures, from 0 to 1, that is filled because the scan does not show it.
+  /// Fraction of the texels, 0 … 1, that are filled in because the scan does not cover them.
   std::optional<double> filled_share = {};
 };
 

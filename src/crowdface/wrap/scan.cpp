@@ -16,7 +16,7 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Edges with exactly one triangle, ascending.
+/// Boundary edges: the edges with exactly one triangle, ascending.
 std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
   std::vector<Edge> edges, rim;
   edges.reserve(3 * triangles.size());
@@ -54,8 +54,8 @@ double largest(const std::vector<double>& areas) {
   return areas.empty() ? 0 : std::ranges::max(areas);
 }
 
-/// Keeps only the components with a wanted class if the scan has eyeballs; otherwise returns the
-/// scan unchanged.
+/// If the scan has eyeballs (a modelled head), keeps only the components whose class `is_wanted`
+/// accepts; otherwise returns the scan unchanged.
 Scan of_modelled_head(const Scan& scan, const std::function<bool(PartClass)>& is_wanted) {
   const Topology topology = topology_of(scan.triangles, scan.positions.rows());
   const Adjacency adjacency = build_adjacency(topology);

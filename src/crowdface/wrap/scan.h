@@ -27,8 +27,8 @@ void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept)
 /// #V: whether a triangle uses the vertex.
 std::vector<bool> used_vertices(const Scan& scan);
 
-/// How far a surface is from being closed: the length of the sum of the triangles' area vectors, as
-/// a share of the area. 0 for a closed surface, less than 0.2 for a head with its neck, about 0.5
+/// How far a surface is from being closed: the length of the sum of the triangles' area vectors,
+/// divided by the area. 0 for a closed surface, less than 0.2 for a head with its neck, about 0.5
 /// for half a head, 0.8 for a face alone.
 double missing_share(const Scan& scan);
 
@@ -41,8 +41,8 @@ std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangle
 /// triangles with a repeated vertex. Keeps all vertices, so that vertex indices do not change.
 Scan without_small_pieces(const Scan& scan, double min_share);
 
-/// For a modelled head with eyeballs, removes the surfaces over skin and eyes: lashes, tear lines,
-/// shadow shells. Returns other scans unchanged.
+/// For a modelled head with eyeballs, removes the surfaces that lie in front of skin and eyes:
+/// lashes, tear lines, shadow shells. Returns other scans unchanged.
 Scan without_shells(const Scan& scan);
 /// For a modelled head with eyeballs, removes the eyeballs, teeth and all other parts. Returns other
 /// scans unchanged.

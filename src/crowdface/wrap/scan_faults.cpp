@@ -18,7 +18,7 @@ namespace {
 
 // fraction of the template's lid opening below which an eye counts as closed
 constexpr double kClosed = 0.4;
-// in eyeball radii: half width of the region where lids are widest apart
+// half width, in eyeball radii, of the region in which the opening of the lids is measured
 constexpr double kMiddle = 0.4;
 constexpr double kOpenMouthMm = 3;  // how much farther apart than the template's the lips must be
 constexpr double kHairMm = 10;      // heads without hair differ by less than this

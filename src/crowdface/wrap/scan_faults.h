@@ -12,7 +12,7 @@ namespace crowdface {
 inline constexpr double kFarFromScanMm =
     3;  ///< skin farther than this from the scan does not fit the scan
 
-/// Regions of the skin that a report lists separately.
+/// Regions of the skin for which a report lists the distances separately.
 struct SkinRegions {
   std::vector<std::string> names;
   std::vector<std::size_t> of_vertex;  ///< #skin indices into `names`; empty: no regions

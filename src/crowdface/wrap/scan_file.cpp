@@ -26,8 +26,8 @@ bool has_area(const Scan& scan) {
   });
 }
 
-/// Rejects scans in map coordinates stored in single precision: rounding turns the surface into
-/// steps.
+/// Rejects scans whose coordinates are so far from the origin, as map coordinates are, that
+/// rounding to single precision turns the surface into steps.
 void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
   constexpr double kMaxOfSize = 1e-3;
   const std::vector<bool> used = used_vertices(scan);
@@ -50,8 +50,8 @@ void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) 
              ": move the scan near the origin before exporting it, or export doubles (PLY, OBJ)"));
 }
 
-/// Rejects a fan of slivers, which defeats the spatial search: near the common vertex the boxes of
-/// all triangles overlap.
+/// Rejects a scan in which very many triangles share a vertex, because the boxes of all these
+/// triangles overlap there and make the spatial search slow.
 void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
   constexpr std::uint32_t kManyTriangles = 4096;
   std::vector<std::uint32_t> triangles_at(static_cast<std::size_t>(scan.positions.rows()), 0);

@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// Least share of the largest component's area; smaller components are dust or hair clips. An
-/// eyeball has about a hundredth of a head's area.
+/// Components with less than this fraction of the largest component's area are ignored as dust or
+/// hair clips. An eyeball has about a hundredth of a head's area.
 constexpr double kMinShare = 0.001;
 
 constexpr double kRounded = 1e-9;  ///< barycentric coordinate that counts as zero

@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// Smallest cosine between normals that count as compatible: within 60°.
+/// Smallest cosine between two normals that count as compatible, which means an angle of at most
+/// 60°.
 inline constexpr double kMinCosine = 0.5;
 
 /// A scan prepared for closest-point queries.
@@ -22,7 +23,7 @@ class ScanSurface {
 
   struct ClosestPoint {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    /// Interpolated from the vertex normals, unit.
+    /// unit normal, interpolated from the vertex normals
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     double distance = 0;
     bool found = false;   ///< whether a point is within reach and not on the scan's boundary

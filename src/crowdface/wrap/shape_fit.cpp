@@ -174,8 +174,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   if (modes > 0) {  // the model, not the pose, explains differences in size
     equations.hold(6, 1 - fit.pose.scale / first_scale, 1 / (kGrowth * kGrowth));
   }
-  // A small weight keeps rotations at zero where the surface does not determine them, as on a
-  // sphere.
+  // A small weight keeps the pose unknowns at zero if the surface does not determine them, as the
+  // rotation of a sphere.
   for (Index k = 0; k < kPoseUnknowns; ++k) equations.hold(k, 0, 1e-9);
   apply(equations.solve(), middle, fit);
   return matches.size();

@@ -11,7 +11,8 @@
 
 namespace crowdface {
 
-/// Uncertainty of a picked landmark, including the variation between people's faces.
+/// Standard deviation of the position of a manually picked landmark, including the variation
+/// between people's faces.
 inline constexpr double kPickedErrorMm = 3;
 
 /// A landmark marked on both template and scan.
@@ -19,13 +20,13 @@ struct WrapLandmark {
   std::string name;
   std::uint32_t vertex = 0;  ///< row of the skin; before wrapping, row of the template
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< position on the scan
-  /// whether the program found the landmark by its shape; else the user picked it
+  /// true: the program found the landmark from the surface's shape; false: the user picked it
   bool by_shape = false;
   /// Uncertainty of `place`: standard deviation along each axis. The squared distance of a landmark
   /// has the weight 1/error_mm².
   double error_mm = kPickedErrorMm;
 
-  /// The weight relative to a picked landmark.
+  /// The weight of this landmark relative to a picked landmark.
   double weight() const { return kPickedErrorMm * kPickedErrorMm / (error_mm * error_mm); }
 };
 
@@ -48,10 +49,10 @@ struct ShapeFit {
 struct ShapeFitOptions {
   std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< search radius of each round
   int steps = 4;                                        ///< number of steps in each round
-  /// Number of independent measurements with an error of 1 mm that are equivalent to a whole scan.
-  /// Larger values hold the coefficients less strongly near 0.
+  /// A whole scan counts as this many independent measurements with an error of 1 mm. With larger
+  /// values, the prior pulls the coefficients less strongly towards 0.
   double measurements = 7;
-  /// Weight of offsets along the surface, relative to 1 along the normal.
+  /// Weight of offsets along the surface; offsets along the normal have weight 1.
   double tangential = 0.1;
   double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface
 };

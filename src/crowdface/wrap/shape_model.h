@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// The variation among heads of a topology: mean and principal components.
+/// A linear model of the heads of a topology: mean and principal components.
 struct ShapeModel {
   Positions mean;  ///< #V by 3
   /// #V by 3 each, scaled to one standard deviation, largest first
@@ -23,7 +23,7 @@ struct ShapeModel {
 /// faces".
 ShapeModel make_model(const std::vector<Positions>& heads);
 
-/// The model extended by the mirror image of each head; has twice the modes.
+/// The model of the heads and their mirror images; has twice as many modes.
 ShapeModel with_mirror_images(const ShapeModel& model, const MirrorMap& map);
 
 }  // namespace crowdface

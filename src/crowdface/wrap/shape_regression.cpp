@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-/// Standard deviations of the pose.
+/// Standard deviations of the pose's rotation (radians), translation and scale.
 constexpr double kTurn = 0.05, kShiftMm = 5, kPoseGrowth = 0.02;
 constexpr Index kPose = 7;
 

@@ -11,11 +11,13 @@
 namespace crowdface {
 
 struct RegressionOptions {
-  /// Fraction of the heads' variance that is correlated only between nearby points.
+  /// Fraction of the heads' variance that is modelled as local: correlated only between nearby
+  /// points.
   double local_share = 0.15;
   double reach_mm = 45;  ///< correlation length of the local variation
   /// Standard deviation, along each axis, of an additional smooth variation with the same
-  /// correlation length. It is needed because a few heads span too little of the possible shapes.
+  /// correlation length. This variation is needed because a few heads span only few of the possible
+  /// shapes.
   double smooth_mm = 1.8;
   double noise_mm = 1;       ///< standard deviation of the scan
   std::size_t places = 800;  ///< number of sampled vertices of the skin
@@ -23,8 +25,8 @@ struct RegressionOptions {
 };
 
 /// Returns the most likely head, given the model and the observation that points of the skin lie on
-/// the scan: Gaussian process regression (Lüthi et al. 2018). The scan gives distances along its
-/// normal only; the correspondence along the surface follows from the model.
+/// the scan: Gaussian process regression (Lüthi et al. 2018). The scan constrains positions only
+/// along its normals; the model determines positions along the surface.
 /// \param model  of the skin, in the scan's frame, in millimetres
 /// \param positions  #skin by 3: an initial fit close to the scan.
 Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Positions& positions,

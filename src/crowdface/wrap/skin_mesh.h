@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Smallest openness of skin that counts as visible (kSeen), and of skin that counts as outside
-/// folds (kOpenEnough).
+/// Thresholds of openness (see vertex_visibility): skin counts as visible from kSeen on, and as
+/// outside folds from kOpenEnough on.
 inline constexpr double kSeen = 0.12, kOpenEnough = 0.3;
 
 /// The skin of a template as a mesh of its own with renumbered vertices.
@@ -20,7 +20,7 @@ struct SkinMesh {
   std::vector<double> openness;         ///< #vertices, 0 … 1: see `vertex_visibility`
 
   Index vertex_count() const { return static_cast<Index>(vertices.size()); }
-  /// The rows of the template's positions that belong to the skin.
+  /// Returns the rows of `positions` (of the whole template) that belong to the skin.
   Positions rows_of(const Positions& positions) const;
 };
 

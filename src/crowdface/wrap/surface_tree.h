@@ -34,8 +34,8 @@ class SurfaceTree {
 
   /// The closest point within `reach`; among equally close points the one on the triangle with the
   /// smallest index.
-  /// \param guess  a triangle that is probably the closest, or kNoIndex: a good guess saves most of
-  /// the search.
+  /// \param guess  a triangle that is probably the closest, or kNoIndex. A good guess makes the
+  /// search much faster.
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
                      std::uint32_t guess = kNoIndex) const;
   /// The closest point among triangles whose normal has a cosine of at least `min_cosine` with the
@@ -45,7 +45,7 @@ class SurfaceTree {
                             double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
 
  private:
-  /// Returns the closest point of one triangle, or no hit if it is beyond the reach.
+  /// Returns the closest point of one triangle, or no hit if the point is farther than `reach`.
   SurfaceHit on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point, double reach) const;
   template <class Accept>
   SurfaceHit search(const Eigen::Vector3d& point, const SurfaceHit& start,

@@ -24,7 +24,7 @@
 namespace crowdface {
 namespace {
 
-/// Least share of mirrored vertices in a symmetric head.
+/// A head counts as symmetric if at least this fraction of its vertices have a mirror vertex.
 constexpr double kMirroredShare = 0.9;
 constexpr double kMinOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier: × median
 
@@ -42,7 +42,7 @@ std::vector<WrapLandmark> landmarks_on_skin(const SkinMesh& skin,
   return result;
 }
 
-/// Distances of the landmarks after a similarity.
+/// Distances between corresponding landmarks after a similarity.
 std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similarity& pose,
                                            const std::vector<WrapLandmark>& landmarks) {
   std::vector<LandmarkResidual> result;
@@ -56,9 +56,9 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   return result;
 }
 
-/// Adds the final distances and marks outliers. The surface and the other landmarks hold the
-/// template's landmark at its true position, so a misplaced landmark ends far from its picked
-/// position.
+/// Adds the final distances and marks outliers. The surface and the other landmarks keep the
+/// landmark's vertex at its true position, so that the final distance is large if the landmark is
+/// misplaced on the scan.
 void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landmarks,
                std::vector<LandmarkResidual>& residuals) {
   std::vector<double> all;
@@ -199,7 +199,8 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   if (used != nullptr) {
     wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks);
     // After the model fit the remaining differences are small, and correspondences are close to
-    // correct. A tangential weight would then hold points in wrong positions.
+    // correct. A tangential weight would keep points at the slightly wrong positions of the closest
+    // points.
     bend = {.stiffness_mm = {10, 5, 2.5},
             .tangential_first = 0,
             .tangential_last = 0.05,
@@ -268,8 +269,9 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
     return result;
   };
   WrapResult best = wrapped_with(all_landmarks);
-  // All landmarks that are found by shape may be wrong together, for example if the landmarks of
-  // the mouth lie in the crease of the chin. Only a fit without these landmarks shows the error.
+  // All automatically found landmarks of a feature may be wrong in the same way, for example if the
+  // landmarks of the mouth lie in the crease above the chin. Only a fit without these landmarks
+  // shows the error.
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = index_in_list(shape.skin.vertices, landmark.vertex);
     return std::ranges::any_of(doubts, [&](const FeatureAgreement& feature) {

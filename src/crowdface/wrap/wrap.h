@@ -25,7 +25,7 @@ struct LandmarkResidual {
   double error_mm = 0;  ///< see `WrapLandmark::error_mm`
 };
 
-/// Smallest agreement of a feature that is not doubtful.
+/// A feature with a smaller agreement is doubtful.
 inline constexpr double kDoubtfulAgreement = 0.7;
 
 /// Agreement of a feature's relief on the wrapped template with the relief on the template; see
@@ -47,12 +47,12 @@ struct WrapResult {
   std::vector<std::string> dropped_landmarks;
   double pose_residual_mm = 0;  ///< median distance after the similarity
   Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
-  /// #skin: whether no scan data is nearby, or only the scan's boundary
+  /// #skin: whether the vertex has no scan data nearby, or only the scan's boundary
   std::vector<bool> lacks_data;
   Index flipped = 0;  ///< number of flipped triangles in the skin
-  /// Distance in mm from the point between the eyes of the wrapped template to the same point of
-  /// the face that the scan's relief shows. Nothing if one of the two faces was not found, or if
-  /// enough landmarks were picked.
+  /// Distance in mm between the point between the eyes on the wrapped template and the same point
+  /// of the face that was found from the scan's relief. Nothing if one of the two faces was not
+  /// found, or if enough landmarks were picked.
   std::optional<double> face_off_mm;
 };
 
@@ -62,7 +62,7 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
 
 inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determine the pose
 
-/// Deforms the template's skin onto the scan; eyes, teeth and lashes follow.
+/// Deforms the template's skin onto the scan; eyes, teeth and lashes follow the skin.
 /// \param model  of the template's skin, in its frame and in millimetres; or nullptr.
 /// \param landmarks  vertices of the whole template, positions in the scan's frame; the function
 /// ignores landmarks outside the skin.

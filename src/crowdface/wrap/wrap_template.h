@@ -26,8 +26,8 @@ struct WrapTemplate {
 };
 
 struct TemplateOptions {
-  /// Skins with more than `max_vertices` vertices are deformed through a reduced skin with about
-  /// `reduced_vertices` vertices.
+  /// A skin with more than `max_vertices` vertices is not deformed directly but by means of a
+  /// reduced skin with about `reduced_vertices` vertices.
   std::size_t max_vertices = 20000, reduced_vertices = 12000;
 };
 
