@@ -16,7 +16,7 @@
 namespace crowdface::cli {
 namespace {
 
-/// Reads the line of a plan that the reference "FILE#ID" names.
+/// Reads the line of the face ID from the plan FILE, for a reference "FILE#ID".
 PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
   const std::size_t hash = reference.rfind('#');
   if (hash == reference.npos || hash == 0 || hash + 1 == reference.size()) {
@@ -33,8 +33,10 @@ PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
                             nearest ? concat("; did you mean ", *nearest, "?") : ""));
 }
 
-/// \throws InvalidInput if the recipe needs more iterations than the fitted levels contain, which
-/// is possible in a plan that was edited by hand.
+/// Checks the smoothing levels of a recipe.
+
+/// \throws InvalidInput if the recipe needs more
+/// iterations than the fitted levels contain, which is possible in a plan that was edited by hand.
 void check_levels(const Recipe& recipe, const Job& job, const std::string& reference) {
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     if (recipe.regions[k].iterations <= job.inputs.max_level) continue;

@@ -58,8 +58,8 @@ void describe(const Job& job) {
       job.config.output.directory.string(), "\n"));
 }
 
-/// Returns a colour for each region, #R by 3: red, green and blue for the channels of one
-/// image, else colours of a palette.
+/// Returns a colour for each region, #R by 3: red, green and blue if the regions are the channels
+/// of one image, otherwise colours of a palette.
 VertexColours painted_colours(const Config::Regions& regions, Index count) {
   const bool channels = regions.mask.size() == 1 && count > 1;
   VertexColours colours(count, 3);
@@ -100,7 +100,7 @@ void write_masks(const Job& job, const std::filesystem::path& directory) {
   if (alpha.cols() > 1) write("all", region_colours(alpha, colours));
 }
 
-/// Writes a picture of the mean head with the landmarks of the measurements.
+/// Writes an image of the mean head that shows the landmarks from which traits are measured.
 void write_landmarks(const Job& job, const HeadLandmarks& landmarks,
                      const std::filesystem::path& file) {
   Config::ContactSheet sheet;

@@ -73,7 +73,7 @@ AddedOption add_repeated(CLI::App& command, const std::string& name,
 
 namespace {
 
-/// Splits the accepted values from the name of a value: "WORD:{fixed,free}".
+/// Splits a type such as "WORD:{fixed,free}" into the value's name and the accepted values.
 void split_words(OptionTable& option) {
   const std::size_t colon = option.type.find(":{");
   if (colon == option.type.npos) return;

@@ -25,13 +25,13 @@ struct CommandTable {
   std::vector<OptionTable> options;
 };
 
-/// The whole command line of the program.
+/// The complete description of the program's command line.
 struct ProgramTable : CommandTable {
   std::string footer;
   std::vector<CommandTable> commands;
 };
 
-/// Reads the tables from which the program parses its command line.
+/// Reads from the CLI11 parser the description of all commands and options.
 ProgramTable tables_of(const CLI::App& program);
 
 }  // namespace crowdface::cli

@@ -25,8 +25,7 @@ struct CommonOptions {
   std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
-  /// Returns the run's `--limit` arguments, which are passed on to the processes that this run
-  /// starts.
+  /// Returns the `--limit` arguments of this run, for the processes that this run starts.
   std::vector<std::string> limit_arguments() const;
   /// Applies the options. \return holds the thread limit during its lifetime.
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
@@ -41,13 +40,13 @@ struct CacheOption {
   std::filesystem::path cache_path() const;
 };
 
-/// The config file and the options that override its values.
+/// The config file, and the options that override values of the config.
 struct ConfigOptions : CacheOption {
   std::string config;
   ConfigOverrides overrides;
 
   void add_to(CLI::App& command);
-  /// Adds `--review`, for commands that plan a crowd.
+  /// Adds `--review`; for commands that plan a crowd.
   void add_review_to(CLI::App& command);
   /// Adds `--without-reviews`, for commands that write a plan.
   void add_without_reviews_to(CLI::App& command);
@@ -93,7 +92,8 @@ std::uint64_t whole_number(std::string_view option, const std::string& text, std
 
 /// Adds a command.
 /// \tparam Options  options of the command; derived from CommonOptions.
-/// \param declare   adds the command's own options to the parser, which fills `Options`.
+/// \param declare   adds the command's own options to the parser; the parser stores their values in
+///   `Options`.
 /// \param work      executes the command.
 template <class Options>
 Run add_command(CLI::App& program, const char* name, const char* description,

@@ -14,14 +14,14 @@
 namespace crowdface::cli {
 namespace {
 
-/// A text as one word of bash and zsh.
+/// Quotes a text so that bash and zsh read it as one word.
 std::string in_quotes(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result + "'";
 }
 
-/// A text with a backslash before each of some characters.
+/// Returns the text with a backslash before each of the given characters.
 std::string escaped(const std::string& text, std::string_view characters) {
   std::string result;
   for (const char c : text) {
@@ -48,7 +48,7 @@ std::vector<std::string> option_names(const CommandTable& command) {
   return names;
 }
 
-/// The part of bash's function that completes one command.
+/// Returns the case of bash's completion function that completes one command.
 std::string bash_case(const CommandTable& command) {
   std::string values, words;
   for (const OptionTable& option : command.options) {
@@ -101,7 +101,7 @@ std::string bash_script(const ProgramTable& program) {
       "complete -o bashdefault -o default -F _crowdface crowdface\n");
 }
 
-/// What zsh completes for a value.
+/// Returns zsh's completion action for the value of an option.
 std::string zsh_action(const OptionTable& option) {
   if (!option.words.empty()) return concat('(', join(option.words, " "), ')');
   return is_folder_type(option) ? "_files -/" : "_files";
@@ -194,7 +194,8 @@ std::string fish_script(const ProgramTable& program) {
   return lines;
 }
 
-/// A text for groff: no control characters at the start of a line, hyphens that can be copied.
+/// Escapes a text for groff: control characters at the start of a line, and hyphens, so that they
+/// can be copied as ASCII.
 std::string roff(const std::string& text) {
   std::string result;
   bool at_start = true;

@@ -60,8 +60,8 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
   files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, title)));
 }
 
-/// Paints the region masks. The caller does this before it writes files, because the function fails
-/// for a model without eyes or teeth. \param first  see paint_masks.
+/// Paints the region masks. Call this function before writing files, because it fails for a model
+/// without eyes or teeth. \param first  see paint_masks.
 template <class Model>
 PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                       const std::vector<bool>& first = {}) {
@@ -85,7 +85,8 @@ void add_masks(const PaintedMasks& masks, const std::string& kind, const Wanted&
   }
 }
 
-/// Marks the vertices of the skin, #V. Skin takes priority where faces overlap in the texture.
+/// Marks the vertices of the skin, #V. Where polygons overlap in the texture, polygons of the skin
+/// take priority.
 std::vector<bool> skin_of(const MakeHumanHeads& model) {
   const Topology& topology = model.neutral().topology;
   std::vector<bool> skin(static_cast<std::size_t>(topology.vertex_count), false);
@@ -116,8 +117,8 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
   const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
   const auto refined = [&](Mesh mesh, std::vector<MaterialRange>& materials) {
     for (int round = 0; round < rounds; ++round) {
-      // Subdivision makes one quad per corner, so the index of a range's first face becomes the
-      // index of this face's first corner.
+      // Subdivision makes one quad per corner. The first face of a material range is then the quad
+      // of the first corner of the range's previous first face.
       for (MaterialRange& range : materials) {
         range.first_face = mesh.topology.face_offsets[static_cast<std::size_t>(range.first_face)];
       }

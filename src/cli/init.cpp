@@ -76,7 +76,8 @@ std::vector<std::vector<std::string>> tags_beside(const std::vector<fs::path>& f
 /// The folder of attachments that `synth` and `import` write.
 constexpr const char* kAttachments = "attachments";
 
-/// Returns whether a folder of attachments lies beside the heads and some head may wear some of them.
+/// Returns whether there is a folder of attachments beside the heads, and at least one head may
+/// wear at least one of the attachments.
 bool has_attachments_beside(const fs::path& heads, const StarterFacts& facts) {
   if (!is_file(heads / kAttachments / "attachments.yaml")) return false;
   Complaints complaints;
@@ -103,7 +104,7 @@ std::string format_number_of(double value) {
 
 constexpr std::size_t kHeadsLookedAt = 8;
 
-/// What the heads' shapes tell.
+/// What the analysis of the heads' shapes has found.
 struct Seen {
   Positions first;                         ///< vertices of the first head
   std::optional<Orientation> orientation;  ///< up and front axes
@@ -113,8 +114,8 @@ struct Seen {
   double face = 0;            ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 
-/// Leaves out heads that `check` refuses because of their pose, and logs warnings: a mean with them
-/// has no face.
+/// Leaves out heads that `check` refuses because of their pose, and logs warnings. With such heads,
+/// the mean head would not look like a face.
 void leave_out_odd_heads(HeadSet& set, const Components& components) {
   const std::vector<HeadPose> poses = head_poses(set, components);
   std::vector<Head> kept;
@@ -144,7 +145,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     log_warning(concat("no regions: ", problems.messages().front()));
     return {read_mesh_as_obj(files[0]).positions, {}, {}};
   }
-  // The config aligns these heads; their mean has a face only then.
+  // Align the heads as the config will, because only the mean of aligned heads looks like a face.
   const Components components = find_components(build_adjacency(set->topology));
   leave_out_odd_heads(*set, components);
   const bool stands_apart = needs_rigid_alignment(*set, components);
@@ -168,8 +169,9 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   return seen;
 }
 
-/// Guesses the mesh unit: the named unit (inches last) in which the face (or, if no face was found,
-/// the head) has human size. If no named unit fits, the length that gives the face human size.
+/// Guesses the unit of the meshes: the named unit in which the face has human size (or the head, if
+/// no face was found); tries inches last. If no named unit fits, uses the unit length that gives
+/// the face human size.
 void guess_units(const Seen& seen, StarterFacts& facts) {
   constexpr double kTypicalHeightMm = 280;  // heads with and without neck and shoulders
   constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;

@@ -47,8 +47,8 @@ constexpr const char* kFooter =
 constexpr const char* kLack =
     "the system cannot provide more threads, memory or open files; use fewer threads (--threads): ";
 
-/// Returns whether an exception reports a lack of system resources. TBB reports that it cannot
-/// start a thread only by the system's message text.
+/// Returns whether an exception reports a lack of system resources. If TBB cannot start a thread,
+/// only the system's message text in its exception shows the cause.
 bool is_lack_of_resources(const std::exception& error) {
   const std::string_view what = error.what();
   for (const std::errc lack : {std::errc::resource_unavailable_try_again,
@@ -60,8 +60,8 @@ bool is_lack_of_resources(const std::exception& error) {
 
 constexpr const char* kOutOfMemory = "out of memory; use fewer threads (--threads)";
 
-/// Logs an error and returns the exit code. Also logs that memory ran out, because a library may
-/// report failed allocations as a broken file.
+/// Logs an error and returns the exit code. If memory ran out, also logs this fact, because a
+/// library may report a failed allocation as an invalid file.
 int fail(ExitCode code, std::string_view message) {
   log_error(message);
   if (!is_out_of_memory()) return static_cast<int>(code);
@@ -124,8 +124,8 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
                                   : concat("; expected one of ", join(names))));
 }
 
-/// Refuses values that CLI11 accepts: empty ones, such as `--shard "$PART"` if PART is not set, and
-/// ones with line breaks, because a file name could then imitate a message.
+/// Refuses values that CLI11 accepts: empty values, such as `--shard "$PART"` if PART is not set,
+/// and values with line breaks, because a file name with line breaks could imitate a log message.
 void refuse_senseless_values(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {
@@ -147,8 +147,8 @@ void refuse_senseless_values(const CLI::App& program) {
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1) continue;
-    // open() returns the lowest free number, which is `stream`. Writing to standard output still
-    // fails, because the file is opened for reading only.
+    // open() returns the lowest free file descriptor, which is `stream`. For standard output,
+    // /dev/null is opened for reading only, so that writing still fails.
     if (::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR) < 0) return;
   }
 }
@@ -156,8 +156,8 @@ void open_standard_streams() {
 int run_program(int argc, char** argv) {
   std::set_terminate(end_at_once);
   open_standard_streams();
-  // Ignore these signals: exceeding the file size limit and writing to a closed pipe then are write
-  // errors with a message.
+  // Ignore these signals, so that exceeding the file size limit or writing to a closed pipe is
+  // reported as a write error.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   // The image library may load OpenBLAS, which raises SIGINT if it cannot start threads. Nothing

@@ -96,8 +96,8 @@ Picture shrunk(Picture picture, int max_texels) {
   return small;
 }
 
-/// Makes a texture of hair neutral, so that it can take any hair colour: grey of mean light
-/// kNeutralLight. Keeps the relative brightness of the texels, with less contrast.
+/// Makes a hair texture neutral, so that it can be tinted with any hair colour: grey with the mean
+/// linear light kNeutralLight. Keeps the relative brightness of the texels, with less contrast.
 void make_neutral(Picture& picture) {
   const std::vector<float>& light = light_of_srgb8_values();
   const auto lightness = [&](const std::array<std::uint8_t, 4>& texel) {
@@ -138,7 +138,7 @@ HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels
   return {path, [from, max_texels] { return encoded(shrunk(read_picture(from), max_texels)); }};
 }
 
-/// Blends skin textures in optical density, as pigments mix.
+/// Blends skin textures in optical density, because the densities of mixed pigments add up.
 /// \param tone  factor on the densities.
 Picture mixed_skin(const std::vector<SkinShare>& shares, double tone) {
   std::vector<Picture> pictures;

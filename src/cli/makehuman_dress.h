@@ -31,8 +31,8 @@ class MakeHumanDress {
   /// woman and a man of mixed ancestry.
   void add_body(const std::filesystem::path& folder, std::vector<HeadFile>& files) const;
   /// Adds the files that all heads share: textures of lashes, teeth and tongue; the folder
-  /// `attachments` with the hair, brows and beards that the persons added so far may wear, and with
-  /// the config section that lists these attachments; `licences.txt`.
+  /// `attachments`, which contains the hair, brows and beards that the persons added so far may
+  /// wear and the config section that lists these attachments; `licences.txt`.
   /// \param base  the average head, in the heads' topology.
   void add_common(const std::filesystem::path& folder, HeadFile base, std::vector<HeadFile>& files);
 

@@ -47,8 +47,8 @@ WantedMask heads_of_folder(const fs::path& folder) {
   return wanted;
 }
 
-/// Reads the heads from a config. Other problems of the config are ignored, because its mask may
-/// not exist yet.
+/// Reads the heads from a config. Ignores problems in other parts of the config, because the mask
+/// that it names may not exist yet.
 WantedMask heads_of_config(const fs::path& file) {
   Problems problems;
   const ConfigReading reading = read_config_parts(file, {}, problems);

@@ -15,7 +15,8 @@
 namespace crowdface::cli {
 namespace {
 
-/// Returns the file of `--landmarks`, to which the page saves; the file need not exist.
+/// Returns the file that `--landmarks` names; the page saves landmarks to this file, which need not
+/// exist.
 std::filesystem::path landmarks_file(const WrapOptions& options) {
   if (options.landmarks.empty()) {
     throw UsageError("--pick: expected --landmarks FILE.yaml, the file to save the landmarks to");

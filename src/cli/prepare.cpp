@@ -16,7 +16,7 @@ namespace crowdface::cli {
 
 namespace {
 
-/// Logs the measured error of the fitted levels for each head.
+/// Logs for each head the measured error of the fitted smoothing levels.
 void tell_errors(const Job& job, const Prepared& prepared) {
   const double mm = mm_per(job.config.faces.units);
   for (std::size_t h = 0; h < prepared.levels.size(); ++h) {

@@ -70,7 +70,7 @@ void smooth_file(const SmoothOptions& options) {
   }
 }
 
-/// Adds an option whose value is one of the words of its type, see words_of.
+/// Adds an option whose value is one of the words of the enumeration `Value`, see words_of.
 template <class Value>
 void add_word_option(CLI::App& command, const char* name, Value& value, const char* help) {
   std::vector<std::string> words;

@@ -62,7 +62,8 @@ fs::path full_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal();
 }
 
-/// Returns arguments that select this config independently of machine and working directory.
+/// Returns arguments that name this config in a way that does not depend on machine and working
+/// directory.
 std::vector<std::string> config_arguments(const ConfigOptions& options, const fs::path& out) {
   std::vector<std::string> arguments = {full_path(options.config).string(), "--out", out.string()};
   const auto add = [&](const char* name, const std::string& value) {
@@ -82,6 +83,8 @@ Engine engine_from(const std::string& name) {
   }
   throw UsageError(concat("--engine: expected slurm or parallel, found ", quoted(name)));
 }
+
+/// Checks the options.
 
 /// \throws UsageError if a given option does not apply to the engine.
 void refuse_strange_options(const SubmitOptions& options, Engine engine) {

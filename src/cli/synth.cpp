@@ -51,7 +51,8 @@ std::string material_file(const std::vector<MaterialRange>& materials, const std
   return text;
 }
 
-/// Adds the body, and with textures its material file and its texture in the skin of the first head.
+/// Adds the body. If there are skin textures, also adds the body's material file and its texture,
+/// which shows the skin of the first head.
 void add_body(const fs::path& folder, const SyntheticHeads& heads, const SyntheticSkins* skins,
               std::uint64_t seed, std::vector<HeadFile>& files) {
   const std::string library = skins != nullptr ? "body.mtl" : "";

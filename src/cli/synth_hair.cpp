@@ -30,6 +30,8 @@ const char* form_tag(bool curly, bool bald) {
   return curly ? "curly_hair" : "straight_hair";
 }
 
+/// Returns the tag for a skin tone.
+
 /// \param tone  synth::Complexion::tone.
 const char* skin_tag(double tone) {
   if (tone < 1 / 3.0) return "light_skin";

@@ -16,13 +16,13 @@
 
 namespace crowdface::cli {
 
-/// Attachments for synthetic heads: every haircut that a head may wear as hair cards, brows and
-/// beards, each once, with neutral textures.
+/// Attachments for synthetic heads: hair cards for every haircut that a head may wear, brows and
+/// beards. Each attachment exists once and has a neutral texture.
 class SynthHair {
  public:
-  /// Registers a head. \return its tags: skin, hair colour, and hair form, such as "light_skin,
-  /// brown_hair, straight_hair"; the colour is the colour of young years, the form is "bald" if the
-  /// crown is bald.
+  /// Registers a head. \return its tags: skin, hair colour and hair form, such as "light_skin,
+  /// brown_hair, straight_hair". The colour is the hair colour of the person's youth; the form is
+  /// "bald" if the crown is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
   /// Adds the files of the folder `attachments`, inside the folder of the heads: meshes, materials,

@@ -8,8 +8,8 @@
 namespace crowdface::cli {
 namespace {
 
-/// Checks that the options fit together and stores the template in `shape`. Handles runs with and
-/// without --batch.
+/// Checks that the options fit together, with or without --batch, and stores the template in
+/// `shape`.
 WrapCommand sorted(WrapCommand options) {
   if (options.pick && !options.out.empty()) {
     throw UsageError("--pick: expected no -o, --output, because --pick wraps nothing");

@@ -213,8 +213,8 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shown.vertices.push_back(v);
     }
   }
-  // Use the larger visibility of the neutral head and of the shape that moves most, because an open
-  // mouth lets light in.
+  // Also compute the visibility for the shape that moves vertices most, because an open mouth lets
+  // light reach more vertices.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
   widest_shape_ = static_cast<std::size_t>(

@@ -65,8 +65,8 @@ class CrowdPictures {
   std::vector<std::vector<double>> head_traits_;
 };
 
-/// The image and gallery files in the crowd's folder, sorted, without the renders and meshes of the
-/// faces. \throws IoError if a folder cannot be read.
+/// The files of the contact sheets, the gallery and the likeness in the crowd's folder, sorted;
+/// without the renders and meshes of the faces. \throws IoError if a folder cannot be read.
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets);
 

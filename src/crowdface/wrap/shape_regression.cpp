@@ -52,8 +52,8 @@ class Regression {
   Regression(const ShapeModel& model, const RegressionOptions& options)
       : model_(model), options_(options), middle_(model.mean.colwise().mean().transpose()) {}
 
-  /// Derivative of a vertex with respect to translation, rotation and scale of the head, each
-  /// scaled by its standard deviation.
+  /// Returns the most likely displacement of each skin vertex from the model's mean, #skin by 3,
+  /// given the observations (Gaussian process regression).
   Positions displacements(const std::vector<Observation>& observations) const {
     const auto count = static_cast<Index>(observations.size()),
                modes = static_cast<Index>(model_.modes.size());
@@ -105,8 +105,8 @@ class Regression {
   }
 
  private:
-  /// Derivative of a vertex with respect to translation, rotation and scale of the head, in
-  /// standard deviations.
+  /// Derivatives of a vertex's position with respect to translation, rotation and scale of the
+  /// head, each multiplied by the standard deviation of that parameter.
   Eigen::Matrix<double, kPose, 3> pose_modes(Index vertex) const {
     const Eigen::Vector3d arm = row3(model_.mean, vertex) - middle_;
     Eigen::Matrix<double, kPose, 3> modes;

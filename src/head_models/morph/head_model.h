@@ -17,16 +17,16 @@ struct HeadPerson {
   double years = 0;
 };
 
-/// A generator of random heads: sums of morph targets in one topology. Lengths are in centimetres,
-/// +Y is up, heads face +Z.
+/// A generator of random heads of one topology; each head is a weighted sum of morph targets.
+/// Lengths are in centimetres, +Y is up, heads face +Z.
 class HeadModel {
  public:
   virtual ~HeadModel() = default;
   /// Returns the model's average head.
   virtual const Mesh& neutral() const = 0;
-  /// Returns the materials of the faces, by ascending first face; may be empty.
+  /// Returns the materials as ranges of polygons, sorted by first polygon; may be empty.
   virtual const std::vector<MaterialRange>& materials() const = 0;
-  /// Returns the vertices of head number `index` of a seed: #V by 3. The same bits on every
+  /// Returns the vertices, #V by 3, of head number `index` of a seed, bit-identical on every
   /// machine.
   virtual Positions positions(std::uint64_t seed, std::uint64_t index) const = 0;
   /// Returns sex and age of head number `index` of a seed; nothing if the model does not define

@@ -15,9 +15,10 @@ namespace {
 constexpr double kYoung = 25, kOld = 90;  // ages in years of MakeHuman's young and old targets
 constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
-/// A measure with one target for each direction. '*' in `stem` stands for l and r, whose values
-/// differ slightly. `spread` is the standard deviation. `aged` is the change of the mean per 20
-/// years of age above 45, `weight` its change for the heaviest body.
+/// A measure with two morph targets: one decreases it, one increases it. '*' in `stem` stands for l
+/// and r (left and right), whose values differ slightly. `spread` is the standard deviation. `aged`
+/// is the change of the mean per 20 years of age above 45, `weight` the change of the mean for the
+/// heaviest body.
 struct Control {
   std::string_view stem, less, more;
   double spread;
@@ -152,12 +153,13 @@ std::span<const char> sides_of(const Control& control) {
   return std::span(kSides).first(paired ? 2 : 1);
 }
 
-/// Returns the interpolation weights of min, average and max at an amount in [0, 1].
+/// Returns the interpolation weights of the targets for min, average and max amount; x is the
+/// amount, 0 … 1.
 std::array<double, 3> amounts(double x) {
   return {std::max(0.0, 1 - 2 * x), 1 - std::abs(2 * x - 1), std::max(0.0, 2 * x - 1)};
 }
 
-/// Adds the targets of the person by MakeHuman's own scheme: linear interpolation between the
+/// Adds the person's targets with the weights that MakeHuman uses: linear interpolation between the
 /// targets of both sexes, two ages and three builds.
 void add_person(const MakeHumanPerson& person, double male_share, std::vector<TargetWeight>& out) {
   const double old_share = std::clamp((person.years - kYoung) / (kOld - kYoung), 0.0, 1.0);
@@ -183,7 +185,7 @@ void add_person(const MakeHumanPerson& person, double male_share, std::vector<Ta
 
 MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index) {
   MakeHumanPerson person;
-  // Stratified, so that a few heads already have both sexes and several ages.
+  // Use stratified random numbers, so that even a few heads include both sexes and several ages.
   person.male = random_stratified({seed, index, "makehuman/sex"}, 2) < 0.5;
   person.years = std::floor(20 + 60 * random_stratified({seed, index, "makehuman/age"}, 5));
   double sum = 0;
@@ -205,7 +207,7 @@ MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index)
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index) {
   std::vector<TargetWeight> out;
-  // Mix in up to 20 % of the other sex.
+  // Mix in up to 20 % of the targets of the other sex.
   const double mixed = random_between({seed, index, "makehuman/sex_share"}, 0, 0.2);
   add_person(person, person.male ? 1 - mixed : mixed, out);
   for (const Control& control : kControls) {

@@ -32,7 +32,8 @@ struct Part {
 constexpr std::array<Part, 3> kParts = {
     {{"body", "skin"}, {"helper-r-eye", "eyeball_r"}, {"helper-l-eye", "eyeball_l"}}};
 
-/// Returns the mean height of the corners of the helpers' faces.
+/// Returns the mean height of the corners of the polygons in two helper groups (geometry in the
+/// base mesh that is not part of the body).
 double mean_height(const ThreeMesh& mesh, const std::array<std::string_view, 2>& helpers,
                    const std::filesystem::path& file) {
   double sum = 0;
@@ -135,7 +136,7 @@ std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
 }
 
 void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
-  // Keep the faces of the skin, the first material.
+  // Keep the polygons of the skin, which is the first material.
   const Topology& naked = mesh_.head.topology;
   Topology topology;
   for (Index f = 0; f < mesh_.materials[1].first_face; ++f) {
@@ -145,7 +146,7 @@ void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
   for (std::uint32_t& row : skin_) row = mesh_.rows[row];
   const auto uv_rows = renumber(topology.corner_uvs, mesh_.head.uvs.rows());
   TextureCoordinates uvs = mesh_.head.uvs(uv_rows, kAllColumns);
-  // Append the parts, with their indices shifted.
+  // Append the parts, with shifted vertex indices.
   materials_ = {mesh_.materials[0]};
   auto vertices = static_cast<std::uint32_t>(skin_.size());
   for (const auto& [material, mesh] : parts) {

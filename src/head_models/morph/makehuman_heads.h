@@ -27,7 +27,7 @@ struct MakeHumanMesh {
 /// \throws MissingInput, or InvalidInput naming the file, what was expected and what was found.
 MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file);
 
-/// A fitted mesh that is part of every head.
+/// A fitted mesh, such as eyes or teeth, that is part of every head.
 struct ClothingPart {
   std::string material;  ///< "eyelashes"
   FittedMesh mesh;
@@ -49,11 +49,11 @@ class MakeHumanHeads : public HeadModel {
   const Positions& base() const { return mesh_.file_positions; }
   /// Returns the rows of the head's skin in base(), ascending.
   std::vector<std::uint32_t> skin_rows() const;
-  /// Returns the vertices of a mesh fitted to the average head, in the frame of the heads.
+  /// Fits a mesh to the average head and returns its vertices in the coordinate frame of the heads.
   Positions fitted_to_neutral(const FittedMesh& mesh) const;
 
-  /// Returns the average body below the heads. Its open rim has the vertices of the neutral head's
-  /// rim. Its texture coordinates refer to the heads' skin texture.
+  /// Returns the average body below the heads. The vertices of its open rim coincide with the
+  /// vertices of the neutral head's rim. Its texture coordinates refer to the heads' skin texture.
   Mesh body() const;
 
   const Mesh& neutral() const override { return neutral_; }

@@ -25,15 +25,15 @@ struct AgeShare {
   double share;
 };
 
-/// Returns the shares of the package's skins for three ages. The skins show people of 27, 48 and 68
-/// years; shares for other ages are interpolated linearly.
+/// Returns the blending weights, for an age, of the package's skins, which show people of 27, 48
+/// and 68 years; interpolates linearly between these ages.
 std::array<AgeShare, 3> age_shares(double years) {
   const double middle = std::clamp((years - 27) / (48 - 27), 0.0, 1.0);
   const double old = std::clamp((years - 48) / (68 - 48), 0.0, 1.0);
   return {{{"young", 1 - middle}, {"middleage", middle - old}, {"old", old}}};
 }
 
-/// Returns the path of the texture that a skin's file names.
+/// Returns the path of the texture that the file of a skin refers to.
 fs::path skin_picture(const fs::path& file) {
   try {
     const auto root = nlohmann::json::parse(read_file(file));
@@ -74,7 +74,7 @@ const fs::path& only_picture(const FittedMesh& mesh, const fs::path& file) {
   return mesh.pictures[0].path;
 }
 
-/// Returns whether the texture is fully transparent at each corner of a face.
+/// Returns whether the texture is fully transparent at every corner of a polygon.
 bool is_clear(const Image& image, const FittedMesh& mesh, Index face) {
   if (image.alpha_channel < 0) return false;
   const auto texel = [](double place, int count) {
@@ -112,7 +112,8 @@ struct Wearable {
   double share = 1;
   bool young = false;  ///< old people do not wear it
 };
-// The sex tags of hair come from the package; the sex tags of brows are assigned by thickness.
+// The tags "male" and "female" of hair come from the package; for brows they are assigned by the
+// thickness of the brows.
 constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "male"},
                                                      {"eyebrow002", "brow", "female"},
                                                      {"eyebrow003", "brow", "male"},

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A skin texture of the package, and its share of a person's blended skin.
+/// A skin texture of the package, and its weight in a person's blended skin.
 struct SkinShare {
   std::filesystem::path picture;
   double share = 0;
@@ -23,7 +23,7 @@ std::vector<SkinShare> makehuman_skin(const std::filesystem::path& package,
                                       const MakeHumanPerson& person, std::uint64_t seed,
                                       std::uint64_t index);
 
-/// Returns the pigment density of a person's skin relative to the textures: 0.75 to 1.25.
+/// Returns a random factor, 0.75 to 1.25, on the optical density of a person's skin textures.
 double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index);
 
 /// Returns a person's random eye colour: the name of a material of the package's eyes. "brown" has
@@ -31,8 +31,8 @@ double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index);
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index);
 
-/// Returns a person's random hair colour in young years: a name of named_hair_colours. Light and
-/// red hair have a probability above zero for Caucasian ancestry only.
+/// Returns a random hair colour that the person has when young: a name of named_hair_colours. Light
+/// and red hair have a probability above zero for Caucasian ancestry only.
 std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                   std::uint64_t index);
 
@@ -64,7 +64,8 @@ struct MakeHumanAttachment {
 /// Returns the attachments that have a named author and a contemporary style, brows first.
 std::vector<MakeHumanAttachment> makehuman_attachments(const std::filesystem::path& package);
 
-/// Returns the ancestry ("african", "asian" or "caucasian") with a share above 0.5; else empty.
+/// Returns the ancestry ("african", "asian" or "caucasian") whose share is above 0.5; if there is
+/// none, an empty text.
 std::string prevailing_ancestry(const MakeHumanPerson& person);
 
 }  // namespace crowdface

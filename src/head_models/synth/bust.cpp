@@ -49,7 +49,7 @@ const Section kBack = {{{5.2, 0},
 
 const Vector3d kAxis(0, -16.4, -3.1);  ///< middle of the rim of the average head
 
-// Radii of the rim and of the lower edge in the texture.
+// Radii of the circles onto which the bust's rim and lower edge are mapped in the texture.
 constexpr double kInner = 0.1, kOuter = 0.48;
 
 /// Returns the control points in a horizontal direction. \param way  unit vector (x, z)
@@ -97,8 +97,8 @@ Mesh bust_below(const Positions& rim) {
     const Vector3d start = rim.row(i).transpose();
     const Vector2d off(start.x() - kAxis.x(), start.z() - kAxis.z()), way = off.normalized();
     Section section = section_at(way);
-    // The rim differs a little from the rim of the ideal bust; the difference fades over the first
-    // points.
+    // The head's rim differs a little from the rim of the ideal bust; spread the difference over
+    // the first control points.
     const Vector2d difference = Vector2d(off.norm(), start.y() - kAxis.y()) - section[0];
     constexpr std::array<double, 4> kFade = {1, 1, 0.6, 0.2};
     for (std::size_t k = 0; k < kFade.size(); ++k) section[k] += kFade[k] * difference;

@@ -8,12 +8,13 @@
 namespace crowdface::synth {
 
 /// Returns a bust below a neck: shoulders and chest without arms, open at top and bottom. The
-/// texture shows the bust from above, with the front at the bottom of the picture.
+/// texture shows the bust from above, with the front at the bottom of the image.
 /// \param rim  the lower end of the neck of the average head, #rim by 3, cm, counter-clockwise seen
 /// from above. These are also the first vertices of the result.
 Mesh bust_below(const Positions& rim);
 
-/// Returns the point of an ideal bust at texture coordinates, cm, up to the edges of the bust.
+/// Returns the point, in cm, of an ideal bust at texture coordinates; clamped to the edges of the
+/// bust.
 Eigen::Vector3d bust_point(const Eigen::RowVector2d& uv);
 
 }  // namespace crowdface::synth

@@ -49,8 +49,8 @@ ScreenColour random_iris(double tone, double kind, double light) {
   return (0.85 + 0.3 * light) * along(colours, brown + (1 - brown) * kind * 0.9);
 }
 
-/// Sets the beard for `kind` in [0, 1): 42 % shaven, 25 % stubble, 18 % moustache (of these, more
-/// than half with a chin beard), 15 % full beard.
+/// Sets the beard for a uniform random number `kind` in [0, 1): 42 % shaven, 25 % stubble, 18 %
+/// moustache (more than half of the moustaches with a chin beard), 15 % full beard.
 void grow_beard(double kind, Complexion& look) {
   const double everywhere = kind < 0.42 ? 0.12 : kind < 0.67 ? 0.45 : kind < 0.85 ? 0.2 : 1;
   look.beard = look.moustache = look.chin_beard = everywhere;
@@ -82,7 +82,7 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
   look.iris = random_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
-    // Stratified: among five successive men, about two are shaven.
+    // Use stratified random numbers, so that about two of five successive men are shaven.
     grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);
     look.receding = smooth_step(28, 80, person.age + 45 * (unit("synth/receding") - 0.5));
   } else {

@@ -50,7 +50,8 @@ Vector3d ear_point(const Vector2d& place, double height) {
   return skin + height * Vector3d(0.86, 0.0, -0.5);
 }
 
-/// Height of the rim above the head, cm. \param round  unit direction from the ear's centre.
+/// Height of the ear's rim above the skin of the head, cm. \param round  unit direction from the
+/// ear's centre.
 double stand_off(const Vector2d& round) {
   const double back = smooth_step(-0.9, 0.9, round.x());
   const double lobe = smooth_step(-0.3, -1.0, round.y());
@@ -73,7 +74,7 @@ Vector3d on_ring(double around, double b) {
   const Vector2d round = on_circle(around);
   const double front = smooth_step(0.2, -0.8, round.x());
   const double from = std::max(b, kAttached);
-  // At the front the ear meets the cheek without an overhang.
+  // Remove the overhang of the rim at the front, where the ear meets the cheek.
   const double reach = along(kReach, from) + front * 0.3 * smooth_step(0.5, 0.2, from);
   Vector3d ear = ear_point(reach * round, height_at(round, from));
   if (b >= kAttached) return ear;

@@ -36,7 +36,7 @@ SkinPaint paint_of(const FacialHair& style) {
   return SkinPaint(kSeed, 1, 1, look);
 }
 
-/// A point of a face, by weights of its corners.
+/// Returns the point of a polygon at parameters (s, t), interpolated between its corners.
 Vector3d point_of(const Mesh& mesh, std::span<const std::uint32_t> corners, double s, double t) {
   const auto at = [&](std::size_t c) -> Vector3d {
     return mesh.positions.row(corners[std::min(c, corners.size() - 1)]).transpose();
@@ -44,7 +44,7 @@ Vector3d point_of(const Mesh& mesh, std::span<const std::uint32_t> corners, doub
   return (1 - t) * ((1 - s) * at(0) + s * at(1)) + t * ((1 - s) * at(3) + s * at(2));
 }
 
-/// Returns the faces that the hair covers somewhere.
+/// Returns the polygons that hair covers at least partly.
 template <class Cover>
 std::vector<Index> covered_faces(const Mesh& skin, const Cover& cover) {
   constexpr int kSteps = 6;
@@ -116,8 +116,8 @@ std::span<const FacialHair> facial_hairs() {
 FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   const SkinPaint paint = paint_of(style);
   const auto cover = [&](const Vector3d& p) {
-    // A layer needs denser brows than a skin texture, because its edges are not mixed with the
-    // skin.
+    // A separate layer needs denser brows than a skin texture, because the edges of the layer do
+    // not blend with the skin.
     if (style.is_beard) return paint.beard_cover(p);
     const double root = std::sqrt(std::max(0.0, paint.brow_cover(p)));
     return root * std::sqrt(root);

@@ -25,7 +25,7 @@ struct FacialHair {
 /// Returns all styles of brows and beards.
 std::span<const FacialHair> facial_hairs();
 
-/// Brows or a beard as a layer close above the skin of the average head, and its neutral texture.
+/// Brows or a beard as a mesh close above the skin of the average head, with its neutral texture.
 struct FacialHairLayer {
   Mesh mesh;
   int width = 0, height = 0;

@@ -102,7 +102,8 @@ struct Web {
     for (const NearOrigin& o : kNearOrigins) {
       if (o.row == j && o.column == k) ray.origin = {o.x, o.y, o.z};
     }
-    // Move the guides onto the skin, so that interpolated guides stay near the skin.
+    // Move the guide points onto the skin, so that points interpolated between them stay near the
+    // skin.
     ray.guide = onto_skin(ray.origin, ray.guide);
     rays[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)] = ray;
   }

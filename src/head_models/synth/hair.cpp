@@ -22,7 +22,7 @@ double around_head(const Vector3d& p) {
   return p.z() >= 0 ? quarter : 2 - quarter;
 }
 
-/// Returns 0 on the ears, 1 at a distance of `away` ear sizes from the ears' centres.
+/// Returns 0 on the ears and 1 from a distance of `away` ear sizes from the ears' centres.
 double off_ears(const Vector3d& p, double away) {
   const double y = (p.y() + 2.6) / 4.6, z = (p.z() + 1.6) / 3.4;
   const double beside = smooth_step(4.5, 6, std::abs(p.x()));
@@ -74,7 +74,8 @@ Hair::Hair(std::uint64_t seed, std::uint64_t index, bool falls)
 }
 
 double Hair::strand(const Vector3d& p) const {
-  // Straight hair is stretched noise, in strands from the face to the back; curls are isotropic.
+  // Straight hair is noise stretched into strands from the face to the back; curls are isotropic
+  // noise.
   const double across = p.x() / (p - Vector3d(0, -4, -4)).norm();
   const double straight = hairs_.at({9 * across, 0.05 * p.y(), 0.05 * p.z()}) +
                           0.6 * tufts_.at({13 * across, 0.04 * p.y(), 0.04 * p.z()});
@@ -82,8 +83,8 @@ double Hair::strand(const Vector3d& p) const {
   return straight + style_.curls * (curled - straight);
 }
 
-/// Returns how much long hair falls on the neck at a point, 0 … 1; long hair begins behind the
-/// ears.
+/// Returns the amount, 0 … 1, of long hair that hangs over the neck at a point; such hair starts
+/// behind the ears.
 double Hair::falling(const Vector3d& p) const {
   if (style_.nape <= 0) return 0;
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
@@ -101,7 +102,7 @@ double height_above_hairline(const Vector3d& p, bool low_edge, double receding) 
   return p.y() - (low_edge ? between_knots(low, around) : between_knots(high, around));
 }
 
-/// Returns the hair density that balding leaves, 0 … 1; hair thins from the crown on.
+/// Returns the density of the hair that remains after balding, 0 … 1; balding starts at the crown.
 double Hair::density_after_balding(const Vector3d& p) const {
   const double crown = smooth_step(6.5, 11.5, p.y()) * smooth_step(-9, -4, p.z());
   return 1 - smooth_step(0.45, 0.9, receding_) * crown;

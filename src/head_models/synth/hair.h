@@ -32,7 +32,8 @@ bool has_curls(std::uint64_t seed, std::uint64_t index);
 /// A person's hair as a layer on the scalp. All points are points of the average head, cm.
 class Hair {
  public:
-  /// \param falls  whether to include hair that falls down the neck from roots elsewhere.
+  /// \param falls  whether to include hair that hangs over the neck; its roots are higher on the
+  ///   head.
   Hair(std::uint64_t seed, std::uint64_t index, bool falls = true);
 
   /// Returns whether hair may be at a point; a fast conservative test.

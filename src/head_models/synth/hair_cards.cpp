@@ -103,7 +103,7 @@ class Grower {
       // the lock.
       rest = std::max(rest, hair_stand_off(cut_, next));
       next = moved_off_head(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
-      // Cut the lock at the fringe or the hem.
+      // End the lock at the lower edge of the fringe (over the face) or of the cut.
       const double limit = over_face(next) ? fringe : hem;
       if (i > 0 && next.y() < limit && p.y() > limit)
         next = p + (p.y() - limit + 1e-3) / (p.y() - next.y()) * (next - p);
@@ -112,8 +112,8 @@ class Grower {
     }
   }
 
-  /// Moves a point to the distance `off` from the head. Where hair hangs freely, moves a point
-  /// farther outside only part of the way.
+  /// Moves a point to the distance `off` from the head. Where hair hangs freely, a point that is
+  /// already farther away than `off` is moved only part of the way.
   Vector3d moved_off_head(Vector3d p, double off) const {
     for (int k = 0; k < 2; ++k) {
       const double missing = off + 0.05 - head_distance(p);
@@ -146,7 +146,7 @@ class Grower {
     for (int i = 0; i <= kPiecesOfCurl; ++i) {
       card.middle.push_back(p);
       card.across.push_back((axis + 0.3 * any).normalized());
-      // Turn by about 50° around the axis per piece.
+      // Each piece turns by about 50° around the axis.
       direction = (0.64 * direction + 0.77 * axis.cross(direction) + 0.1 * axis).normalized();
       p += length / kPiecesOfCurl * direction;
       const double missing = 0.15 - head_distance(p);
@@ -158,7 +158,8 @@ class Grower {
   /// Maps the fraction t of pieces to the fraction of the lock's length.
   static double along(double t) { return t * (0.3 + 0.7 * t); }
 
-  /// Moves a point sideways off the face. Points of a fringe stay.
+  /// Moves a point in front of the face sideways, to the edge of the face. Does not move the points
+  /// of a fringe.
   static Vector3d beside_face(Vector3d p, double fringe) {
     const double wide = 5.5 * smooth_step(0.5, 4, p.z()) * smooth_step(6.2, 1.5, p.y());
     if (fringe < 99 && p.y() > fringe) return p;

@@ -35,17 +35,18 @@ double triangle_wave(double x) {
 double across_hair(const HairCut& cut, const Vector3d& p) {
   if (cut.back >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
-  // On the forehead the hairline runs from side to side, and the hair runs across the hairline.
+  // On the forehead, hair is combed across the hairline, which runs from side to side.
   const double ahead = smooth_step(1, 4, p.z()), x = std::abs(p.x());
   return (1 - ahead) * p.z() + (ahead - smooth_step(-3, -7, p.z())) * x;
 }
 
-/// Returns the texture coordinate v of the cap at a distance from the hairline.
+/// Returns the texture coordinate v of the cap at a distance `within` inside the hairline, cm.
 double from_edge(const HairCut& cut, double within) {
   constexpr double kTips = 0.02, kSpan = 0.75;
   const double closed = within + kRim - kFade;
   if (closed <= 0) return kTips + kSpan * std::max(0.0, 1 + closed / kFade);
-  // The cap of a straight cut continues as strands; curls differ in both directions.
+  // Farther inside, straight hair shows strands without end; for curls, the coordinate v varies
+  // too, so that curls differ in both directions.
   return kTips + kSpan - (cut.layers > 1 ? 0.25 * triangle_wave(closed / 1.2) : 0);
 }
 

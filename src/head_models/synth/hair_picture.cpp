@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kStrands = 30;          // strands per strip
 constexpr double kAcross = 1.9, kDown = 1.5;  // noise frequencies of curls on the cap's strip
 
-/// Below this fraction of its length, the cap's strip shows strands; beyond, it shows roots.
+/// Up to this fraction of its length (from the root), the cap's strip shows strands; beyond, single
+/// roots.
 constexpr double kCapClosed = 0.5;
 
 struct Strand {
@@ -59,7 +60,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       const double u = (static_cast<double>(x) + 0.5) / size * kHairStrips;
       const auto strip = static_cast<std::size_t>(u);
       const bool below = strip >= kCardStrips;
-      // The cap ends in single roots, which become sparse: a hard edge would look like a wig.
+      // The cap ends in single roots that become sparse, because a hard edge would look like a wig.
       const double root = below ? roots.at({u, t, 0}) : 0;
       double cover = below ? smooth_step(0.98, 0.52, t + 0.13 * root) : 0;
       double light = below ? 0.8 : 0.7;
@@ -76,7 +77,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
           if (away > 1.2 * strand.half || t >= strand.end) continue;
           const double half = strand.half * (1 - 0.8 * smooth_step(0.45, 1, t / strand.end));
           const double across = away / half;
-          // A hair comes out of the skin thin and becomes visible gradually.
+          // At the start of a strand, the hair is thin and becomes visible gradually.
           const double grown = below ? 1 : smooth_step(strand.start, strand.start + 0.07, t);
           const double inside = grown * smooth_step(1.2, 0.7, across);
           if (inside <= 0) continue;

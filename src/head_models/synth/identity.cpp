@@ -34,7 +34,7 @@ Pull mirrored(Pull pull) {
 
 Person random_person(std::uint64_t seed, std::uint64_t index) {
   Person person;
-  // Stratified, so that a few heads already have both sexes and several ages.
+  // Use stratified random numbers, so that even a few heads include both sexes and several ages.
   person.male = random_stratified({seed, index, "synth/sex"}, 2) < 0.5 ? -1 : 1;
   person.age = std::floor(18 + 60 * random_stratified({seed, index, "synth/age"}, 5));
   person.build = std::clamp(random_normal({seed, index, "synth/build"}), -2.0, 2.0);
@@ -63,7 +63,7 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
     pulls_.push_back(pull);
     if (pull.centre.x() != 0) pulls_.push_back(mirrored(pull));
   }
-  // Choose random overall size, proportions and asymmetry.
+  // Choose overall size, proportions and asymmetry at random.
   const double size = 0.018 * person_.male + 0.02 * normal("size");
   scale_ =
       Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,

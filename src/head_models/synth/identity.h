@@ -25,7 +25,8 @@ struct Person {
 /// different fifth of the range.
 Person random_person(std::uint64_t seed, std::uint64_t index);
 
-/// The identity of a head: its person, and random measures around the averages for this person.
+/// The identity of a head: the attributes of its person, and measures that vary randomly around the
+/// averages for these attributes.
 class Identity {
  public:
   Identity(std::uint64_t seed, std::uint64_t index);
