@@ -85,7 +85,6 @@ Engine engine_from(const std::string& name) {
 }
 
 /// Checks the options.
-
 /// \throws UsageError if a given option does not apply to the engine.
 void refuse_strange_options(const SubmitOptions& options, Engine engine) {
   const EngineOptions& of_engine = options.of_engine;

@@ -31,7 +31,6 @@ const char* form_tag(bool curly, bool bald) {
 }
 
 /// Returns the tag for a skin tone.
-
 /// \param tone  synth::Complexion::tone.
 const char* skin_tag(double tone) {
   if (tone < 1 / 3.0) return "light_skin";

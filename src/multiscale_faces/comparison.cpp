@@ -63,7 +63,7 @@ double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims,
 
 namespace {
 
-/// The two triangles at each inner edge, both of whose ends are in the border.
+/// The two triangles at each interior edge whose two end points are both on the border.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_in(const FrontPatch& patch,
                                                           const std::vector<bool>& border) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> first;

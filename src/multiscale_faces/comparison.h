@@ -23,14 +23,14 @@ Differences differences(const FrontPatch& patch, const Positions& a, const Posit
 std::vector<double> band_energies(const Topology& topology, const FrontPatch& patch,
                                   const Positions& positions, const std::vector<double>& bounds_mm);
 
-/// The largest distance between the vertices of two faces along some rims.
+/// The largest distance between corresponding vertices of two faces along the given rims.
 double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
                             const Positions& b);
 
-/// By how many degrees a face's creases exceed its heads' creases. At an edge, the crease is the
-/// angle between the normals of both triangles, and the excess is the face's crease minus the
-/// largest crease of any head at this edge. Returns the largest excess over the edges inside of
-/// region borders, or 0.
+/// Returns by how many degrees a face's creases exceed the creases of the heads that it is made
+/// from. At an edge, the crease is the angle between the normals of both triangles, and the excess
+/// is the face's crease minus the largest crease of any head at this edge. Returns the largest
+/// excess over the edges inside of region borders, or 0.
 /// \param border  #P: whether a vertex lies in the border between regions.
 double largest_new_crease(const FrontPatch& patch, const Positions& face,
                           const std::vector<Positions>& heads, const std::vector<bool>& border);

@@ -27,12 +27,12 @@ namespace fs = std::filesystem;
 
 constexpr double kMmPerUnit = 10;  // the figures' heads are in centimetres
 constexpr double kScaleMm = 6;     // end of the colour scale
-// The coarsest base whose normals meet the face nearly everywhere: on more than 99 % of synthetic and
-// ICT heads.
+// The coarsest base surface whose normals intersect the face at more than 99 % of the samples, on
+// synthetic and ICT heads.
 constexpr int kBase = 2;
 const std::vector<double> kBounds = {8, 16, 32, 64, 128};  // mm
 
-/// The heads, their front, and how they are shown.
+/// The heads, the front patch of the heads, and the settings for rendering them.
 class Heads {
  public:
   explicit Heads(fs::path folder) : folder_(std::move(folder)), first_(read_obj(file(1))) {
@@ -60,7 +60,7 @@ class Heads {
     if (face.base != base) face = with_base(std::move(face), base);
     return face;
   }
-  /// A head whose front is replaced.
+  /// Returns a head whose front is replaced by `front`.
   Positions with_front(int number, const Positions& front) {
     Positions whole = head(number);
     for (Index i = 0; i < front.rows(); ++i) {
@@ -90,7 +90,7 @@ class Heads {
   std::map<int, MultiscaleFace> faces_;
 };
 
-/// A head that lends the detail of some levels, in a region or everywhere.
+/// A head from which a face takes the detail of some levels, in a region or everywhere.
 struct Lender {
   int head;
   std::vector<double> level_weights;
@@ -134,7 +134,7 @@ Nearest nearest_face(Heads& heads, int target, const std::vector<int>& lenders,
       }
       return make_face(heads, target, base, all);
     };
-    // The face is linear in the weights: coordinate descent between 0 and 1.
+    // The face is linear in the weights, so use coordinate descent with weights between 0 and 1.
     std::vector<double> weights = everywhere(base, 0);
     const Positions start = face_of(weights);
     std::vector<Positions> slopes;
@@ -201,7 +201,8 @@ class Report {
   }
 
  private:
-  /// Energy of each band, as a share of the same band's energy of the head that lends its detail.
+  /// Energy of each band of a face, in percent of the energy of the same band of the head that
+  /// lends its detail.
   std::string kept(const Positions& face, int lender) {
     const Topology& topology = heads_.first().topology;
     const std::vector<double> of_face = band_energies(topology, heads_.patch(), face, kBounds);
@@ -283,8 +284,8 @@ void figure_10(Heads& heads, const fs::path& ours, const std::string& mask, Repo
   report.write("fig10_multiscale", 3);
 }
 
-/// Build, features and skin of three heads. Waves of levels 0 and 1 are longer than some 50 mm, those of
-/// level 2 longer than some 25 mm.
+/// Combines build, features and skin of three heads. Levels 0 and 1 contain wavelengths above about
+/// 50 mm, level 2 wavelengths above about 25 mm.
 void bands(Heads& heads, const fs::path& ours, Report& report) {
   const Positions face = heads.read(ours / "three_bands.obj");
   const Positions theirs = make_face(heads, 4, 1, {{7, {1, 0, 0, 0, 0}}, {5, {0, 1, 1, 1, 1}}});

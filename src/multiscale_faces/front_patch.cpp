@@ -16,8 +16,9 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The next vertex around the rims, by vertex: each directed edge whose reverse has no triangle. A
-/// vertex at which a rim touches itself has several entries.
+/// For each vertex on a rim, the next vertex along the rim. Contains each directed edge of a
+/// triangle whose reverse edge belongs to no triangle. A vertex at which a rim touches itself has
+/// several entries.
 std::multimap<std::uint32_t, std::uint32_t> rim_edges(const std::vector<Triangle>& triangles) {
   std::set<Edge> edges;
   for (const Triangle& t : triangles) {
@@ -107,8 +108,8 @@ FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up,
   patch.holes.assign(std::make_move_iterator(rims.begin() + 1),
                      std::make_move_iterator(rims.end()));
 
-  // The corners of the square: where the border reaches farthest along the diagonals, seen from the
-  // front.
+  // Choose as corners of the square the border vertices that are farthest along the diagonals, seen
+  // from the front.
   const Positions points = patch.rows_of(mean);
   const int across = 3 - up.index - front.index;
   const auto along = [&](int axis, std::uint32_t v) {
@@ -123,7 +124,7 @@ FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up,
     });
     patch.corners[i] = static_cast<std::size_t>(farthest - patch.border.begin());
   }
-  // In the order of the border, from the first of the four.
+  // Sort the corners in the order of the border.
   std::ranges::sort(patch.corners);
   return patch;
 }

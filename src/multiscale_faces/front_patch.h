@@ -12,8 +12,8 @@
 
 namespace crowdface::multiscale {
 
-/// The front of a head as one connected surface, with its own vertex numbers. Its longest rim is
-/// its border; every other rim is a hole, such as an eye.
+/// The front of a head as one connected surface, with its own vertex numbers. Its longest boundary
+/// loop (rim) is the border; every other rim is the rim of a hole, such as an eye.
 struct FrontPatch {
   std::vector<std::uint32_t> head_vertices;       ///< #P: the head's vertex of each patch vertex
   std::vector<Triangle> triangles;                ///< indices of patch vertices

@@ -12,8 +12,8 @@
 namespace crowdface::multiscale {
 namespace {
 
-/// Half the sum of the cotangents opposite to each edge (smaller vertex first), at least this
-/// fraction of the largest.
+/// Smallest weight of an edge. The weight is half the sum of the cotangents opposite to the edge;
+/// smaller weights are raised to this value.
 constexpr double kSmallestWeight = 1e-3;
 
 std::map<std::pair<std::uint32_t, std::uint32_t>, double> edge_weights(
@@ -62,7 +62,7 @@ TextureCoordinates harmonic_map(const FrontPatch& patch, const Positions& positi
   TextureCoordinates uvs = TextureCoordinates::Zero(patch.vertex_count(), 2);
   place_border(patch, positions, uvs);
 
-  // Unknowns: the vertices inside.
+  // The unknowns are the vertices that are not on the border.
   std::vector<Index> unknown(static_cast<std::size_t>(patch.vertex_count()), 0);
   for (const std::uint32_t v : patch.border) unknown[v] = -1;
   Index count = 0;

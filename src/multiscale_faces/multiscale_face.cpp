@@ -17,13 +17,14 @@
 namespace crowdface::multiscale {
 namespace {
 
-/// Points of a surface on a regular grid of the square, as far as triangles cover it.
+/// Points of a surface at the points of a regular grid on the square; only grid points that
+/// triangles cover.
 struct Samples {
   TextureCoordinates uvs;  ///< #S by 2
   Columns points;          ///< #S by 3
 };
 
-/// Resamples a mesh that is laid out on the square.
+/// Resamples a mesh that is parameterized over the unit square.
 Samples resample(const std::vector<Triangle>& triangles, const TextureCoordinates& uvs,
                  const Positions& positions) {
   const Index side = kSamplesPerSide;
@@ -100,7 +101,7 @@ std::optional<double> distance_along(const SurfacePoint& from, const SplineLatti
   return std::nullopt;
 }
 
-/// Adds the displacement maps to a face that has surfaces and base.
+/// Computes the displacement maps of a face whose surfaces and base are set.
 void add_displacements(MultiscaleFace& face) {
   const Index side = kSamplesPerSide;
   TextureCoordinates grid(side * side, 2);

@@ -15,7 +15,8 @@ inline constexpr Index kFinest = 256;
 inline constexpr int kLevels = 7;
 static_assert(kCoarsest << (kLevels - 1) == kFinest);
 
-/// Samples along each side of the square on which a face is resampled: two in each finest span.
+/// Number of samples along each side of the square on which a face is resampled: two per span of
+/// the finest lattice.
 inline constexpr Index kSamplesPerSide = 2 * kFinest + 1;
 
 /// A face in the method of Yoon, Lewis and Rhee (2017), as "Laplacian face blending" (Section 2.3)
@@ -41,10 +42,10 @@ MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positio
 /// The same face with another base.
 MultiscaleFace with_base(MultiscaleFace face, int base);
 
-/// The details that a face lends to a new face.
+/// The details that a new face takes from one face.
 struct Details {
   const MultiscaleFace* face = nullptr;
-  /// By level from base + 1 on: weight of the level's detail in the whole patch.
+  /// For each level from base + 1 on, the weight of the level's detail in the whole patch.
   std::vector<double> level_weights;
   /// #P factors on `level_weights`; empty: 1 everywhere.
   std::vector<double> vertex_weights = {};

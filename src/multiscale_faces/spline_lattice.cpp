@@ -23,7 +23,8 @@ Basis basis_at(double t) {
           {-s * s / 2, (3 * t * t - 4 * t) / 2, (-3 * t * t + 2 * t + 1) / 2, t * t / 2}};
 }
 
-/// The 4 by 4 control points around a place, and its basis functions along u and v.
+/// The 4 by 4 control points that influence a point (u, v), and the values of the basis functions
+/// along u and v.
 struct SplineSupport {
   Index first_row;  ///< row of the first of the 16 control points
   Basis u, v;

@@ -13,7 +13,7 @@
 namespace crowdface::synth {
 namespace {
 
-/// Joins the patches (see Sheet) into one mesh.
+/// Joins the patches of the skin (see Sheet) into one mesh.
 class Sewing {
  public:
   explicit Sewing(const QuadCounts& counts)
@@ -45,7 +45,8 @@ class Sewing {
     std::uint32_t vertex, uv;
   };
 
-  /// Appends the units of the mesh columns (or rows) in lattice interval k, without its end.
+  /// Appends the coordinates, in units, of the mesh columns (or rows) in lattice interval k,
+  /// without the end of the interval.
   template <class Quads>
   static void spread(const Quads& quads_of, int k, double (*unit)(int), std::vector<double>& out) {
     const int n = quads_of[static_cast<std::size_t>(k)];
@@ -93,7 +94,7 @@ class Sewing {
       if (w.sheet != Sheet::kMouth) holes.push_back(span_of(w, -1));
     }
     strip_.resize(strip_index(half_, rows_) + 1);
-    // Leave out vertices strictly inside an opening, and quads of an opening.
+    // Leave out the vertices strictly inside openings, and the quads in openings.
     const auto inside = [&](int i, int j) {
       return std::ranges::any_of(
           holes, [&](const Span& s) { return i > s.i0 && i < s.i1 && j > s.j0 && j < s.j1; });
@@ -157,13 +158,14 @@ class Sewing {
     }
   }
 
-  /// A corner on the outline of an opening, its ring coordinate a, and its column and row.
+  /// A mesh vertex on the outline of an opening: its ring coordinate a, and its column and row.
   struct Stitch {
     Corner corner;
     double a;
     int i, j;
   };
-  /// Returns the ring coordinate of a point on the outline; equal for mirrored points.
+  /// Returns the ring coordinate of a point on the outline; a point and its mirror image have the
+  /// same coordinate.
   double around(const Span& s, int side, int i, int j) const {
     const double x0 = column_at(side > 0 ? s.i0 : -s.i1), x1 = column_at(side > 0 ? s.i1 : -s.i0);
     const double y0 = row_at(s.j0), y1 = row_at(s.j1);
@@ -188,7 +190,8 @@ class Sewing {
     return out;
   }
 
-  /// Fills an opening with concentric rings of quads; inside the rings of an ear, a core of quads.
+  /// Fills an opening with concentric rings of quads; for an ear, also fills the innermost ring
+  /// with a core of quads.
   void add_rings(const Opening& opening, int side) {
     const Span span = span_of(opening, side);
     const std::vector<Stitch> first = outline(span, side);

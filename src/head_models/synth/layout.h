@@ -15,8 +15,8 @@ struct Layout {
   std::vector<Address> addresses;  ///< #V
 };
 
-/// Makes the quad mesh of a head with about this number of vertices. Left and right have the same
-/// number of quads.
+/// Makes the quad mesh of a head with about this number of vertices. The left and right halves have
+/// the same number of quads.
 Layout make_layout(Index vertices);
 
 }  // namespace crowdface::synth

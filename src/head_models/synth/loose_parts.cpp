@@ -20,9 +20,9 @@ constexpr double kLidGap = 0.025;
 /// Half the width of the dental arches, and their depth, cm.
 constexpr double kArcWidth = 2.1, kArcDepth = 1.9;
 
-/// Maps a point (i, j) in [−1, 1]² of a side of a cube to the unit sphere.
+/// Maps a point (i, j) in [−1, 1]² on a side of a cube to the unit sphere.
 Vector3d on_ball(int side, double i, double j) {
-  // This distortion gives quads in the middle and at the corners a similar size.
+  // This distortion makes quads in the middle and at the corners of a side similar in size.
   const auto even = [](double x) { return x * (1.25 - 0.25 * x * x); };
   const double a = even(i), b = even(j);
   const std::array<Vector3d, 6> on_cube = {
@@ -44,7 +44,7 @@ Row row_at(double t, double up) {
           height};
 }
 
-/// Returns points at the inner edges of the lids of the mean head, at x > 0.
+/// Returns points on the inner edges of the lids of the average head, at the eye at x > 0.
 std::vector<Vector3d> lid_feet() {
   std::vector<Vector3d> feet;
   constexpr int kFeet = 32;
@@ -59,7 +59,7 @@ struct Ball {
   Vector3d centre;
   double radius;
 };
-/// Places an eyeball behind the lids of a head. \param feet  from lid_feet.
+/// Returns the eyeball of a head, placed behind the head's lids. \param feet  from lid_feet.
 Ball ball_behind_lids(const Identity& identity, const std::vector<Vector3d>& feet, double side) {
   const auto placed = [&](Vector3d p) {
     p.x() *= side;
@@ -141,11 +141,11 @@ void LooseParts::add_teeth(double up, int along, int around) {
     const Vector3d tangent =
         row_at(std::min(t + 0.01, 1.0), up).middle - row_at(std::max(t - 0.01, -1.0), up).middle;
     const Vector3d outward = Vector3d(-tangent.z(), 0, tangent.x()).normalized();
-    // Fourteen teeth, which protrude slightly from the gaps between them.
+    // A row of fourteen teeth; the gaps between the teeth are slightly recessed.
     const double tooth = 7 * (t + 1) - std::floor(7 * (t + 1));
     const double proud = 0.035 * (4 * tooth * (1 - tooth) - 0.5);
     for (int k = 0; k < around; ++k) {
-      // q is the point of the band's cross-section, on the square [−1, 1]².
+      // q is a point on the outline of the band's cross-section, in [−1, 1]².
       const int side = k / quarter;
       const double s = 2.0 * (k % quarter) / quarter - 1;
       const Vector2d q = side == 0   ? Vector2d(1, s)

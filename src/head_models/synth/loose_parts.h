@@ -12,14 +12,14 @@ namespace crowdface::synth {
 enum class LoosePiece { kLeftEye, kRightEye, kUpperTeeth, kLowerTeeth };
 
 /// Two eyeballs (spheres) and two rows of teeth (closed bands along the dental arches) as quad
-/// meshes. An identity scales and moves these parts but does not deform the parts.
+/// meshes. In different identities, the parts differ in scale and position but not in shape.
 class LooseParts {
  public:
   /// \param edge_cm  desired edge length in cm.
   explicit LooseParts(double edge_cm);
 
   /// Appends faces and texture coordinates of the parts to the skin's. The appended coordinates lie
-  /// in the pictures of the eyeballs (unwrap_eyeball) and the hole of the mouth (unwrap_hole).
+  /// in the texture areas of the eyeballs (unwrap_eyeball) and of the mouth's hole (unwrap_hole).
   void append_to(Topology& topology, TextureCoordinates& uvs) const;
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
   Index face_count() const { return static_cast<Index>(corners_.size() / 4); }

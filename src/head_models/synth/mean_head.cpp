@@ -16,10 +16,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns the ray to the edge of the eye's opening. \param c  unit direction (x outward, y up).
+/// Returns the ray to a point on the edge of the eye's opening. \param c  unit direction (x
+/// outward, y up).
 GuideRay eye_edge(const Vector2d& c) {
-  // Almond shape: pointed corners, the upper lid highest towards the nose, the outer corner
-  // slightly above the inner one.
+  // Almond shape: pointed corners, an upper lid that is highest towards the nose, and an outer
+  // corner slightly above the inner corner.
   const double s = c.y() * (0.72 + 0.28 * c.y() * c.y());
   const double x = 1.52 * c.x() - 0.1 * s;
   const double y = (c.y() > 0 ? 0.53 : 0.47) * s + 0.07 * c.x() - 0.03;
@@ -31,7 +32,7 @@ GuideRay eye_edge(const Vector2d& c) {
 GuideRay mouth_edge(const Vector2d& c) {
   // Concentrate the points of the opening's short sides near the corners of the mouth.
   const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.15 - 0.15 * q);
-  // The line between the lips: a dip in the middle, the corners slightly lower.
+  // The line between the lips dips in the middle and is slightly lower at the corners.
   const double line = -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
   const double gap = 0.03 * c.y() * (1 + 2.2 * q);
   return {{0.4 * x, line + gap, 3}, {x, line + gap, 9.9 - 0.18 * x * x}};

@@ -29,8 +29,8 @@ std::array<double, 4> spline(double t) {
 /// The coefficients of the 4 × 4 × 4 lattice points around a cell: [z][4 x + y].
 using Coefficients = std::array<std::array<double, 16>, 4>;
 
-/// Returns the coefficients around a cell. Neighbouring texels are mostly in the same cells, so each
-/// thread keeps the cells that it used last, in a direct-mapped cache.
+/// Returns the coefficients around a cell. Each thread caches recently used cells (direct-mapped),
+/// because neighbouring texels are mostly in the same cells.
 const Coefficients& coefficients_of(std::uint64_t key, const std::array<std::int64_t, 3>& cell) {
   struct Entry {
     std::uint64_t key;

@@ -32,7 +32,8 @@ QuadCounts::QuadCounts(double quads_per_unit) : scale(quads_per_unit) {
   for (int i = 0; i + 1 < kColumns; ++i) {
     columns[static_cast<std::size_t>(i)] = quads(in_column(i), scale);
   }
-  // The cap continues the columns of the face to the back: the same counts in reverse order.
+  // The cap continues the columns of the face to the back of the head, so the back has the same
+  // counts in reverse order.
   for (std::size_t i = 0; i < kFrontColumn; ++i) columns[columns.size() - 1 - i] = columns[i];
   for (int j = 0; j + 1 < kRows; ++j) rows[static_cast<std::size_t>(j)] = quads(in_row(j), scale);
 }
@@ -62,7 +63,8 @@ Index QuadCounts::vertices() const {
   for (const Opening& w : openings()) {
     const Index nx = column(w.column1) - column(w.column0), ny = row(w.row1) - row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(rings(w.sheet).size());
-    // Subtract the strip's vertices inside the opening; the core of an ear has as many vertices.
+    // Subtract the strip's vertices inside the opening, except for an ear, whose core has as many
+    // vertices.
     if (w.sheet != Sheet::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.sheet == Sheet::kMouth ? piece : 2 * piece;
   }

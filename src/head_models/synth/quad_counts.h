@@ -11,8 +11,8 @@ namespace crowdface::synth {
 
 /// Number of quads in every lattice interval and ring span of a layout.
 struct QuadCounts {
-  /// \param quads_per_unit  quads per unit. Each interval has the rounded number of quads, at least
-  ///                        one.
+  /// \param quads_per_unit  density of quads. The number of quads of each interval is rounded, and
+  ///                        at least one.
   explicit QuadCounts(double quads_per_unit);
 
   /// Returns the number of quads from the midline to lattice column k; negative if k < 0.

@@ -58,7 +58,7 @@ const auto& fold_list() {
 }
 // clang-format on
 
-/// Factor of the amplitude of fine relief: largest on nose, cheeks and chin, smallest on the scalp.
+/// Factor on the amplitude of fine relief: largest on nose, cheeks and chin, smallest on the scalp.
 double coarseness(const Vector3d& p) {
   const double face = smooth_step(2, 6, p.z());
   const double middle = bump(Vector2d(p.x() / 5.5, (p.y() + 4.2) / 6).norm());
@@ -91,7 +91,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.base + 1.25 * fold.aged * aged +
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      // Fade out lines that are too narrow for the mesh, because they would look like steps.
+      // Fade out lines that are too narrow for the mesh, because such lines would look like steps.
       const double drawn = fold.wander > 0 ? carried(4 * fold.width, edge_cm) : 1;
       const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
       if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
@@ -132,7 +132,8 @@ void Relief::add_stroke(std::size_t which, double side, double depth) {
 
 double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const {
   if (!stroke.reach.contains(place)) return 0;
-  // Find the nearest point of the polyline, its parameter, and the side of the curve.
+  // Find the nearest point of the polyline, the parameter of this point, and the side of the curve
+  // on which `p` lies.
   double nearest = 1e30, along = 0, side = 1;
   for (std::size_t i = 0; i < Stroke::kPieces; ++i) {
     const Vector2d a = stroke.points[i], ab = stroke.points[i + 1] - a, ap = place - a;
@@ -143,7 +144,8 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
     along = (static_cast<double>(i) + t) / Stroke::kPieces;
     side = ab.x() * ap.y() - ab.y() * ap.x() > 0 ? 1 : -1;
   }
-  // Fade out at the ends and at interruptions; then add the groove and the ridge beside it.
+  // Fade out the fold at its ends and interruptions; then add its groove, and the ridge beside the
+  // groove.
   const double distance = std::sqrt(nearest);
   double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
   if (stroke.length > 0)

@@ -95,7 +95,8 @@ double neck(const Vector3d& p) {
 }  // namespace
 
 double skin_distance(const Vector3d& point) {
-  // Mirror with a smooth |x|, because a plain |x| would leave a crease along the midline.
+  // Mirror the half head with a smooth approximation of |x|, because |x| itself would leave a
+  // crease along the midline.
   constexpr double kJoint = 0.3;
   const double x = std::sqrt(point.x() * point.x() + kJoint * kJoint);
   const Vector3d p(x, point.y(), point.z());
@@ -129,7 +130,7 @@ Vector3d skin_normal(const Vector3d& point) {
 Vector3d onto_skin(const Vector3d& origin, const Vector3d& guide) {
   const Vector3d direction = (guide - origin).normalized();
   const auto at = [&](double t) { return skin_distance(origin + t * direction); };
-  // Step from the guide to the nearest change of sign.
+  // Step from the guide point along the line to the nearest change of sign of the distance.
   double t0 = (guide - origin).norm(), d0 = at(t0);
   double t1 = t0, d1 = d0;
   for (int i = 0; i < 80 && (d1 > 0) == (d0 > 0); ++i) {

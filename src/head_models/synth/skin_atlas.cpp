@@ -129,7 +129,8 @@ std::vector<SkinPlace> skin_atlas(int size) {
       return &places[topology.corner_vertices[corner]];
     };
     const auto corners = static_cast<std::uint32_t>(topology.face(f).size());
-    // Skip teeth, which have no texture, and the backs of eyeballs, which would overlap the fronts.
+    // Skip teeth, which have no texture, and the backs of eyeballs, which would overlap the fronts
+    // in the texture.
     bool shown = true;
     for (std::uint32_t c = 0; c < corners; ++c) shown = shown && place(first + c)->covered;
     if (!shown) continue;

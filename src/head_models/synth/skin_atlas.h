@@ -10,7 +10,7 @@
 
 namespace crowdface::synth {
 
-/// The location on the head that a texel of the texture shows.
+/// The point of the average head that a texel shows.
 struct SkinPlace {
   SkinPoint skin;    ///< on the average head
   double eye = 0;    ///< Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2
@@ -23,13 +23,13 @@ struct SkinPlace {
   std::size_t nearest = 0;      ///< index of the covered texel with this place
 };
 
-/// Returns the places of size × size texels, row by row, first row at v = 1. Texels that show no
-/// surface contain the place of a near covered texel, so that colours continue beyond the edges of
-/// the texture charts.
+/// Returns the SkinPlace of each of size × size texels, row by row, first row at v = 1. Texels that
+/// show no surface have the SkinPlace of a near covered texel, so that colours continue beyond the
+/// edges of the texture charts.
 std::vector<SkinPlace> skin_atlas(int size);
 
-/// Calls `body(i)` for all texels i of a size × size texture in parallel. Each task has one square of
-/// the texture, because SmoothNoise is fast for points that are close together.
+/// Calls `body(i)` for all texels i of a size × size texture in parallel. Each parallel task has
+/// one square of the texture, because SmoothNoise is fast for points that are close together.
 template <class Body>
 void for_each_texel(int size, const Body& body) {
   constexpr std::size_t kSide = 32;

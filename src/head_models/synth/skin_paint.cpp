@@ -82,7 +82,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double mottle = mottle_.at(p);
   const double uneven = 0.022 * mottle + 0.016 * blotch_.at(p) + 0.022 * pores_.at(p);
   colour *= 1 + uneven;
-  // Redness where the skin is thin and well supplied with blood.
+  // Add redness where the skin is thin and well supplied with blood.
   const double ears = smooth_step(6.6, 7.6, std::abs(p.x())) * smooth_step(-5, -3, p.y()) *
                       smooth_step(4, 3, p.y()) * smooth_step(2.5, 1.5, p.z());
   const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
@@ -130,7 +130,7 @@ void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) 
   tint(colour, {0.87, 0.82, 0.86}, tired * patch(p, {2.9, -1.35}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
   tint(colour, {0.90, 0.82, 0.82}, 0.6 * lids);
-  // The crease of the upper lid, in its own shade.
+  // Darken the crease of the upper lid.
   const double beside = std::min(1.0, std::abs(std::abs(p.x()) - 3.2) / 2.3);
   const double crease = smooth_step(0.16, 0.02, std::abs(p.y() - 0.42 - 0.66 * biweight(beside)));
   tint(colour, {0.74, 0.64, 0.62}, 0.75 * crease * smooth_step(0, 0.35, lids));
@@ -193,7 +193,7 @@ double SkinPaint::beard_length(const Vector& p) const {
   const double x = std::abs(p.x());
   const double lip =
       smooth_step(3.0, 2.3, x) * smooth_step(-7.3, -6.6, p.y()) * smooth_step(6, 8, p.z());
-  // A beard on the chin is round and joined to the moustache at the corners of the mouth.
+  // A chin beard has a round outline and joins the moustache at the corners of the mouth.
   const double round = Vector2d(x / 2.9, (p.y() + 9.5) / 2.5).norm();
   const double joint = smooth_step(0.7, 0.25, std::abs(x - 2.55)) * smooth_step(-6.2, -6.8, p.y()) *
                        smooth_step(-10.2, -9.2, p.y());
@@ -243,7 +243,7 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
   ScreenColour iris =
       complexion_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
-  // Lighter around the pupil, and in the lower half, which light from above reaches.
+  // The iris is lighter around the pupil, and in its lower half, which light from above reaches.
   iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
   iris *= 1 - 0.62 * smooth_step(kIris - 0.08, kIris, flat);
   cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));

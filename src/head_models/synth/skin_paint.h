@@ -12,17 +12,17 @@ namespace crowdface::synth {
 /// Computes the skin colour and roughness of one person.
 class SkinPaint {
  public:
-  /// \param scalp_hair  1: all hair is painted. Below 1: hair, brows, beards are separate meshes,
-  ///                    and only roots are painted on the scalp, with this opacity and without
-  ///                    hair colour.
+  /// \param scalp_hair  1: all hair is painted. Below 1: hair, brows and beards are separate
+  ///                    meshes; only hair roots are painted on the scalp, with this opacity and
+  ///                    without hair colour.
   SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair)
       : SkinPaint(seed, index, scalp_hair, random_complexion(seed, index)) {}
   SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
             const Complexion& complexion);
 
-  /// Returns the colour at a place, sRGB.
+  /// Returns the skin colour at a point of the head, sRGB.
   ScreenColour at(const SkinPlace& place) const;
-  /// Returns the roughness at a place, 0 … 1.
+  /// Returns the roughness at a point of the head, 0 … 1.
   double roughness_at(const SkinPlace& place) const;
 
   using Vector = Eigen::Vector3d;

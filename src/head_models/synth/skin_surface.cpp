@@ -16,8 +16,8 @@ bool is_skin(const SkinPlace& place) {
   return place.covered && place.ball <= 0.5;
 }
 
-/// Computes slopes of a height field on the texture; 0 between texels that are not connected by
-/// skin.
+/// Computes the slopes of a height field that is stored in texels; the slope is 0 between texels
+/// that are not adjacent on the skin.
 class Slopes {
  public:
   Slopes(const std::vector<SkinPlace>& atlas, const std::vector<double>& heights, double texel)

@@ -104,8 +104,8 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   require(size >= 1, "a mask of ", size, " pixels");
   using synth::row_unit;
   using synth::strip_v;
-  // The transitions lie around the eyes and between nose and lips. A narrower transition between
-  // two heads would show as a ridge.
+  // The transitions between regions lie around the eyes and between nose and lips. They are wide,
+  // because a narrow transition between two heads would be visible as a ridge.
   const double brow = strip_v(row_unit(2)), under_eye = strip_v(row_unit(3));
   const double nose = strip_v(row_unit(5)), lips = strip_v(row_unit(6));
   const double eye = (brow + under_eye) / 2, half = 0.55 * (brow - under_eye);
@@ -114,7 +114,7 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   for (int row = 0; row < size; ++row) {
     const double v = 1 - (row + 0.5) / size;
     for (int column = 0; column < size; ++column) {
-      // The pictures of the eyeballs belong to the region of the eyes.
+      // The texture areas of the eyeballs belong to the region of the eyes.
       const Eigen::RowVector2d place((column + 0.5) / size, v);
       const double at = synth::on_eyeball_disc(place).norm() < 1.1 ? eye : v;
       const auto top = synth::to_byte(smooth_step(upper - half, upper + half, at));

@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// Opacity of painted hair below hair cards: only roots show. A higher opacity would be visible on
-/// bald crowns of faces that are blended from heads with hair.
+/// Opacity of painted hair roots below hair cards. A higher opacity would be visible on the bald
+/// crowns of faces that are blended from heads with hair.
 constexpr double kRoots = 0.3;
 
 /// Writes a colour as three bytes.

@@ -27,7 +27,7 @@ class SyntheticSkins {
   /// Returns the tangent-space normal map in the layout of albedo().
   /// \param edge_cm  SyntheticHeads::edge_cm(); the map contains only finer relief.
   std::vector<std::uint8_t> normals(std::uint64_t seed, std::uint64_t index, double edge_cm) const;
-  /// Returns the albedo of the body in the skin of this head, for the texture coordinates of
+  /// Returns the albedo of the body with this head's skin colour, for the texture coordinates of
   /// SyntheticHeads::body(), in the layout of albedo().
   std::vector<std::uint8_t> body_albedo(std::uint64_t seed, std::uint64_t index) const;
   /// Returns the roughness: size × size bytes, first row at v = 1.

@@ -35,7 +35,7 @@ double down(double unit) {
   return piecewise(unit, row_unit, kHeights.data(), kRows - 1);
 }
 
-/// Half the width of the map, and its height below the cap, in the unit of kWidths.
+/// Half the width of the texture, and its height below the cap, in the unit of kWidths.
 double half_width() {
   return across(column_unit(kColumns - 1));
 }
@@ -49,7 +49,7 @@ Eigen::RowVector2d scaled(double x, double y) {
           kMargin + (1 - 2 * kMargin) * (height - y) / (height + kCapHeight)};
 }
 
-// The pictures of the eyeballs fill the corners of the map beside the cap.
+// The texture areas of the eyeballs fill the corners of the texture beside the cap.
 constexpr double kDisc = 4.9;  ///< radius
 Eigen::Vector2d disc_centre() {
   return {(across(column_unit(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};

@@ -17,13 +17,14 @@ Eigen::RowVector2d unwrap(const Address& address);
 /// \param place  point in the unit disc, which maps to the hole.
 Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place);
 
-/// Returns texture coordinates on the picture of an eyeball, a disc beside the cap: large enough that
-/// the pupil is round in a texture of 1,024 texels.
+/// Returns texture coordinates in the texture area of an eyeball, a disc beside the cap that is
+/// large enough that the pupil is round in a texture of 1,024 texels.
 /// \param place  point in the unit disc.
 Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
 
-/// Returns the point in the unit disc that shows at texture coordinates on an eyeball's picture, on
-/// either side; a point outside the unit disc if the coordinates are not on such a picture.
+/// Inverse of unwrap_eyeball for both eyeballs: returns the point of the unit disc at texture
+/// coordinates, or a point outside the unit disc if the coordinates are not in the texture area of
+/// an eyeball.
 Eigen::Vector2d on_eyeball_disc(const Eigen::RowVector2d& uv);
 
 /// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
