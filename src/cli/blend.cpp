@@ -34,8 +34,8 @@ PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
 }
 
 /// Checks the smoothing levels of a recipe.
-/// \throws InvalidInput if the recipe needs more iterations than the fitted levels contain, which is
-/// possible in a plan that was edited by hand.
+/// \throws InvalidInput if the recipe needs more iterations than the fitted levels contain, which
+/// is possible in a hand-edited plan.
 void check_levels(const Recipe& recipe, const Job& job, const std::string& reference) {
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     if (recipe.regions[k].iterations <= job.inputs.max_level) continue;

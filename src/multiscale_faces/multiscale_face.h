@@ -33,7 +33,7 @@ struct MultiscaleFace {
   int base = 0;                         ///< the level of the base surface
   std::vector<SplineLattice>
       displacements;        ///< by level from base + 1 on: added to the previous level
-  double missed_share = 0;  ///< share of samples whose normal does not meet the finest surface
+  double missed_share = 0;  ///< fraction of samples whose normals miss the finest surface
 };
 
 /// Computes the levels of a face.

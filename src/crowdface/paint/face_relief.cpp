@@ -416,7 +416,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     }
   }
   // Most runs have one pair of axes, so this case must be fast. Wide steps almost always find the
-  // face; if they miss it, the rotated views are searched.
+  // face; if wide steps miss the face, the rotated views are searched.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.score < kMinScore || match.degrees_off > kTurn) {

@@ -34,7 +34,7 @@ struct PicturedCrowd {
   const Likeness& likeness;
 };
 
-/// Pictures of one face, as the bytes of files.
+/// Rendered images of one face, as the bytes of files.
 struct FacePictures {
   std::string picture;                 ///< PNG
   std::optional<std::string> preview;  ///< script with the mesh for the gallery, if there is one

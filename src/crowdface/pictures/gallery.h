@@ -79,7 +79,7 @@ class GalleryMeshes {
     std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
   };
   std::vector<ShownMoves> shown_moves_;  ///< #shapes
-  std::size_t widest_shape_ = 0;  ///< number of the shape that moves most, such as an open jaw
+  std::size_t widest_shape_ = 0;  ///< index of the shape that moves most, such as an open jaw
   std::vector<float>
       visibility_in_widest_;  ///< like `visibility_`, but in the shape `widest_shape_`
 };

@@ -9,14 +9,14 @@
 
 namespace crowdface {
 
-/// A point on a head, and the text beside it in pictures.
+/// A point on a head, and the text beside the point in images.
 struct LabelledPoint {
   std::string label;
   SurfacePoint place;
 };
 
-/// A picture of a head with labelled points, as the bytes of a PNG file: all views of `renders` side
-/// by side. Each view shows the points on skin that faces its camera.
+/// Draws an image of a head with labelled points, as the bytes of a PNG file: all views of
+/// `renders` side by side. Each view shows the points on skin that faces its camera.
 std::string landmark_picture(const CrowdRenders& renders, const Topology& topology,
                              const Positions& head, const std::vector<LabelledPoint>& points);
 

@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// Writes all pictures of a crowd: renders, contact sheets, gallery.
+/// Writes all images and pages of a crowd: renders, contact sheets, gallery.
 class CrowdPictures {
  public:
   /// \param config, inputs, directory  must outlive this object; the config must have contact

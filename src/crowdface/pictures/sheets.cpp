@@ -221,8 +221,8 @@ class CrowdSheets {
     return inheritance_label(face, crowd_.config.plan_names());
   }
 
-  /// The picture of a family's founder; nothing if there is none or if its size differs from the
-  /// members' pictures.
+  /// The image file of a family's founder; nothing if there is no such file or if its size differs
+  /// from the members' images.
   std::optional<std::filesystem::path> founder_of(const std::string& family,
                                                   std::size_t member) const {
     const std::filesystem::path path = crowd_.directory.founder_render(family);

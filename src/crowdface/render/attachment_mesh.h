@@ -18,7 +18,7 @@ struct AttachmentMaterial {
   Light colour = Light::Constant(0.5F);         ///< linear; used without a texture
   std::shared_ptr<const Texture> texture = {};  ///< colours, or null
   std::shared_ptr<const Texture> opacity = {};  ///< opacity in the first channel, or null: opaque
-  float share = 1;                              ///< factor on the opacity
+  float share = 1;                              ///< factor on the opacity, 0 … 1
 };
 
 /// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Front and back

@@ -62,7 +62,7 @@ void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions
               layout.margin + title_width, 0);
 }
 
-/// Returns the common size of the cells. \throws InvalidInput if the pictures differ in size.
+/// Returns the common size of the cells. \throws InvalidInput if the images differ in size.
 CellSize size_of(std::span<const SheetCell> cells) {
   CellSize size;
   for (const SheetCell& cell : cells) {

@@ -52,7 +52,7 @@ struct SheetLayout {
 
 /// Size of a cell, the same for all cells of a sheet.
 struct CellSize {
-  int width = 0, height = 0;  ///< size of the picture, in pixels
+  int width = 0, height = 0;  ///< size of the cell's image, in pixels
   int label_lines = 1;
 };
 
@@ -75,16 +75,16 @@ Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& op
 /// shortest so far. Ignores `rows` and `legend` of the options.
 Rgb8Image sheet_in_columns(std::span<const SheetCell> cells, const SheetOptions& options);
 
-/// Scales a picture down by box filtering in linear light.
+/// Scales an image down by box filtering in linear light.
 /// \param width_px  1 … image.width; the height keeps the aspect ratio.
 Rgb8Image shrink_picture(const Rgb8Image& image, int width_px);
 
-/// Returns the picture placed in the upper left corner of a larger picture with the background
-/// colour of the sheets.
+/// Pads an image to `width_px` by `height_px`: the image stays in the upper left corner, and the
+/// new area gets the background colour of the sheets.
 Rgb8Image pad_picture(const Rgb8Image& image, int width_px, int height_px);
 
-/// Joins pictures of one height from left to right, for several views of a face in one cell.
-/// \throws BrokenPrecondition if there are no pictures; InvalidInput if heights differ.
+/// Joins images of one height from left to right, for several views of a face in one cell.
+/// \throws BrokenPrecondition if there are no images; InvalidInput if heights differ.
 Rgb8Image joined_pictures(std::span<const Rgb8Image> images);
 
 }  // namespace crowdface

@@ -44,8 +44,7 @@ struct Workspace {
 };
 
 /// Idle workspaces. One thread at a time uses a workspace. Every workspace builds its ray-tracing
-/// tree for the typical face, so that the pixels of a face do not depend on which workspace renders
-/// it.
+/// tree for the typical face, so that a face has the same pixels in every workspace.
 class WorkspacePool {
  public:
   std::unique_ptr<Workspace> take() {
@@ -121,7 +120,7 @@ struct FaceRenderer::Prepared {
         options(choice),
         sampling(choice.samples_per_side, choice.key_rays, choice.sky_rays) {}
 
-  /// Moves the occluders in the workspace's scene to the workspace's points.
+  /// Updates the workspace's scene of occluders to `occluder_points`.
   void put_into_scene(Workspace& workspace) const {
     std::vector<float>& points = workspace.occluder_points;
     if (occluders.vertices.empty()) {

@@ -30,8 +30,9 @@ struct RenderOptions {
 
 /// Renders human faces of one topology in portrait light; without colours and textures they look
 /// like clay. Construct once, then render any number of faces from any thread. On one machine the
-/// pixels are reproducible and do not depend on the thread count. Larger polygons than quads are
-/// drawn as fans around their first corner; polygons with fewer than three corners are skipped.
+/// pixels are reproducible and do not depend on the thread count. Polygons with more than four
+/// corners are drawn as fans around their first corner; polygons with fewer than three corners are
+/// skipped.
 class FaceRenderer {
  public:
   /// \param typical  #V by 3, an average face, or null. If given, the ray tracer's tree is built

@@ -51,7 +51,7 @@ class TextureBlender {
       const FindStatistics& find = [](const auto& make) { return make(); });
 
   /// Blends one texture image of a face. Thread-safe.
-  /// \param picture  index of a picture of the layout.
+  /// \param picture  index of an image (picture) of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
   const SurfaceStatistics& statistics() const { return statistics_; }

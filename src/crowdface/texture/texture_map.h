@@ -48,7 +48,7 @@ struct MapCoding {
   }
 };
 
-/// The map of one head for one picture of the texture.
+/// The map of one head for one image of the texture layout.
 struct TextureMap {
   int width = 0;
   int height = 0;

@@ -57,8 +57,8 @@ class ElasticSolver {
     int steps = 60;
     double tolerance = 1e-3;  ///< residual relative to the right-hand side
   };
-  /// Starts from `displacements`, #V by 3, and replaces them by the solution. The result is bitwise
-  /// identical for any number of threads.
+  /// Starts from `displacements`, #V by 3, and replaces them by an improved solution. The result is
+  /// bitwise identical for any number of threads.
   void solve(const DataTerms& data_terms, const Limits& limits, Positions& displacements) const;
 
  private:

@@ -38,7 +38,7 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
 /// Facts for the report that are not measurements.
 struct WrapFacts {
   std::string template_file, scan_file, inputs, mesh;  ///< `inputs` and `mesh` are digests
-  double output_scale = 1;  ///< factor applied to the head, so that it has the scan's size
+  double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
   /// Distance of each landmark, in mm, from its position predicted by a similarity fitted to the
   /// other landmarks. Has no entry for landmarks without a prediction.
   std::map<std::string, double> left_out_mm;

@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxProbes = 3000;  ///< vertices sampled in each step
-constexpr double kKept = 0.8;             ///< share of the correspondences that is kept
+constexpr double kKept = 0.8;  ///< fraction of the correspondences (the closest) that is used
 constexpr Index kPoseUnknowns = 7;
 constexpr double kGrowth = 0.02;  ///< standard deviation of the scale once a model is fitted
 

@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Thresholds of openness (see vertex_visibility): skin counts as visible from kSeen on, and as
-/// outside folds from kOpenEnough on.
+/// Thresholds of openness (see vertex_visibility): skin counts as visible above kSeen, and as
+/// outside folds above kOpenEnough.
 inline constexpr double kSeen = 0.12, kOpenEnough = 0.3;
 
 /// The skin of a template as a mesh of its own with renumbered vertices.

@@ -110,7 +110,7 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 struct Wearable {
   std::string_view folder, kind, tags;
   double share = 1;
-  bool young = false;  ///< old people do not wear it
+  bool young = false;  ///< whether old people do not wear the attachment
 };
 // The tags "male" and "female" of hair come from the package; for brows they are assigned by the
 // thickness of the brows.

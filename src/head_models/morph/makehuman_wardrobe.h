@@ -58,7 +58,7 @@ struct MakeHumanAttachment {
   std::filesystem::path file;     ///< path in the package
   std::vector<std::string> tags;  ///< tags that a head needs to wear the attachment
   bool young = false;             ///< whether old people do not wear the attachment
-  double share = 1;               ///< relative frequency within its kind
+  double share = 1;               ///< relative frequency among attachments of the same kind
 };
 
 /// Returns the attachments that have a named author and a contemporary style, brows first.

@@ -20,7 +20,7 @@ struct SkinPlace {
   Eigen::Vector3d on_ball =
       Eigen::Vector3d::Zero();  ///< on an eyeball: point on the unit sphere with its pupil at +z
   bool covered = false;         ///< whether the texel shows a surface
-  std::size_t nearest = 0;      ///< index of the covered texel with this place
+  std::size_t nearest = 0;      ///< index of the covered texel from which this SkinPlace is copied
 };
 
 /// Returns the SkinPlace of each of size × size texels, row by row, first row at v = 1. Texels that
