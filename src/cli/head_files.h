@@ -41,7 +41,7 @@ struct TaggedHead {
   std::string more = {};  ///< further tags, separated by ", "; may be empty
 };
 
-/// Returns "young" below 35 years, "adult" below 55 years, else "old".
+/// Returns "young" below 35 years, "adult" from 35 to below 55 years, and "old" from 55 years on.
 std::string_view age_class(double years);
 
 /// Returns YAML with the section `faces`, which contains only tags ([female, old]). The ages are

@@ -38,7 +38,8 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
   return levels;
 }
 
-/// Returns the output file of a level: OUT.obj if there is only one level, else OUT_500.obj.
+/// Returns the output file of a level: OUT.obj if there is only one level, otherwise a name with
+/// the level, such as OUT_500.obj.
 std::filesystem::path output_of(const SmoothOptions& options, std::uint64_t level, bool alone) {
   if (alone) return options.out;
   const std::filesystem::path path = options.out;

@@ -39,7 +39,7 @@ struct MultiscaleFace {
 /// Computes the levels of a face.
 /// \param positions  #P by 3, in the patch's numbers. \param base  0 … kLevels − 2.
 MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positions, int base);
-/// The same face with another base.
+/// Returns the same face with another base level.
 MultiscaleFace with_base(MultiscaleFace face, int base);
 
 /// The details that a new face takes from one face.

@@ -18,7 +18,7 @@ class SplineLattice {
   ///               the control point φ_ij of the paper (−1 ≤ i, j ≤ spans + 1) is row
   ///               (i + 1) + (j + 1)·(spans + 3).
   SplineLattice(Index spans, Columns control);
-  /// The function that is zero.
+  /// The function that is zero everywhere.
   static SplineLattice zero(Index spans, Index components);
 
   Index spans() const { return spans_; }
@@ -40,8 +40,9 @@ class SplineLattice {
   Columns control_;
 };
 
-/// The paper's BA algorithm: for each sample, the smallest control points that give its value; each
-/// control point is the weighted mean of these proposals (Eqs. 3 to 5), or zero without proposals.
+/// The paper's BA algorithm: for each sample, proposes the control points with the smallest sum of
+/// squares that reproduce the sample's value; each control point is the weighted mean of these
+/// proposals (Eqs. 3 to 5), or zero without proposals.
 /// \param uvs  #S by 2. \param values  #S by C.
 SplineLattice approximate(Index spans, const TextureCoordinates& uvs, const Columns& values);
 

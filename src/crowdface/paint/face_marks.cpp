@@ -294,7 +294,7 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   const Outline closed = outline.without_slits(kSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
-  // mean face has more weight there.
+  // penalty, and thus the mean face, has more weight on such a mesh.
   const double coarseness = std::max(1.0, edge_length_near(topology, head, match) / (kFineMm * mm));
   const double prior = kPriorMm * mm * coarseness * coarseness;
   const auto best_near = [&](double expected, double reach, const auto& measure) {

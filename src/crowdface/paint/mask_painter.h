@@ -54,8 +54,9 @@ class MaskPainter {
                                    const Brush& brush, bool continues_stroke = false);
 
   /// The weights after removal of a region. At each vertex, the weight of the region goes to the
-  /// vertex's other regions in proportion to their weights. A vertex without other regions takes
-  /// the regions of its neighbours, or else the first region.
+  /// vertex's other regions in proportion to their weights. A vertex without other regions gets the
+  /// mean weights of its neighbours, or the first region if no path along edges leads to a vertex
+  /// with other regions.
   /// \throws BrokenPrecondition if there is no other region.
   Alpha alpha_without(Index region) const;
 

@@ -7,10 +7,11 @@
 
 namespace crowdface {
 
-/// The part of a mesh where a function of the vertices, linear along edges, is not negative. Polygons
-/// that cross zero are clipped (Sutherland & Hodgman 1974). All vertices and texture coordinates of
-/// the mesh come first, also if no polygon uses them any more; the rows of new vertices follow.
-/// \param above  #V
+/// Cuts a mesh: keeps the part in which a function, given at the vertices and linear along edges,
+/// is not negative. Polygons that cross zero are clipped (Sutherland & Hodgman 1974). All vertices
+/// and texture coordinates of the mesh come first, also if no polygon uses them any more; the rows
+/// of new vertices follow.
+/// \param above  #V: the function at each vertex
 Mesh cut_mesh(const Mesh& mesh, std::span<const double> above);
 
 }  // namespace crowdface

@@ -35,8 +35,8 @@ struct TextureBlending {
 ///   the heads agree and at most 1/√Σ v_h², the value for uncorrelated details (after Heitz &
 ///   Neyret 2018).
 ///
-/// If a head has no texture, its weight goes to the heads that have one. Results are bit-identical
-/// on any number of threads.
+/// If a head has no texture, the weight of this head goes to the heads that have textures. Results
+/// are bit-identical on any number of threads.
 class TextureBlender {
  public:
   /// Returns the result of `make()`, possibly from a cache.

@@ -21,7 +21,8 @@ struct ReducedSkin {
   int smoothings = 0;                    ///< number of smoothing steps after interpolation
 
   /// Interpolates values at the reduced skin's vertices (one row of three each) to the vertices of
-  /// the original skin, and smooths them so that the edges of the reduced skin do not show.
+  /// the original skin, and smooths them so that the edges of the reduced skin do not become
+  /// visible.
   Positions carry(const Positions& values, const SkinMesh& large) const;
   /// Interpolates one value per vertex, without smoothing.
   std::vector<double> carry(const std::vector<double>& values) const;
