@@ -120,7 +120,7 @@ struct FaceRenderer::Prepared {
         options(choice),
         sampling(choice.samples_per_side, choice.key_rays, choice.sky_rays) {}
 
-  /// Updates the workspace's scene of occluders to `occluder_points`.
+  /// Updates the workspace's scene of occluders from `workspace.points`.
   void put_into_scene(Workspace& workspace) const {
     std::vector<float>& points = workspace.occluder_points;
     if (occluders.vertices.empty()) {
