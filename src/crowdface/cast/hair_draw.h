@@ -49,7 +49,7 @@ class HairChooser {
   std::map<std::string, std::uint64_t> sizes_;  ///< by entry: its number of faces
   /// by entry: for each of its faces, the index of the named colour, or −1
   std::map<std::string, std::vector<int>> schedules_;
-  std::map<std::string, HairColour> known_;     ///< colours without the grey of age, by face
+  std::map<std::string, HairColour> known_;           ///< colours without the grey of age, by face
   std::map<std::string, HairColour> family_colours_;  ///< families' colours, by family
 };
 

@@ -214,8 +214,8 @@ void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) con
 }
 
 double FaceBuilder::wider_mm(const Recipe& recipe, const Positions& face) const {
-  const double units =
-      recipe.mirrored ? contacts_->max_excess(mirrored(mirror(), face)) : contacts_->max_excess(face);
+  const double units = recipe.mirrored ? contacts_->max_excess(mirrored(mirror(), face))
+                                       : contacts_->max_excess(face);
   return units * mm_per_unit_;
 }
 
