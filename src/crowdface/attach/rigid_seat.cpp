@@ -17,8 +17,8 @@ namespace {
 constexpr double kSeatReachMm = 15;
 constexpr std::size_t kMinOfSocket = 12;
 constexpr int kSeatRounds = 8;
-/// Cost of moving the attachment by one millimetre, relative to the cost of one millimetre of
-/// missing distance.
+/// Cost of moving the attachment by one millimetre, relative to the cost of being one
+/// millimetre too near to the skin.
 constexpr double kStillness = 0.02;
 
 }  // namespace

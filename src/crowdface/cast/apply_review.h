@@ -12,8 +12,8 @@ namespace crowdface {
 /// are.
 ///
 /// - A redrawn face keeps the changes of earlier reviews.
-/// - If an earlier review's change redrew a face (FaceChange::needs_redraw), a later rejection with
-///   locked parts is treated as a change that locks these parts.
+/// - A face may have been redrawn by a change of an earlier review (FaceChange::needs_redraw). A
+///   rejection of this face that locks parts then counts as a change with these locked parts.
 ///
 /// \param number  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.

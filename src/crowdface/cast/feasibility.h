@@ -20,8 +20,8 @@ struct Remedy {
 /// trials of a large crowd cast only the first faces.
 ///
 /// \param tried   Called after each trial.
-/// \param meshes  If given, the advised distance also works when the meshes of candidates are
-///                judged; if four trials find no such distance, the remedy has no distance.
+/// \param meshes  If given, trials also judge the candidates' meshes. After four failed trials, the
+///                remedy has no distance.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& tried = {},

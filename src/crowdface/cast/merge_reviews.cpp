@@ -70,7 +70,7 @@ class Merging {
     }
   }
 
-  /// Removes the value of a key if both changes set the key.
+  /// Clears `value` if the other change sets the same value. Two different values are a conflict.
   template <class Value>
   void merge(const char* key, const std::string& id, const Value& other, Value& value) {
     if (other == Value() || value == Value()) return;

@@ -38,7 +38,7 @@ class SkinCrossings {
     std::vector<ShapeRow> rows;  ///< rows of the shape that are skin
     Positions shaped;            ///< #rows by 3: these vertices of the template in the shape
     /// Whether the shape brings together skin that is far apart at rest. If so, intersecting skin
-    /// is arranged as on the template.
+    /// gets the same front-to-back order as on the template.
     bool joins_distant_skin = false;
   };
   /// Finds the skin in which intersections of a shape are searched.
@@ -71,8 +71,8 @@ class SkinCrossings {
 
   using ExtraCost = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
-  /// over skin that is close at rest, so that the skin keeps its arrangement. Lids are pushed
-  /// apart, or arranged as on the template.
+  /// over skin that is close at rest, so that the skin keeps its front-to-back order. Lids
+  /// are pushed apart, or get the order that they have on the template.
   ///
   /// \param mesh   The face at rest; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.

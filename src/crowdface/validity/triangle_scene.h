@@ -32,8 +32,8 @@ class TriangleScene {
   /// The pairs from near_pairs() whose triangles intersect, ascending.
   std::vector<TrianglePair> crossing_pairs() const;
 
-  /// Returns the leaves with indices from `leaf` on that may hold triangles whose boxes overlap
-  /// boxes of `leaf`, ascending.
+  /// Returns the leaves i ≥ `leaf`, ascending, in which the box of a triangle may overlap the box of
+  /// a triangle in `leaf`.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
   /// Finds any triangle that a ray hits, not necessarily the nearest; ignores triangle `start`.
