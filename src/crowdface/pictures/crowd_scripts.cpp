@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Writes the gallery's scripts, which contain the recipes of a
-// crowd.
+// SPDX-License-Identifier: Apache-2.0
+// Writes the gallery's scripts, which contain the recipes of a crowd.
 #include <algorithm>
 #include <optional>
 #include <set>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Pages of contact sheets that show faces with their shapes
-// (expressions).
+// SPDX-License-Identifier: Apache-2.0
+// Pages of contact sheets that show faces with their shapes (expressions).
 #include <algorithm>
 #include <optional>
 #include <span>
