@@ -167,7 +167,7 @@ TEST(TextureBlender, NormalsKeepTheirReliefAndUnitLength) {
         const std::size_t at =
             3 * (static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x));
         const Eigen::Vector3d expected =
-            Eigen::Vector3d(own.number(own.row(0, y)[x]), own.number(own.row(1, y)[x]), 1)
+            Eigen::Vector3d(own.decode(own.row(0, y)[x]), own.decode(own.row(1, y)[x]), 1)
                 .normalized();
         Eigen::Vector3d blended;
         for (std::size_t c = 0; c < 3; ++c) {
