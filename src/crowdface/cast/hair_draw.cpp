@@ -71,8 +71,8 @@ std::string HairChooser::entry_of(const FacePlan& face) const {
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Over all faces in `places_`, the numbers
-/// of faces match the fractions.
+/// Returns the colour that `hair_colours` gives the face. Among all faces in `places_`, each colour
+/// has the share that the config asks for.
 std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
   const std::string entry = entry_of(face);
   const auto shares = options_.hair_colours.find(entry);

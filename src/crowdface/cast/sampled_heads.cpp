@@ -51,8 +51,7 @@ Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
 
 Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   Positions face = target_samples(heads, recipe);
-  // Single precision, like the trajectories, for speed: casting does this for every face it
-  // accepts.
+  // Single precision is fast enough for casting, which calls this for every accepted face.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     std::fill(change.begin(), change.end(), 0.F);

@@ -56,25 +56,22 @@ OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
 }
 
 std::string OwnMaterials::text(const Replacements& textures) const {
-  std::set<std::string> defined;
-  for (const Line& line : lines_) {
-    if (line.word == "newmtl") defined.insert(line.material);
-  }
-  const auto file_of = [&](TextureKind kind, const std::string& material) -> const std::string* {
-    const auto of_kind = textures.find(kind);
-    if (of_kind == textures.end()) return nullptr;
-    auto file = of_kind->second.find(material);
-    if (file == of_kind->second.end() && defined.size() == 1) file = of_kind->second.find("");
-    return file == of_kind->second.end() ? nullptr : &file->second;
-  };
-  std::map<std::string, std::string> old_colours;  // texture paths of each material so far
-  std::map<std::string, std::set<TextureKind>> there;
+  std::map<std::string, std::string> old_colours;      // texture paths of each material so far
+  std::map<std::string, std::set<TextureKind>> there;  // "" holds the lines before all materials
   for (const Line& line : lines_) {
     const std::optional<TextureKind> kind = texture_kind_of(line.word);
     if (kind == TextureKind::kColour) old_colours.emplace(line.material, line.rest);
     auto& kinds = there[line.material];
     if (kind) kinds.insert(*kind);
   }
+  const bool has_one_material = there.size() - there.count("") == 1;
+  const auto file_of = [&](TextureKind kind, const std::string& material) -> const std::string* {
+    const auto of_kind = textures.find(kind);
+    if (of_kind == textures.end()) return nullptr;
+    auto file = of_kind->second.find(material);
+    if (file == of_kind->second.end() && has_one_material) file = of_kind->second.find("");
+    return file == of_kind->second.end() ? nullptr : &file->second;
+  };
   const auto replaced = [&](const Line& line) -> std::string {
     const std::optional<TextureKind> kind = texture_kind_of(line.word);
     const std::string* file =

@@ -195,8 +195,8 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
   return ranges;
 }
 
-/// Extends each range to include the range of the mirrored contact: with an asymmetry other than 1,
-/// each corner of the mouth depends on both corners.
+/// Extends each range to include the range of the mirrored contact, because a face whose asymmetry
+/// is not 1 combines both sides.
 void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {

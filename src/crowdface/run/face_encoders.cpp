@@ -72,12 +72,14 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
   }
   if (has_own_textures(inputs)) own_.emplace(config, inputs, crowd, shared);
   if (need_normals) fans_.emplace(inputs.faces.topology);
-  if (!inputs.points.empty()) {
-    points_.emplace(inputs.points, inputs.parts, skin_vertices(inputs));
-    surface_points_.emplace(inputs.points, triangles_of(inputs.faces.topology));
+  const auto carrier_of = [&](const PointSet& points) {
+    return PointCarrier(points, inputs.parts, skin_vertices(inputs),
+                        triangles_of(inputs.faces.topology));
+  };
+  if (!inputs.points.empty()) points_.emplace(carrier_of(inputs.points));
+  if (!inputs.rig.empty() && encoders_.contains(MeshFormat::kGlb)) {
+    joints_.emplace(carrier_of(inputs.rig.points));
   }
-  if (!inputs.rig.empty() && encoders_.contains(MeshFormat::kGlb))
-    joints_.emplace(inputs.rig.points, inputs.parts, skin_vertices(inputs));
 }
 
 bool FaceEncoders::holds_shapes() const {
@@ -118,10 +120,7 @@ void FaceEncoders::prepare(FinishedFace& face) const {
     return needs_normals(format, levels_.size() - 1, target);
   });
   if (need_normals) face.normals = normals_of(face.positions);
-  if (points_) {
-    face.points = points_->carry(target, face.positions);
-    surface_points_->place(target, face.positions, face.points);
-  }
+  if (points_) face.points = points_->carry(target, face.positions);
   if (joints_) face.joints = joints_->carry(target, face.positions);
   if (holds_textures()) face.images = own_->glb_images(*face.textures);
   face.image_names = own_texture_names(config_, inputs_, face.face.id);

@@ -24,7 +24,6 @@
 #include "crowdface/run/mesh_level.h"
 #include "crowdface/run/own_textures.h"
 #include "crowdface/shapes/point_carrier.h"
-#include "crowdface/shapes/surface_points.h"
 
 namespace crowdface {
 
@@ -121,7 +120,6 @@ class FaceEncoders {
   std::vector<AttachmentForms<MeshEncoder>> attachments_;
   std::optional<OwnTextures> own_;               ///< empty if faces have no textures of their own
   std::optional<PointCarrier> points_, joints_;  ///< empty if there are no such points or joints
-  std::optional<SurfacePoints> surface_points_;  ///< empty if there are no points
   /// normal fans of the vertices; empty if no format needs normals
   std::optional<NormalFans> fans_;
 };

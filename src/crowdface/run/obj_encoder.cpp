@@ -150,11 +150,12 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
 
 MeshEncoders obj_encoders(const MeshSource& source) {
   MeshEncoders encoders;
+  const std::map<Index, std::string> others = other_libraries(source);
+  const std::map<Index, std::string> materials = material_lines(source);
   for (const MeshLevel& level : source.levels) {
     MeshEncoder encoder =
         level.is_whole_mesh() ? whole_encoder(source) : level_encoder(source, *level.face);
-    encoder.encode = [encode = std::move(encoder.encode), others = other_libraries(source),
-                      materials = material_lines(source)](const FaceMesh& face) {
+    encoder.encode = [encode = std::move(encoder.encode), others, materials](const FaceMesh& face) {
       EncodedFile file = encode(face);
       const auto other = others.find(face.target);
       if (!face.material_file.empty()) {

@@ -7,6 +7,7 @@
 
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/rigid_motion.h"
+#include "crowdface/parts/surface_point.h"
 
 namespace crowdface {
 namespace {
@@ -27,17 +28,41 @@ bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Pa
 }  // namespace
 
 PointCarrier::PointCarrier(const PointSet& points, const PartList& parts,
-                           std::span<const std::uint32_t> skin)
+                           std::span<const std::uint32_t> skin, std::span<const Triangle> triangles)
     : points_(points), anchors_(points.meshes.size()) {
   for (std::size_t m = 0; m < anchors_.size(); ++m) {
     for (std::size_t p = 0; p < points.names.size(); ++p) {
-      anchors_[m].push_back(anchor_of(row3(points.positions[m], static_cast<Index>(p)),
-                                      points.meshes[m], parts, skin));
+      const Eigen::Vector3d point = row3(points.positions[m], static_cast<Index>(p));
+      const auto on_surface = point_on_surface(point, points.meshes[m], triangles);
+      anchors_[m].push_back(on_surface ? Anchor(*on_surface)
+                                       : Anchor(socket_of(point, points.meshes[m], parts, skin)));
     }
   }
 }
 
-Socket PointCarrier::anchor_of(const Eigen::Vector3d& point, const Positions& mesh,
+std::optional<PointCarrier::TrianglePoint> PointCarrier::point_on_surface(
+    const Eigen::Vector3d& point, const Positions& mesh, std::span<const Triangle> triangles) {
+  // Largest distance of a point that counts as on the surface, as a fraction of the mesh's size:
+  // files contain rounded numbers.
+  constexpr double kNearAsShareOfSize = 1e-5;
+  double least =
+      kNearAsShareOfSize * (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).maxCoeff();
+  std::optional<TrianglePoint> found;
+  for (const Triangle& corners : triangles) {
+    const auto [low, high] =
+        std::minmax({mesh(corners[0], 0), mesh(corners[1], 0), mesh(corners[2], 0)});
+    if (low > point.x() + least || high < point.x() - least) continue;
+    const auto shares = nearest_in_triangle(row3(mesh, corners[0]), row3(mesh, corners[1]),
+                                            row3(mesh, corners[2]), point);
+    const double distance = (point_on(mesh, corners, shares) - point).norm();
+    if (!(distance < least)) continue;  // also a triangle without area
+    least = distance;
+    found = TrianglePoint{corners, shares};
+  }
+  return found;
+}
+
+Socket PointCarrier::socket_of(const Eigen::Vector3d& point, const Positions& mesh,
                                const PartList& parts, std::span<const std::uint32_t> skin) {
   const auto whole = [](const std::vector<std::uint32_t>& vertices) {
     return Socket{vertices, std::vector<double>(vertices.size(), 1.0)};
@@ -75,9 +100,14 @@ Positions PointCarrier::carry(Index target, const Positions& face) const {
   const std::size_t m = points_.meshes.size() > 1 ? static_cast<std::size_t>(target) : 0;
   Positions carried(static_cast<Index>(points_.names.size()), 3);
   for (Index p = 0; p < carried.rows(); ++p) {
-    const Socket& anchor = anchors_[m][static_cast<std::size_t>(p)];
+    const Anchor& anchor = anchors_[m][static_cast<std::size_t>(p)];
+    if (const auto* on_surface = std::get_if<TrianglePoint>(&anchor)) {
+      carried.row(p) = point_on(face, on_surface->corners, on_surface->shares).transpose();
+      continue;
+    }
+    const auto& socket = std::get<Socket>(anchor);
     const RigidMotion motion =
-        fit_rigid_motion(points_.meshes[m], face, anchor.vertices, anchor.weights);
+        fit_rigid_motion(points_.meshes[m], face, socket.vertices, socket.weights);
     carried.row(p) = motion.apply(row3(points_.positions[m], p)).transpose();
   }
   return carried;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "crowdface/mesh/triangles.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/parts/socket.h"
 
@@ -23,15 +27,18 @@ struct PointSet {
   bool empty() const { return names.empty(); }
 };
 
-/// Transfers named points to faces, as parts follow the skin. A point inside an eyeball, or nearer
-/// to another rigid part than to the skin, moves with this part. Any other point moves by the best
-/// rotation, translation and scale of the skin nearest to it. If the face is the points' own mesh,
-/// rotated, translated and scaled, the points undergo the same motion up to rounding.
+/// Transfers named points to faces. A point on a vertex or a triangle of its mesh stays exactly
+/// there. A point inside an eyeball, or nearer to another rigid part than to the skin, moves with
+/// this part. Any other point moves by the best rotation, translation and scale of the skin nearest
+/// to it. If the face is the points' own mesh, rotated, translated and scaled, the points undergo
+/// the same motion up to rounding.
 class PointCarrier {
  public:
-  /// \param points  Must outlive this object.
-  /// \param skin    Vertices of the skin; at least three that are not collinear.
-  PointCarrier(const PointSet& points, const PartList& parts, std::span<const std::uint32_t> skin);
+  /// \param points     Must outlive this object.
+  /// \param skin       Vertices of the skin; at least three that are not collinear.
+  /// \param triangles  All triangles of the mesh.
+  PointCarrier(const PointSet& points, const PartList& parts, std::span<const std::uint32_t> skin,
+               std::span<const Triangle> triangles);
 
   /// Returns the positions of all points on a face.
   /// \param target  The head that the face is built on. Its own points are used if each head has
@@ -41,12 +48,21 @@ class PointCarrier {
   Positions carry(Index target, const Positions& face) const;
 
  private:
-  static Socket anchor_of(const Eigen::Vector3d& point, const Positions& mesh,
+  struct TrianglePoint {
+    Triangle corners;
+    std::array<double, 3> shares;  ///< barycentric coordinates
+  };
+  /// What a point follows: a point on a triangle, or the motion of some vertices.
+  using Anchor = std::variant<TrianglePoint, Socket>;
+
+  static std::optional<TrianglePoint> point_on_surface(const Eigen::Vector3d& point,
+                                                       const Positions& mesh,
+                                                       std::span<const Triangle> triangles);
+  static Socket socket_of(const Eigen::Vector3d& point, const Positions& mesh,
                           const PartList& parts, std::span<const std::uint32_t> skin);
 
   const PointSet& points_;
-  /// #meshes by #names: the vertices whose motion a point follows
-  std::vector<std::vector<Socket>> anchors_;
+  std::vector<std::vector<Anchor>> anchors_;  ///< #meshes by #names
 };
 
 }  // namespace crowdface
