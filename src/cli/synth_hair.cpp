@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kPictureSize = 512;
-constexpr double kBald = 0.55;  // Complexion::receding above which the crown is bald
+constexpr double kBald = 0.8;  // Complexion::receding above which the crown is bald
 
 const char* form_tag(bool curly, bool bald) {
   if (bald) return "bald";
@@ -39,6 +39,12 @@ const char* skin_tag(double tone) {
 
 bool is_for(const synth::HairCut& cut, bool female, bool curly, bool bald) {
   return cut.female == female && cut.curly == curly && cut.crown_bald == bald;
+}
+
+/// Returns the condition on the age class of those who wear a cut, or an empty text.
+const char* age_condition(const synth::HairCut& cut) {
+  if (cut.young) return ", without: [old]";
+  return cut.receding > 0 ? ", without: [young]" : "";
 }
 
 std::string picture_name(bool curly) {
@@ -122,7 +128,7 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
     section += item_line(
         cut.name, "hair",
         concat("tags: [", cut.female ? "female" : "male", ", ", form_tag(cut.curly, cut.crown_bald),
-               "]", cut.young ? ", without: [old]" : "", ", tint: hair"));
+               "]", age_condition(cut), ", tint: hair"));
   }
   for (const bool curly : pictures) {
     files.push_back({folder / "textures" / picture_name(curly), [curly] {

@@ -173,6 +173,7 @@ class ReviewedCrowd {
         "{age: -0.4, hair: red}",
         "{wears: [braid, round]}",
         "{wears: []}",
+        "{takes_off: [hair]}",
         "{hair: white, age: younger}",
         "{colours: {ann: 1, cyd: 3}}",
         "{group: elderly}",

@@ -2,9 +2,13 @@
 #include "crowdface/render/attachment_mesh.h"
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/random.h"
 #include "crowdface/render/camera.h"
 #include "crowdface/render/face_renderer.h"
 
@@ -77,10 +81,49 @@ TEST(AttachmentMesh, HasHolesWhereItsTextureSaysSo) {
   const Scene scene;
   Texture left{2, 1, {Light::Ones(), Light::Zero()}};
   AttachmentMaterial material = black(1);
-  material.opacity = std::make_shared<const Texture>(left);
+  material.opacity = std::make_shared<const MipMap>(left);
   const Rgb8Image bare = scene.wearing({}), half = scene.render(material);
   EXPECT_LT(half.at(28, 32)[0], bare.at(28, 32)[0] / 2) << "the left half is there";
   EXPECT_GT(half.at(37, 32)[0], bare.at(37, 32)[0] / 2) << "the right half is not";
+}
+
+// Strands that are narrower than a pixel gave dots.
+TEST(AttachmentMesh, AveragesTheOpacityBehindAPixel) {
+  const Scene scene;
+  Texture noise{256, 256, {}};
+  for (std::uint64_t t = 0; t < 256 * 256; ++t) {
+    noise.texels.push_back(Light::Constant(random_unit({1, t, "noise"}) < 0.5 ? 1.0F : 0.0F));
+  }
+  AttachmentMaterial material = black(1);
+  material.opacity = std::make_shared<const MipMap>(std::move(noise));
+  const Rgb8Image image = scene.render(material), half = scene.render(black(0.5F));
+  for (int y = 28; y < 36; ++y) {
+    for (int x = 28; x < 36; ++x) {
+      EXPECT_NEAR(image.at(x, y)[0], half.at(x, y)[0], 20) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(MipMap, KeepsTheMean) {
+  Texture texture{8, 6, {}};
+  for (std::uint64_t t = 0; t < 48; ++t) {
+    texture.texels.push_back(Light::Constant(static_cast<float>(random_unit({2, t, "texel"}))));
+  }
+  const auto mean = [](const Texture& level) {
+    return std::accumulate(level.texels.begin(), level.texels.end(), 0.0,
+                           [](double sum, const Light& texel) { return sum + texel[0]; }) /
+           static_cast<double>(level.texels.size());
+  };
+  const MipMap map(texture);
+  ASSERT_EQ(map.levels.size(), 3U);
+  EXPECT_EQ(map.levels[1].width, 4);
+  EXPECT_EQ(map.levels[1].height, 3);
+  EXPECT_EQ(map.levels[2].width, 2);
+  EXPECT_EQ(map.levels[2].height, 1);
+  EXPECT_NEAR(mean(map.levels[1]), mean(texture), 1e-6);
+  EXPECT_NEAR(
+      (map.levels[1].texels[0][0]),
+      (texture.texels[0] + texture.texels[1] + texture.texels[8] + texture.texels[9])[0] / 4, 1e-6);
 }
 
 TEST(AttachmentMesh, BearsTheColoursOfItsTexture) {
@@ -133,7 +176,7 @@ TEST(AttachmentMesh, LetsLightThroughWhereItIsDark) {
     hole.texels[t] = Light::Zero();
   }
   AttachmentMaterial shading = black(1);
-  shading.opacity = std::make_shared<const Texture>(hole);
+  shading.opacity = std::make_shared<const MipMap>(hole);
   const AttachmentSurface card(scene.card, scene.uvs, {AttachmentMaterial()}, {0});
   const AttachmentSurface shade(scene.card, scene.uvs, {shading}, {0});
   const AttachmentSurface behind(scene.card, scene.uvs, {black(1)}, {0});

@@ -147,6 +147,29 @@ TEST_F(Changes, OfAgeAndLooksTouchOneFaceAndAreTold) {
   EXPECT_THAT(changed_meshes(files), IsEmpty());
 }
 
+TEST_F(Changes, TakeOffKindsAndAttachmentsOfOneFace) {
+  run("{mob_0003: {wears: [braid, round]}}");
+  ASSERT_EQ(line("mob_0003").at("attachments"), json({"braid", "round"}));
+  run("{mob_0003: {wears: [round], takes_off: [hair]}}");
+  EXPECT_EQ(line("mob_0003").at("attachments"), json({"round"}));
+  run("{mob_0003: {wears: [braid], takes_off: [round]}}");
+  EXPECT_EQ(line("mob_0003").at("attachments"), json({"braid"}));
+  EXPECT_EQ(line("mob_0003").at("changed"), json({"config: wears, takes_off"}));
+  EXPECT_EQ(line("mob_0003").at("regions"), before("mob_0003").at("regions"));
+  EXPECT_THAT(changed_lines(), ElementsAre("mob_0003"));
+  run("{mob_kin_02: {takes_off: [hair, glasses]}}");
+  EXPECT_THAT(line("mob_kin_02").at("attachments"), IsEmpty());
+}
+
+// A change replaces earlier changes of the same key only.
+TEST_F(Changes, TakeOffWhatTheConfigPutsOn) {
+  ConfigOverrides overrides = with_review("later.yaml", "changes: {mob_0003: {takes_off: [hair]}}");
+  overrides.set = with("{mob_0003: {wears: [braid, round]}}").set;
+  testing::run(folder_, overrides);
+  EXPECT_EQ(line("mob_0003").at("attachments"), json({"round"}));
+  EXPECT_EQ(line("mob_0003").at("changed"), json({"config: wears", "review 1: takes_off"}));
+}
+
 TEST_F(Changes, OfTheAgeMoveWeightsToOldHeads) {
   run("{mob_0002: {age: 1}}");
   const json aged = line("mob_0002");
@@ -408,6 +431,9 @@ TEST_F(Changes, ThatAreWrongAreRefused) {
   refused("{mob_0001: {ages: older}}", {"ages"});
   refused("{mob_0001: {wears: [brade]}}", {"no attachment is called \"brade\"", "braid"});
   refused("{mob_0001: {wears: [bob, braid]}}", {"braid and bob are both of the kind hair"});
+  refused("{mob_0001: {takes_off: [hairs]}}",
+          {"no attachment or kind is called \"hairs\"", "hair"});
+  refused("{mob_0001: {wears: [bob], takes_off: [hair]}}", {"\"hair\" contradicts wears: [bob]"});
   refused("{mob_0001: {hair: green}}", {"a hair colour"});
   refused("{mob_0001: {variant_of: mob_0010}}", {"mob_0010"});
   refused("{mob_0001: {variant_of: mob_0001}}", {"a face cannot be a variant of itself"});

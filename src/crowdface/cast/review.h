@@ -40,13 +40,15 @@ struct FaceChange {
   /// Names of attachments, which replace attachments of the same kinds. No names: the face wears
   /// nothing.
   std::optional<std::vector<std::string>> wears;
+  /// Kinds and names of attachments that the face does not wear.
+  std::vector<std::string> takes_off;
   std::optional<std::string> hair;    ///< name of a hair colour
   std::vector<WeightedHead> colours;  ///< heads that lend textures; empty: no change
 
   bool needs_redraw() const { return group || !locked.empty() || !traits.empty(); }
   bool is_empty() const {
-    return !age && !age_step && !variant_of && !needs_redraw() && !wears && !hair &&
-           colours.empty();
+    return !age && !age_step && !variant_of && !needs_redraw() && !wears && takes_off.empty() &&
+           !hair && colours.empty();
   }
 };
 

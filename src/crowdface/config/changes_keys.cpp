@@ -69,6 +69,36 @@ void read_wears(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
   change.wears = *names;
 }
 
+void read_takes_off(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
+  const auto words = list(name(), "a list of kinds or attachments, [beard]").read(node, draft);
+  if (!words || !draft.complaints.empty()) return;
+  std::vector<std::string> known;
+  for (const Config::Attachment& item : draft.config.attachments.items) {
+    known.push_back(item.name);
+    if (!contains(known, item.kind)) known.push_back(item.kind);
+  }
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    if (contains(known, (*words)[i])) continue;
+    draft.complaints.add_at(node.items[i],
+                            concat("no attachment or kind is called ", quoted((*words)[i]),
+                                   suggestion((*words)[i], known)));
+  }
+  change.takes_off = *words;
+}
+
+/// Adds a complaint about each attachment that the face both takes off and wears.
+void check_takes_off(const FaceChange& change, const YamlNode& node, ConfigDraft& draft) {
+  if (!change.wears) return;
+  for (const Config::Attachment& item : draft.config.attachments.items) {
+    if (!contains(*change.wears, item.name)) continue;
+    for (const std::string& word : {item.name, item.kind}) {
+      if (!contains(change.takes_off, word)) continue;
+      draft.complaints.add_at(node.find("takes_off")->value,
+                              concat(quoted(word), " contradicts wears: [", item.name, ']'));
+    }
+  }
+}
+
 void check_hair(const FaceChange& change, const YamlNode& node, ConfigDraft& draft) {
   const YamlEntry* hair = node.find("hair");
   if (hair == nullptr) return;
@@ -126,6 +156,13 @@ const Keys<FaceChange>& change_keys() {
                         return change.wears ? list(name(), "").write(*change.wears, context) : "";
                       }}
           .taking("list of attachments"),
+      Key<FaceChange>{"takes_off", read_takes_off,
+                      [](const FaceChange& change, const WriteContext& context) {
+                        return change.takes_off.empty()
+                                   ? ""
+                                   : list(name(), "").write(change.takes_off, context);
+                      }}
+          .taking("list of kinds or attachments"),
       key("hair", &FaceChange::hair, hair_colour()),
       colours_key(&FaceChange::colours),
       Key<FaceChange>{
@@ -165,10 +202,12 @@ void check_change(const YamlEntry& entry, const FaceChange& change, ConfigDraft&
     complain("distance", "requires variant_of");
   }
   check_hair(change, node, draft);
+  check_takes_off(change, node, draft);
   if ((change.variant_of || change.needs_redraw()) && !is_sampled_face(change.id, draft.config)) {
-    draft.complaints.add(entry.key_place,
-                         concat(quoted(entry.key),
-                                " is not a sampled face and can only change age, wears and hair"));
+    draft.complaints.add(
+        entry.key_place,
+        concat(quoted(entry.key),
+               " is not a sampled face and can only change age, wears, takes_off and hair"));
   }
 }
 

@@ -86,8 +86,8 @@ AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& made_o
       Texture colours = shrunk_texture(image.width, image.height, max_px_, light.row);
       auto read = std::make_unique<Picture>();
       if (image.alpha_channel >= 0) {
-        read->opacity = std::make_shared<const Texture>(opacity_texture(image, max_px_));
-        keep_to_what_is_seen(image, light, max_px_, *read->opacity, colours);
+        read->opacity = std::make_shared<const MipMap>(opacity_texture(image, max_px_));
+        keep_to_what_is_seen(image, light, max_px_, read->opacity->levels[0], colours);
       }
       read->colours = std::make_shared<const Texture>(std::move(colours));
       return read;
@@ -101,7 +101,7 @@ AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& made_o
   }
   if (!made_of.opacity_map.empty()) {
     material.opacity = opacity_maps_.get(made_of.opacity_map, [&] {
-      return std::make_unique<std::shared_ptr<const Texture>>(std::make_shared<const Texture>(
+      return std::make_unique<std::shared_ptr<const MipMap>>(std::make_shared<const MipMap>(
           opacity_texture(read_image(made_of.opacity_map, {.jpeg = true}), max_px_)));
     });
   }
@@ -116,8 +116,9 @@ std::uint64_t attachment_texture_bytes(std::span<const Attachment* const> items,
     try {
       const ImageSize size = read_image_size(picture, {.jpeg = true});
       const int block = (std::max(size.width, size.height) + max_px - 1) / max_px;
-      bytes += textures * sizeof(Light) * static_cast<std::uint64_t>(size.width / block + 1) *
-               static_cast<std::uint64_t>(size.height / block + 1);
+      const auto texels = static_cast<std::uint64_t>(size.width / block + 1) *
+                          static_cast<std::uint64_t>(size.height / block + 1);
+      bytes += textures * sizeof(Light) * texels * 4 / 3;  // a mip map adds a third
     } catch (const RecoverableError&) {
       return;  // rendering continues without the texture
     }

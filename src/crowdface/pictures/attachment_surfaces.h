@@ -31,7 +31,7 @@ class AttachmentSurfaces {
  private:
   struct Picture {
     std::shared_ptr<const Texture> colours;
-    std::shared_ptr<const Texture> opacity;  ///< null: no alpha channel
+    std::shared_ptr<const MipMap> opacity;  ///< null: no alpha channel
   };
   AttachmentMaterial material_of(const SurfaceMaterial& made_of) const;
 
@@ -40,7 +40,7 @@ class AttachmentSurfaces {
   mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;
   // A cache by file, because many attachments share the same textures.
   mutable LazyMap<std::filesystem::path, Picture> colour_maps_;
-  mutable LazyMap<std::filesystem::path, std::shared_ptr<const Texture>> opacity_maps_;
+  mutable LazyMap<std::filesystem::path, std::shared_ptr<const MipMap>> opacity_maps_;
 };
 
 /// Memory in bytes that the textures of some attachments use after they are read.

@@ -54,7 +54,8 @@ Json part_to_json(const PreviewMesh& mesh, const Positions& positions,
   json["share"] = material.share;
   if (mesh.uvs.empty()) return json;
   if (material.texture) json["picture"] = colour_picture(*material.texture, kMaxAttachmentTexels);
-  if (material.opacity) json["opacity"] = opacity_picture(*material.opacity, kMaxAttachmentTexels);
+  if (material.opacity)
+    json["opacity"] = opacity_picture(material.opacity->levels[0], kMaxAttachmentTexels);
   return json;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/attachment_mesh.h"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -52,10 +54,26 @@ Light AttachmentSurface::colour(std::uint32_t quad, const Eigen::Vector4f& share
   return material.texture ? colour_at(*material.texture, uv_at(quad, shares)) : material.colour;
 }
 
-float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const {
+float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& shares,
+                                 std::uint8_t level) const {
   const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
   if (!material.opacity) return material.share;
-  return material.share * colour_at(*material.opacity, uv_at(quad, shares))[0];
+  return material.share * colour_at(material.opacity->levels[level], uv_at(quad, shares))[0];
+}
+
+std::uint8_t AttachmentSurface::mip_level(std::uint32_t quad, float pixel_count) const {
+  const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
+  if (!material.opacity) return 0;
+  const std::vector<Texture>& levels = material.opacity->levels;
+  const std::array<Eigen::Vector2f, 4>& uvs = uvs_[quad];
+  const Eigen::Vector2f one = uvs[2] - uvs[0], other = uvs[3] - uvs[1];  // diagonals
+  const float texel_count = std::abs(one.x() * other.y() - one.y() * other.x()) / 2 *
+                            static_cast<float>(levels[0].width) *
+                            static_cast<float>(levels[0].height);
+  if (!(texel_count > pixel_count)) return 0;
+  const auto coarsest = static_cast<float>(levels.size() - 1);
+  const float level = std::log2(texel_count / std::max(pixel_count, 1e-6F)) / 2;
+  return static_cast<std::uint8_t>(std::min(std::round(level), coarsest));
 }
 
 }  // namespace crowdface

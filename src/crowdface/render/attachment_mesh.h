@@ -17,7 +17,7 @@ namespace crowdface {
 struct AttachmentMaterial {
   Light colour = Light::Constant(0.5F);         ///< linear; used without a texture
   std::shared_ptr<const Texture> texture = {};  ///< colours, or null
-  std::shared_ptr<const Texture> opacity = {};  ///< opacity in the first channel, or null: opaque
+  std::shared_ptr<const MipMap> opacity = {};   ///< opacity in the first channel, or null: opaque
   float share = 1;                              ///< factor on the opacity, 0 … 1
 };
 
@@ -39,7 +39,11 @@ class AttachmentSurface {
 
   /// Colour at a point of a quad. \param shares  interpolation weights from bilinear_weights.
   Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
-  float opacity(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+  /// Opacity at a point of a quad. \param level  of the opacity's mip map; see mip_level.
+  float opacity(std::uint32_t quad, const Eigen::Vector4f& shares, std::uint8_t level) const;
+  /// Returns the level of the opacity's mip map whose texels are about as large as a pixel.
+  /// \param pixel_count  area of the quad, in pixels.
+  std::uint8_t mip_level(std::uint32_t quad, float pixel_count) const;
 
  private:
   Eigen::Vector2f uv_at(std::uint32_t quad, const Eigen::Vector4f& shares) const;

@@ -4,14 +4,28 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "crowdface/core/require.h"
 #include "crowdface/render/camera_space.h"
 
 namespace crowdface {
+namespace {
+
+/// \param points  3 coordinates per vertex.
+float area_of(const Quad& quad, const std::vector<float>& points) {
+  const auto point = [&](int corner) {
+    return Eigen::Map<const Eigen::Vector3f>(
+        points.data() + std::size_t{3} * quad[static_cast<std::size_t>(corner)]);
+  };
+  return (point(2) - point(0)).cross(point(3) - point(1)).norm() / 2;
+}
+
+}  // namespace
 
 AttachmentStage::AttachmentStage(const RayDevice& device,
-                                 std::span<const AttachmentMesh> attachments,
-                                 const Camera& camera) {
+                                 std::span<const AttachmentMesh> attachments, const Camera& camera,
+                                 int size_px) {
   std::vector<float> points;
   for (const AttachmentMesh& mesh : attachments) {
     const AttachmentSurface& surface = *mesh.surface;
@@ -22,6 +36,11 @@ AttachmentStage::AttachmentStage(const RayDevice& device,
     parts_.push_back({&surface, static_cast<std::uint32_t>(quads_.size()), mesh.tint});
     const std::vector<float> own = to_camera(*mesh.positions, camera);
     const auto normals = camera_normals(surface.topology(), surface.fans(), own, 1);
+    const float pixel_side = 2.0F / static_cast<float>(size_px);  // the image spans −1 … 1
+    for (std::size_t q = 0; q < surface.quads().size(); ++q) {
+      const float pixel_count = area_of(surface.quads()[q], own) / (pixel_side * pixel_side);
+      mip_levels_.push_back(surface.mip_level(static_cast<std::uint32_t>(q), pixel_count));
+    }
     points.insert(points.end(), own.begin(), own.end());
     normals_.insert(normals_.end(), normals.begin(), normals.end());
     for (Quad quad : surface.quads()) {
@@ -32,7 +51,8 @@ AttachmentStage::AttachmentStage(const RayDevice& device,
   scene_ = std::make_unique<const RayScene>(
       device, std::move(points), quads_, [this](std::uint32_t quad, float u, float v) {
         const Part& part = part_of(quad);
-        return part.surface->opacity(quad - part.first_quad, bilinear_weights(quads_[quad], u, v));
+        return part.surface->opacity(quad - part.first_quad, bilinear_weights(quads_[quad], u, v),
+                                     mip_levels_[quad]);
       });
 }
 

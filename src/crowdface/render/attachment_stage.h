@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,8 +16,9 @@ namespace crowdface {
 class AttachmentStage {
  public:
   /// \param attachments  at least one; their surfaces must outlive this object.
+  /// \param size_px      side of the image, in pixels.
   AttachmentStage(const RayDevice& device, std::span<const AttachmentMesh> attachments,
-                  const Camera& camera);
+                  const Camera& camera, int size_px);
   AttachmentStage(const AttachmentStage&) = delete;
   AttachmentStage& operator=(const AttachmentStage&) = delete;
 
@@ -39,6 +41,7 @@ class AttachmentStage {
 
   std::vector<Part> parts_;
   std::vector<Quad> quads_;
+  std::vector<std::uint8_t> mip_levels_;  ///< #quads; see AttachmentSurface::mip_level
   std::vector<Eigen::Vector3f> normals_;
   std::unique_ptr<const RayScene> scene_;
 };

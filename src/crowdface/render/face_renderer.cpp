@@ -237,7 +237,9 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   workspace->screen.put(workspace->points, prepared_->quads, distance, prepared_->options.size_px);
   prepared_->put_into_scene(*workspace);
   std::optional<AttachmentStage> attachment_stage;
-  if (!attachments.empty()) attachment_stage.emplace(prepared_->device, attachments, camera);
+  if (!attachments.empty()) {
+    attachment_stage.emplace(prepared_->device, attachments, camera, prepared_->options.size_px);
+  }
   std::vector<float> skin_lightnesses;
   if (texture_set != nullptr) {
     for (const auto& texture : texture_set->textures)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace crowdface {
 
@@ -48,6 +50,19 @@ Texture shrunk_texture(int width, int height, int max_px,
     }
   }
   return small;
+}
+
+MipMap::MipMap(Texture texture) {
+  levels.push_back(std::move(texture));
+  while (std::min(levels.back().width, levels.back().height) > 1) {
+    const Texture& larger = levels.back();
+    const auto row = [&](int y, std::span<Light> texels) {
+      std::copy_n(larger.texels.begin() + std::ptrdiff_t{y} * larger.width, larger.width,
+                  texels.begin());
+    };
+    const int half = std::max(larger.width, larger.height) / 2;
+    levels.push_back(shrunk_texture(larger.width, larger.height, half, row));
+  }
 }
 
 void spread_colours(Texture& texture, std::vector<bool> painted, int steps) {

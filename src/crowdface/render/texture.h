@@ -37,6 +37,15 @@ void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 /// Uses only the fractional parts of `uv`, so that the texture repeats in every unit square.
 Light colour_at(const Texture& texture, const Eigen::Vector2f& uv);
 
+/// A texture at falling resolutions, so that one lookup averages all texels behind a pixel.
+struct MipMap {
+  /// Level 0 is the texture; each further level has half the size, down to one texel on the
+  /// shorter side.
+  std::vector<Texture> levels;
+
+  explicit MipMap(Texture texture);
+};
+
 /// A texture for each face of one head.
 struct TextureLayer {
   static constexpr std::uint32_t kNone = 0xffffffffU;

@@ -32,6 +32,15 @@ void put_on(const Config& config, const std::vector<std::string>& names, FacePla
   face.attachments = std::move(worn);
 }
 
+/// Removes attachments from a face. \param words  kinds and names of attachments.
+void take_off(const Config& config, const std::vector<std::string>& words, FacePlan& face) {
+  for (const Config::Attachment& item : config.attachments.items) {
+    if (contains(words, item.name) || contains(words, item.kind)) {
+      std::erase(face.attachments, item.name);
+    }
+  }
+}
+
 class ChangedLooks {
  public:
   /// \param crowd  the faces as they were cast.
@@ -69,6 +78,7 @@ class ChangedLooks {
     for (const AppliedChange& applied : changed.changes) {
       const FaceChange& change = applied.change;
       if (change.wears) put_on(config_, *change.wears, face);
+      take_off(config_, change.takes_off, face);
       if (!change.colours.empty()) face.recipe.colours = written_weights(change.colours);
       if (change.hair) face.hair = rounded_colour(*hair_colour_named(*change.hair));
     }

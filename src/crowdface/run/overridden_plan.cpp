@@ -183,6 +183,7 @@ class OverriddenPlan {
       check("variant_of", change.variant_of, later.variant_of);
       check("group", change.group, later.group);
       check("wears", change.wears, later.wears);
+      check("takes_off", change.takes_off, later.takes_off);
       check("hair", change.hair, later.hair);
       check("colours", change.colours, later.colours);
     }

@@ -14,6 +14,7 @@ struct HairCut {
   bool female = false;
   bool curly = false;
   bool crown_bald = false;  ///< the crown is bald
+  double receding = 0;      ///< of the hairline, 0 … 1; if above 0, young people do not wear the cut
   double parting = 0;       ///< x of the parting
   double sideways = 1;      ///< component of the combing direction away from the parting
   double back = 0;          ///< component of the combing direction to the back (negative: forward)
