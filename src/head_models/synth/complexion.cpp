@@ -82,9 +82,11 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
   look.iris = random_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
-    // Use stratified random numbers, so that about two of five successive men are shaven.
+    // Use stratified random numbers, so that about two of five successive men are shaven, and
+    // successive men differ in their hairlines.
     grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);
-    look.receding = smooth_step(28, 80, person.age + 45 * (unit("synth/receding") - 0.5));
+    const double early = random_stratified({seed, index / 2, "synth/receding"}, 4);
+    look.receding = smooth_step(28, 80, person.age + 45 * (early - 0.5));
   } else {
     look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
     const double fond = unit("synth/made_up");
