@@ -47,6 +47,16 @@ TEST(HairCards, AreTheSameOnEveryMachine) {
             "d6aafade76db6c9f2f59bcc060ab8781");
 }
 
+TEST(HairCards, RecedeMostBesideTheForehead) {
+  const auto lost_at = [](const Vector3d& p) {
+    return distance_inside_hair(cut_named("swept_back"), p) -
+           distance_inside_hair(cut_named("receding_back"), p);
+  };
+  EXPECT_GT(lost_at({0, 8, 8}), 1);
+  EXPECT_GT(lost_at({3, 8, 6}), lost_at({0, 8, 8})) << "the hairline has corners";
+  EXPECT_EQ(lost_at({0, 8, -8}), 0) << "the back of the head";
+}
+
 TEST(HairCards, BothSexesHaveStraightAndCurlyCuts) {
   for (const bool female : {true, false}) {
     for (const bool curly : {true, false}) {

@@ -166,6 +166,22 @@ TEST(SyntheticSkins, HairGoesGreyAndRecedesWithTheYears) {
   EXPECT_GT(receding_old, receding_young + 0.3);
 }
 
+// Five of six old men of one crowd were bald.
+TEST(SyntheticSkins, HairlinesOfSuccessiveMenDiffer) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    int men = 0, with_hair = 0, receding = 0;
+    for (std::uint64_t i = 0; i < 24; ++i) {
+      if (synth::random_person(seed, i).male <= 0) continue;
+      const double bare = synth::random_complexion(seed, i).receding;
+      ++men;
+      if (bare < 0.2) ++with_hair;
+      if (bare > 0.8) ++receding;
+    }
+    EXPECT_GE(4 * with_hair, men) << seed;
+    EXPECT_LE(2 * receding, men) << seed;
+  }
+}
+
 TEST(SyntheticSkins, ScalpHasHairInItsColour) {
   const std::uint64_t woman = head_of(false, 18, 35);
   const Colour hair = 255 * synth::random_complexion(1, woman).hair;
