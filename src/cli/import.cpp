@@ -52,7 +52,7 @@ void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wa
            return encode(model.positions(seed, i), name);
          }});
     if (const auto person = model.person(wanted.seed, i)) {
-      tagged.push_back({name, person->male, person->years, further_tag(i)});
+      tagged.push_back({name, person->is_male, person->age_years, further_tag(i)});
     }
   }
   if (tagged.empty()) return;

@@ -174,8 +174,8 @@ std::string licence_line(std::string_view asset, const AssetLicence& licence) {
 std::string item_line(const MakeHumanAttachment& item) {
   return concat("    - {name: ", item.name, ", kind: ", item.kind, ", file: ", item.name, ".obj",
                 item.tags.empty() ? "" : ", tags: [", join(item.tags), item.tags.empty() ? "" : "]",
-                item.share == 1 ? "" : concat(", share: ", item.share),
-                item.young ? ", without: [old]" : "",
+                item.relative_frequency == 1 ? "" : concat(", share: ", item.relative_frequency),
+                item.excludes_old ? ", without: [old]" : "",
                 ", tint: ", item.kind == "brow" ? "brows" : item.kind, "}\n");
 }
 
@@ -193,7 +193,7 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
                                 std::uint64_t index, std::vector<HeadFile>& files) {
   const MakeHumanPerson person = random_makehuman_person(seed, index);
   const std::string colour = makehuman_eye_colour(person, seed, index);
-  tags_.insert({person.male ? "male" : "female", std::string(age_class(person.years)),
+  tags_.insert({person.is_male ? "male" : "female", std::string(age_class(person.age_years)),
                 prevailing_ancestry(person)});
   const std::string skin = concat(name, "_skin.png");
   const std::string eye = concat("\nKd 1 1 1\nmap_Kd textures/eye_", colour, ".png\n");

@@ -108,8 +108,8 @@ RigidMotion some_motion() {
   RigidMotion motion;
   motion.rotation << 0.36, 0.48, -0.8, -0.8, 0.6, 0, 0.48, 0.64, 0.6;
   motion.scale = 1.1;
-  motion.from = {1, 2, 3};
-  motion.to = {-4, 0, 2};
+  motion.pivot = {1, 2, 3};
+  motion.moved_pivot = {-4, 0, 2};
   return motion;
 }
 

@@ -108,19 +108,19 @@ class ScanBaking : public ::testing::Test {
   BakedPicture bake(const fs::path& scan_file, const BakeOptions& options = {}) {
     FileMesh mesh = read_mesh(scan_file);
     const Scan scan = scan_of(mesh, scan_file);
-    const ScanSurface surface(skin_only(scan));
+    const ScanSurface surface(keep_skin(scan));
     const ScanColours colours(std::move(mesh), scan_file);
     EXPECT_TRUE(colours.has_colours());
     EXPECT_TRUE(colours.warnings().empty());
     const BakeTemplate target(file_, shape_, kTexels);
-    EXPECT_EQ(target.names().size(), 1U);
-    return ScanBake(target, wrapped_, surface, colours, options).picture(0);
+    EXPECT_EQ(target.picture_names().size(), 1U);
+    return ScanBake(target, wrapped_, surface, colours, options).bake_picture(0);
   }
 
   /// Whether a texel is in the face, and at least half of its colour comes from the scan.
   static bool is_face(const BakedPicture& picture, int x, int y) {
     return x > 0.31 * kTexels && x < 0.69 * kTexels && y > 0.34 * kTexels && y < 0.74 * kTexels &&
-           picture.filled[static_cast<std::size_t>(y * kTexels + x)] < 128;
+           picture.filled_mask[static_cast<std::size_t>(y * kTexels + x)] < 128;
   }
   std::vector<double> errors(const BakedPicture& picture) const {
     std::vector<double> all;
@@ -163,7 +163,7 @@ TEST_F(ScanBaking, BytesDoNotDependOnTheNumberOfThreads) {
   const ThreadLimit limit(1);
   const BakedPicture one = bake(scan);
   EXPECT_EQ(one.srgb, many.srgb);
-  EXPECT_EQ(one.filled, many.filled);
+  EXPECT_EQ(one.filled_mask, many.filled_mask);
 }
 
 /// The colour of the texture at each vertex.
@@ -284,7 +284,7 @@ TEST_F(ScanBaking, MaterialsOfGltfAreBaked) {
   for (int y = 0; y < kTexels; ++y) {
     for (int x = 0; x < kTexels; ++x) {
       const std::size_t at = static_cast<std::size_t>(y * kTexels + x);
-      if (picture.filled[at] > 0) continue;
+      if (picture.filled_mask[at] > 0) continue;
       const Eigen::Array3d found = lab_of(&picture.srgb[3 * at]);
       const auto off = [&](const std::uint8_t* srgb) {
         return (found - lab_of(srgb)).matrix().norm();
@@ -321,12 +321,12 @@ TEST_F(ScanBaking, AHoleIsFilledInTheToneOfTheScan) {
   const BakedPicture whole = bake(folder_ / "scan.obj"), picture = bake(folder_ / "holed.obj");
   const Bytes other = skins_.albedo(1, 1);
   std::vector<double> error, unmatched, elsewhere;
-  for (std::size_t i = 0; i < picture.filled.size(); ++i) {
-    if (whole.filled[i] > 0) continue;
+  for (std::size_t i = 0; i < picture.filled_mask.size(); ++i) {
+    if (whole.filled_mask[i] > 0) continue;
     const Eigen::Array3d truth = lab_of(&paint_[3 * i]), found = lab_of(&picture.srgb[3 * i]);
-    if (picture.filled[i] == 0) {
+    if (picture.filled_mask[i] == 0) {
       elsewhere.push_back((found - truth).matrix().norm());
-    } else if (picture.filled[i] == 255) {
+    } else if (picture.filled_mask[i] == 255) {
       error.push_back((found - truth).matrix().norm());
       unmatched.push_back((lab_of(&other[3 * i]) - truth).matrix().norm());
     }
@@ -359,7 +359,7 @@ TEST_F(ScanBaking, ShadingCanBeRemoved) {
     }
     return std::array{percentile(greys, 0.5), percentile(greys, 0.95) - percentile(greys, 0.05)};
   };
-  const auto lit = spread(bake(scan)), even = spread(bake(scan, {.delight = true}));
+  const auto lit = spread(bake(scan)), even = spread(bake(scan, {.remove_shading = true}));
   EXPECT_GT(lit[1], 30);
   EXPECT_LT(even[1], 8);
   EXPECT_NEAR(even[0], lit[0], 25);

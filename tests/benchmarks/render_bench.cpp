@@ -50,7 +50,7 @@ BENCHMARK(BM_Render)
 void BM_CameraNormals(benchmark::State& state) {
   const Subject& s = subject();
   const NormalFans fans(s.heads.topology());
-  const std::vector<float> points = to_camera(s.positions, s.camera);
+  const std::vector<float> points = to_camera_space(s.positions, s.camera);
   for (auto _ : state) {
     benchmark::DoNotOptimize(camera_normals(s.heads.topology(), fans, points, 1).data());
   }
@@ -66,9 +66,9 @@ void BM_Scene(benchmark::State& state) {
     const auto face = s.heads.topology().face(f);
     quads.push_back({face[0], face[1], face[2], face[3]});
   }
-  RayScene moving(device, to_camera(s.other, s.camera), quads, RayScene::Tree::kMovable);
+  RayScene moving(device, to_camera_space(s.other, s.camera), quads, RayScene::Tree::kMovable);
   for (auto _ : state) {
-    std::vector<float> points = to_camera(s.positions, s.camera);
+    std::vector<float> points = to_camera_space(s.positions, s.camera);
     if (state.range(0) == 0) {
       benchmark::DoNotOptimize(RayScene(device, std::move(points), quads).point(0));
     } else {

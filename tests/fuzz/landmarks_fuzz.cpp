@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   try {
     const crowdface::LandmarkFile landmarks = crowdface::read_landmarks(file.path());
-    for (const auto* places : {&landmarks.of_template, &landmarks.of_scan}) {
+    for (const auto* places : {&landmarks.template_places, &landmarks.scan_places}) {
       for (const auto& [name, place] : *places) {
         if (!place.point.allFinite()) std::abort();
       }

@@ -104,8 +104,8 @@ TEST(MakeHumanPerson, SharesSumToOneAndPeopleDiffer) {
   int men = 0, old = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
     const MakeHumanPerson person = random_makehuman_person(1, i);
-    men += person.male ? 1 : 0;
-    old += person.years >= 55 ? 1 : 0;
+    men += person.is_male ? 1 : 0;
+    old += person.age_years >= 55 ? 1 : 0;
     EXPECT_NEAR(person.ancestry[0] + person.ancestry[1] + person.ancestry[2], 1, 1e-14);
     double share = 0;
     for (const TargetWeight& target : makehuman_targets(person, 1, i)) {

@@ -65,7 +65,7 @@ TEST(Contact, LeavesAPartThatIsClear) {
   const BoxBehindWall scene;
   const RigidMotion motion =
       scene.contact().keep_out_of_skin(scene.mesh.positions, {}, scene.pushed(0.04), kMargin);
-  EXPECT_EQ(motion.to.norm(), 0);
+  EXPECT_EQ(motion.moved_pivot.norm(), 0);
   EXPECT_EQ(motion.scale, 1);
 }
 
@@ -74,7 +74,7 @@ TEST(Contact, ClearsAPartOfTheSkin) {
   const RigidMotion motion =
       scene.contact().keep_out_of_skin(scene.mesh.positions, {}, scene.pushed(0.3), kMargin);
   EXPECT_NEAR(scene.clearance(motion, 0.3), kMargin, 0.003);
-  EXPECT_NEAR(motion.to.x(), 0, 1e-9);
+  EXPECT_NEAR(motion.moved_pivot.x(), 0, 1e-9);
 }
 
 TEST(Contact, TurnsAPartBehindATiltedWall) {
@@ -83,15 +83,15 @@ TEST(Contact, TurnsAPartBehindATiltedWall) {
       scene.contact().keep_out_of_skin(scene.mesh.positions, {}, scene.pushed(0.1, 0.15), kMargin);
   EXPECT_LT(scene.clearance({}, 0.1, 0.15), -0.1);
   EXPECT_GT(scene.clearance(motion, 0.1, 0.15), 0.5 * kMargin);
-  EXPECT_LT(motion.turn({1, 0, 0}).z(), 0.15);
-  EXPECT_GT(motion.turn({1, 0, 0}).z(), 0.01) << "turned some of the way";
+  EXPECT_LT(motion.apply_to_direction({1, 0, 0}).z(), 0.15);
+  EXPECT_GT(motion.apply_to_direction({1, 0, 0}).z(), 0.01) << "turned some of the way";
 }
 
 TEST(Contact, AllowsWhatAHeadHas) {
   const BoxBehindWall scene;
   const Positions through = scene.pushed(0.3);
   const Contact contact = scene.contact({{"ann", scene.mesh.positions}, {"bob", through}});
-  EXPECT_EQ(contact.keep_out_of_skin(through, {}, through, kMargin).to.norm(), 0);
+  EXPECT_EQ(contact.keep_out_of_skin(through, {}, through, kMargin).moved_pivot.norm(), 0);
   const RigidMotion motion =
       contact.keep_out_of_skin(scene.mesh.positions, {}, scene.pushed(0.4), kMargin);
   EXPECT_NEAR(scene.clearance(motion, 0.4), -0.2, 0.005) << "no deeper than in any head";

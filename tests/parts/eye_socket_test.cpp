@@ -104,7 +104,7 @@ TEST(BallMap, FollowsACornea) {
 TEST(EyeSocket, LeavesTheEyeballWhereNothingMoved) {
   const LidsAroundBall scene;
   const RigidMotion motion = scene.socket().fit(0, {}, scene.mesh.positions);
-  EXPECT_LT(motion.to.norm(), 1e-9);
+  EXPECT_LT(motion.moved_pivot.norm(), 1e-9);
   EXPECT_NEAR(motion.scale, 1, 1e-9);
 }
 
@@ -113,7 +113,7 @@ TEST(EyeSocket, ShiftsTheEyeballUntilTheGapsAreBack) {
   const Eigen::RowVector3d away(0.02, -0.05, 0.15);
   const RigidMotion motion = scene.socket().fit(0, {}, scene.lids_moved(away));
   // What a shift costs leaves a few per cent.
-  EXPECT_LT((motion.to.transpose() - away).norm(), 0.1 * away.norm());
+  EXPECT_LT((motion.moved_pivot.transpose() - away).norm(), 0.1 * away.norm());
 }
 
 TEST(EyeSocket, LetsNoLidInThatIsInsideInNoHead) {

@@ -42,8 +42,9 @@ TEST(RigidMotion, NeverMirrors) {
   Positions to = from;
   to.col(0) *= -1;
   const RigidMotion motion = fit_rigid_motion(from, to, rows_of(from), std::vector<double>(9, 1.0));
-  const Eigen::Vector3d x = motion.turn({1, 0, 0}), y = motion.turn({0, 1, 0});
-  EXPECT_GT(x.cross(y).dot(motion.turn({0, 0, 1})), 0);
+  const Eigen::Vector3d x = motion.apply_to_direction({1, 0, 0}),
+                        y = motion.apply_to_direction({0, 1, 0});
+  EXPECT_GT(x.cross(y).dot(motion.apply_to_direction({0, 0, 1})), 0);
 }
 
 TEST(RigidMotion, IsTheBestOfItsNeighbours) {
@@ -67,7 +68,7 @@ TEST(RigidMotion, IsTheBestOfItsNeighbours) {
     EXPECT_GT(error(other), error(best));
     for (Index c = 0; c < 3; ++c) {
       other = best;
-      other.to(c) += step;
+      other.moved_pivot(c) += step;
       EXPECT_GT(error(other), error(best));
       // A small turn about axis c.
       other = best;

@@ -16,7 +16,7 @@ struct TwoTeeth {
 
 RigidMotion shift(double y) {
   RigidMotion motion;
-  motion.to = {0, y, 0};
+  motion.moved_pivot = {0, y, 0};
   return motion;
 }
 

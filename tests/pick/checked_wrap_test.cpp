@@ -31,7 +31,7 @@ class CheckedWrap : public ::testing::Test {
   void move_mouth(bool by_shape) {
     for (WrapLandmark& landmark : landmarks_) {
       const bool is_mouth = landmark.name.starts_with("mouth") || landmark.name.starts_with("lip");
-      landmark.by_shape = by_shape;
+      landmark.is_found_by_shape = by_shape;
       if (is_mouth) landmark.place.y() -= 17;
     }
     std::erase_if(landmarks_,

@@ -17,10 +17,10 @@ void expect_chin_and_nose(const std::string& name, const std::string& text) {
   SCOPED_TRACE(name);
   const TemporaryFolder folder;
   const LandmarkFile file = read_landmarks(folder.write(name, text));
-  EXPECT_TRUE(file.of_template.empty());
-  ASSERT_EQ(file.of_scan.size(), 2U);
-  EXPECT_EQ(file.of_scan.at("chin").point, Eigen::Vector3d(1, -2.5, 3));
-  EXPECT_EQ(file.of_scan.at("nose tip").point, Eigen::Vector3d(4, 5, 6));
+  EXPECT_TRUE(file.template_places.empty());
+  ASSERT_EQ(file.scan_places.size(), 2U);
+  EXPECT_EQ(file.scan_places.at("chin").point, Eigen::Vector3d(1, -2.5, 3));
+  EXPECT_EQ(file.scan_places.at("nose tip").point, Eigen::Vector3d(4, 5, 6));
 }
 
 TEST(LandmarkLists, AreReadAsOtherProgramsWriteThem) {
@@ -49,9 +49,9 @@ TEST(LandmarkLists, AreReadAsOtherProgramsWriteThem) {
 TEST(LandmarkLists, VerticesAndNamelessPointsAreTaken) {
   const TemporaryFolder folder;
   const LandmarkFile vertices =
-      read_landmarks(folder.write("v.csv", "chin 966\nnose_tip 7\n"), LandmarksOf::kTemplate);
-  EXPECT_TRUE(vertices.of_scan.empty());
-  EXPECT_EQ(vertices.of_template.at("chin").vertex, 966U);
+      read_landmarks(folder.write("v.csv", "chin 966\nnose_tip 7\n"), LandmarkMesh::kTemplate);
+  EXPECT_TRUE(vertices.scan_places.empty());
+  EXPECT_EQ(vertices.template_places.at("chin").vertex, 966U);
   std::string header = "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }";
   header.resize(118, ' ');
   const std::vector<double> numbers = {1, 4, -2.5, 5, 3, 6};
@@ -59,8 +59,8 @@ TEST(LandmarkLists, VerticesAndNamelessPointsAreTaken) {
   bytes += header;
   bytes.append(reinterpret_cast<const char*>(numbers.data()), 48);
   const LandmarkFile array = read_landmarks(folder.write("p.npy", bytes));
-  EXPECT_EQ(array.of_scan.at("1").point, Eigen::Vector3d(1, -2.5, 3));
-  EXPECT_EQ(array.of_scan.at("2").point, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(array.scan_places.at("1").point, Eigen::Vector3d(1, -2.5, 3));
+  EXPECT_EQ(array.scan_places.at("2").point, Eigen::Vector3d(4, 5, 6));
 }
 
 // Each point was counted from the beginning of the file and copied to its end: 5 MB took minutes.

@@ -22,17 +22,17 @@ TEST(LandmarkText, ReadsBackAsTheSame) {
   const TemporaryFolder folder;
   const LandmarkFile file =
       read_landmarks(folder.write("l.yaml", format_landmarks(landmarks, "# ours\n")));
-  EXPECT_EQ(file.of_template.size(), 4U);
-  EXPECT_EQ(file.of_scan.size(), 4U);
+  EXPECT_EQ(file.template_places.size(), 4U);
+  EXPECT_EQ(file.scan_places.size(), 4U);
   for (const PickedLandmark& landmark : landmarks) {
     if (landmark.vertex) {
-      ASSERT_TRUE(file.of_template.contains(landmark.name)) << landmark.name;
-      EXPECT_TRUE(file.of_template.at(landmark.name).is_vertex);
-      EXPECT_EQ(file.of_template.at(landmark.name).vertex, *landmark.vertex);
+      ASSERT_TRUE(file.template_places.contains(landmark.name)) << landmark.name;
+      EXPECT_TRUE(file.template_places.at(landmark.name).is_vertex);
+      EXPECT_EQ(file.template_places.at(landmark.name).vertex, *landmark.vertex);
     }
     if (!landmark.point) continue;
-    ASSERT_TRUE(file.of_scan.contains(landmark.name)) << landmark.name;
-    const LandmarkFile::Place& place = file.of_scan.at(landmark.name);
+    ASSERT_TRUE(file.scan_places.contains(landmark.name)) << landmark.name;
+    const LandmarkFile::Place& place = file.scan_places.at(landmark.name);
     EXPECT_EQ(place.is_vertex, landmark.scan_vertex.has_value());
     if (place.is_vertex) {
       EXPECT_EQ(place.vertex, *landmark.scan_vertex);
@@ -45,8 +45,8 @@ TEST(LandmarkText, ReadsBackAsTheSame) {
 TEST(LandmarkText, OfNothingReadsBackAsNothing) {
   const TemporaryFolder folder;
   const LandmarkFile file = read_landmarks(folder.write("l.yaml", format_landmarks({})));
-  EXPECT_TRUE(file.of_template.empty());
-  EXPECT_TRUE(file.of_scan.empty());
+  EXPECT_TRUE(file.template_places.empty());
+  EXPECT_TRUE(file.scan_places.empty());
 }
 
 TEST(LandmarkText, FirstCommentsAreTold) {

@@ -75,7 +75,7 @@ TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
   EXPECT_EQ(json("PUT", "api/landmarks", {{"landmarks", landmarks}})["pairs"], 2);
 
   const LandmarkFile saved = read_landmarks(file_);
-  EXPECT_TRUE(saved.of_template.contains("a: b"));
+  EXPECT_TRUE(saved.template_places.contains("a: b"));
   const auto matched =
       match_landmarks(saved, session_.inputs().file_positions, session_.inputs().scan);
   ASSERT_EQ(matched.size(), 2U);
@@ -95,7 +95,7 @@ TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
   EXPECT_EQ(job["landmarks"][0]["scan"]["point"], on_scan["point"]);
   const std::string before = read_file(file_);
   later.current()->session.save(later.current()->session.landmarks());
-  EXPECT_EQ(read_landmarks(file_).of_template.size(), 3U);
+  EXPECT_EQ(read_landmarks(file_).template_places.size(), 3U);
   EXPECT_EQ(read_file(file_).size(), before.size());
 }
 
@@ -183,9 +183,9 @@ TEST_F(PickApiTest, AFileThatAnotherProgramChangedIsWrittenOverOnlyWhenAskedAgai
   expect_error(ExitCode::kUsage, {"landmarks.yaml", "another program"}, [&] {
     session_.save({{"chin", 3, std::nullopt, std::nullopt}});
   });
-  EXPECT_EQ(read_landmarks(file_).of_template.at("chin").vertex, 2U);
+  EXPECT_EQ(read_landmarks(file_).template_places.at("chin").vertex, 2U);
   session_.save({{"chin", 3, std::nullopt, std::nullopt}});
-  EXPECT_EQ(read_landmarks(file_).of_template.at("chin").vertex, 3U);
+  EXPECT_EQ(read_landmarks(file_).template_places.at("chin").vertex, 3U);
   EXPECT_EQ(read_file(file_).substr(0, 13), "# by another\n");
 }
 

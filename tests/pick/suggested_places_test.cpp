@@ -24,7 +24,7 @@ std::vector<Triangle> skin_of(const WrapTemplate& shape) {
 
 std::vector<Triangle> eyes_of(const WrapTemplate& shape) {
   std::vector<Triangle> triangles;
-  for (const Triangle& t : solid_triangles(shape)) {
+  for (const Triangle& t : occluding_triangles(shape)) {
     if (shape.parts.classes[shape.components.of_vertex[t[0]]] == PartClass::kRigid) {
       triangles.push_back(t);
     }
@@ -52,7 +52,7 @@ class SuggestedPlacesTest : public ::testing::Test {
   WrapTemplate shape_ = some_template();
   PickableMesh template_{shape_.positions, skin_of(shape_), eyes_of(shape_)};
   PickableMesh scan_{truth_.apply(10 * some_head(1)), skin_of(shape_)};
-  MirrorPlane plane_ = middle_plane(shape_, shape_.positions);
+  MirrorPlane plane_ = symmetry_plane(shape_, shape_.positions);
   std::map<std::string, std::uint32_t> proposals_ = propose_landmarks(shape_);
 };
 
@@ -85,11 +85,11 @@ TEST_F(SuggestedPlacesTest, TheTemplatesShapeTellsItsMiddleAndItsEyes) {
 
 TEST_F(SuggestedPlacesTest, TheTemplatesSkinFallsIntoRegions) {
   const SkinRegions regions = face_regions(shape_);
-  ASSERT_EQ(regions.of_vertex.size(), shape_.skin.vertices.size());
+  ASSERT_EQ(regions.region_of_vertex.size(), shape_.skin.vertices.size());
   const auto region_at = [&](std::uint32_t vertex) {
     const auto& rows = shape_.skin.vertices;
     const auto at = std::lower_bound(rows.begin(), rows.end(), vertex);
-    return regions.names[regions.of_vertex[static_cast<std::size_t>(at - rows.begin())]];
+    return regions.names[regions.region_of_vertex[static_cast<std::size_t>(at - rows.begin())]];
   };
   EXPECT_EQ(region_at(proposals_.at("nose_tip")), "nose");
   EXPECT_EQ(region_at(proposals_.at("chin")), "mouth");
@@ -101,28 +101,28 @@ TEST_F(SuggestedPlacesTest, TheTemplatesSkinFallsIntoRegions) {
 TEST_F(SuggestedPlacesTest, TheOtherHalfIsSuggestedOnTheTemplate) {
   const PickedLandmark left = {"mole_left", proposals_.at("eye_inner_left"), std::nullopt, {}};
   const auto places = suggest_places({left}, template_, scan_, plane_, {});
-  ASSERT_EQ(places.of_template.size(), 1U);
+  ASSERT_EQ(places.template_places.size(), 1U);
   const Eigen::Vector3d expected = plane_.image(row3(shape_.positions, *left.vertex));
-  EXPECT_LT((places.of_template.at("mole_right").point - expected).norm(), 5);
-  EXPECT_TRUE(places.of_scan.empty());
+  EXPECT_LT((places.template_places.at("mole_right").point - expected).norm(), 5);
+  EXPECT_TRUE(places.scan_places.empty());
   EXPECT_FALSE(places.pose);
 }
 
 TEST_F(SuggestedPlacesTest, ThreePairsTellTheOthersOnTheScan) {
   const std::vector<std::string> names = {"eye_outer_left", "eye_outer_right", "chin"};
   EXPECT_TRUE(suggest_places(pairs({names[0], names[1]}), template_, scan_, plane_, proposals_)
-                  .of_scan.empty());
+                  .scan_places.empty());
   const auto places = suggest_places(pairs(names), template_, scan_, plane_, proposals_);
   ASSERT_TRUE(places.pose);
   EXPECT_LT((places.pose->pose.rotation - truth_.rotation).norm(), 0.15);
   EXPECT_NEAR(places.pose->pose.scale / truth_.scale, 1, 0.15);
   for (const char* name : {"nose_tip", "eye_inner_left", "lip_upper"}) {
-    ASSERT_TRUE(places.of_scan.contains(name)) << name;
-    EXPECT_LT(mm_off(places.of_scan.at(name), proposals_.at(name)), 15) << name;
+    ASSERT_TRUE(places.scan_places.contains(name)) << name;
+    EXPECT_LT(mm_off(places.scan_places.at(name), proposals_.at(name)), 15) << name;
   }
   for (const std::string& name : names) {
-    EXPECT_FALSE(places.of_scan.contains(name)) << name;
-    EXPECT_FALSE(places.of_template.contains(name)) << name;
+    EXPECT_FALSE(places.scan_places.contains(name)) << name;
+    EXPECT_FALSE(places.template_places.contains(name)) << name;
   }
 }
 
@@ -134,20 +134,21 @@ TEST_F(SuggestedPlacesTest, PairsInALineTellNothing) {
                     Eigen::Vector3d(row3(scan_.positions(), v) + Eigen::Vector3d(0.01 * i, 0, 0)),
                     std::nullopt});
   }
-  EXPECT_FALSE(pose_of_picked(line, template_.positions()));
+  EXPECT_FALSE(fit_pose_to_picked(line, template_.positions()));
 }
 
 TEST_F(SuggestedPlacesTest, AMisplacedPairIsToldAndLeftOut) {
   auto landmarks = pairs({"eye_outer_left", "eye_outer_right", "nose_tip", "chin", "eye_inner_left",
                           "eye_inner_right", "lip_upper"});
-  const auto good = pose_of_picked(landmarks, template_.positions());
-  for (const auto& [name, residual] : good->residuals) EXPECT_FALSE(residual.outlier) << name;
+  const auto good = fit_pose_to_picked(landmarks, template_.positions());
+  for (const auto& [name, residual] : good->residuals) EXPECT_FALSE(residual.is_outlier) << name;
   landmarks[3].point = *landmarks[3].point + Eigen::Vector3d(0.06, 0, 0);
-  const auto bad = pose_of_picked(landmarks, template_.positions());
-  for (const auto& [name, residual] : bad->residuals) EXPECT_EQ(residual.outlier, name == "chin");
-  EXPECT_GT(bad->residuals.at("chin").mm, 45);
+  const auto bad = fit_pose_to_picked(landmarks, template_.positions());
+  for (const auto& [name, residual] : bad->residuals)
+    EXPECT_EQ(residual.is_outlier, name == "chin");
+  EXPECT_GT(bad->residuals.at("chin").distance_mm, 45);
   std::erase_if(landmarks, [](const PickedLandmark& one) { return one.name == "chin"; });
-  const auto without = pose_of_picked(landmarks, template_.positions());
+  const auto without = fit_pose_to_picked(landmarks, template_.positions());
   EXPECT_LT((bad->pose.translation - without->pose.translation).norm(), 1e-12);
 }
 

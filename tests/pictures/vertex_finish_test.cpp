@@ -41,19 +41,19 @@ const TexturePlace kMiddle{0, {0.5F, 0.5F}};
 
 TEST(VertexFinish, NormalsLeanAsTheMapSays) {
   TextureSet texture_set;
-  EXPECT_EQ(leaning_normal(texture_set, square().topology, square().uvs, kMiddle,
-                           corners_of_square(), {0, 0, 1}),
+  EXPECT_EQ(tilted_normal(texture_set, square().topology, square().uvs, kMiddle,
+                          corners_of_square(), {0, 0, 1}),
             Vector3d(0, 0, 1));
   texture_set.slopes = evenly(Light(0.5F, -0.25F, 0));
-  const Vector3d lean = leaning_normal(texture_set, square().topology, square().uvs, kMiddle,
-                                       corners_of_square(), {0, 0, 1});
+  const Vector3d lean = tilted_normal(texture_set, square().topology, square().uvs, kMiddle,
+                                      corners_of_square(), {0, 0, 1});
   EXPECT_LT((lean - Vector3d(0.5, -0.25, 1).normalized()).norm(), 1e-12);
   Positions turned = corners_of_square();  // a quarter to the left
   turned << 0, 0, 0, 0, 2, 0, -2, 2, 0, -2, 0, 0;
   const Vector3d other =
-      leaning_normal(texture_set, square().topology, square().uvs, kMiddle, turned, {0, 0, 1});
+      tilted_normal(texture_set, square().topology, square().uvs, kMiddle, turned, {0, 0, 1});
   EXPECT_LT((other - Vector3d(0.25, 0.5, 1).normalized()).norm(), 1e-12);
-  EXPECT_EQ(leaning_normal(texture_set, square().topology, square().uvs, {}, turned, {0, 1, 0}),
+  EXPECT_EQ(tilted_normal(texture_set, square().topology, square().uvs, {}, turned, {0, 1, 0}),
             Vector3d(0, 1, 0))
       << "in no texture";
 }
@@ -66,8 +66,8 @@ TEST(VertexFinish, FineReliefIsEvenedOut) {
   texture_set.slopes.of_face = {0};
   texture_set.slopes.textures.push_back(std::make_shared<const Texture>(std::move(stripes)));
   const TexturePlace on_stripe{0, {256.5F / 512, 0.5F}};
-  const Vector3d lean = leaning_normal(texture_set, square().topology, square().uvs, on_stripe,
-                                       corners_of_square(), {0, 0, 1});
+  const Vector3d lean = tilted_normal(texture_set, square().topology, square().uvs, on_stripe,
+                                      corners_of_square(), {0, 0, 1});
   EXPECT_LT(std::abs(lean.x()), 0.4) << "a stripe alone leans by 0.7";
 }
 

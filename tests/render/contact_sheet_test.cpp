@@ -30,7 +30,7 @@ bool is_blank(const Rgb8Image& image, int from, int to, const LabelStyle& style)
   for (int y = 0; y < image.height; ++y) {
     for (int x = from; x < to; ++x) {
       for (std::size_t c = 0; c < 3; ++c) {
-        if (image.at(x, y)[c] != style.background[c]) return false;
+        if (image.at(x, y)[c] != style.background_colour[c]) return false;
       }
     }
   }

@@ -26,7 +26,7 @@ Camera camera_for(const Positions& positions) {
 
 /// The backdrop's own colour in the middle of a row.
 std::array<std::uint8_t, 3> backdrop(int y, int size) {
-  return to_srgb8(background((static_cast<float>(y) + 0.5F) / static_cast<float>(size)));
+  return to_srgb8(background_colour((static_cast<float>(y) + 0.5F) / static_cast<float>(size)));
 }
 
 bool is_backdrop(const Rgb8Image& image, int x, int y) {

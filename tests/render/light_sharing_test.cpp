@@ -19,16 +19,16 @@ constexpr std::size_t kFields = PointLights::kFields;
 class LightSharing : public ::testing::Test {
  protected:
   LightSharing() {
-    for (int y = -1; y <= kSquare; ++y) {
-      for (int x = -1; x <= kSquare; ++x) {
+    for (int y = -1; y <= kSquareSide; ++y) {
+      for (int x = -1; x <= kSquareSide; ++x) {
         if (random_() % 7 == 0) continue;
         const std::size_t at = PixelLights::index(x, y);
         const std::array<float, kFields> pixel = draw(x, y);
         for (std::size_t f = 0; f < kFields; ++f) pixels_.list(static_cast<int>(f))[at] = pixel[f];
       }
     }
-    for (auto& list : lists_) list.assign(kSquare + kMaxLanes, 0);
-    for (int x = 0; x < kSquare; ++x) {
+    for (auto& list : lists_) list.assign(kSquareSide + kMaxLanes, 0);
+    for (int x = 0; x < kSquareSide; ++x) {
       const std::array<float, kFields> point = draw(x, kRow);
       for (std::size_t f = 0; f < kFields; ++f) lists_[f][static_cast<std::size_t>(x)] = point[f];
     }
@@ -50,10 +50,10 @@ class LightSharing : public ::testing::Test {
     return lights;
   }
   struct Shares {
-    std::vector<float> key = std::vector<float>(kSquare + kMaxLanes);
-    std::vector<float> sky = std::vector<float>(kSquare + kMaxLanes);
+    std::vector<float> key = std::vector<float>(kSquareSide + kMaxLanes);
+    std::vector<float> sky = std::vector<float>(kSquareSide + kMaxLanes);
   };
-  Shares in_a_row(std::size_t count = kSquare) const {
+  Shares in_a_row(std::size_t count = kSquareSide) const {
     Shares shares;
     share_lights(points(), count, pixels_, PixelLights::index(0, kRow), true, kPixel,
                  shares.key.data(), shares.sky.data());
@@ -101,7 +101,7 @@ class LightSharing : public ::testing::Test {
 TEST_F(LightSharing, IsThatOfPlainLoops) {
   const Shares row = in_a_row();
   double apart = 0;
-  for (std::size_t i = 0; i < kSquare; ++i) {
+  for (std::size_t i = 0; i < kSquareSide; ++i) {
     const auto [key, sky] = plainly(i, static_cast<int>(i));
     EXPECT_NEAR(row.key[i], key, 1e-5) << i;
     EXPECT_NEAR(row.sky[i], sky, 1e-5) << i;
@@ -111,7 +111,7 @@ TEST_F(LightSharing, IsThatOfPlainLoops) {
 }
 
 TEST_F(LightSharing, OfPointsInARowIsThatOfEachAlone) {
-  for (const std::size_t count : {std::size_t{1}, std::size_t{13}, std::size_t{kSquare}}) {
+  for (const std::size_t count : {std::size_t{1}, std::size_t{13}, std::size_t{kSquareSide}}) {
     const Shares row = in_a_row(count);
     for (std::size_t i = 0; i < count; ++i) {
       EXPECT_EQ(alone(i, static_cast<int>(i)), std::pair(row.key[i], row.sky[i]))

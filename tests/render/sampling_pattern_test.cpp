@@ -24,11 +24,11 @@ TEST(PlacesInPixel, ShareNoFineRowOrColumn) {
   }
 }
 
-/// All points of the square of kInterleave² pixels whose upper left corner is (x, y).
+/// All points of the square of kInterleavePeriod² pixels whose upper left corner is (x, y).
 std::vector<Eigen::Vector2f> points_around(const InterleavedDisc& disc, int rays, int x, int y) {
   std::vector<Eigen::Vector2f> points;
-  for (int j = y; j < y + kInterleave; ++j) {
-    for (int i = x; i < x + kInterleave; ++i) {
+  for (int j = y; j < y + kInterleavePeriod; ++j) {
+    for (int i = x; i < x + kInterleavePeriod; ++i) {
       for (int k = 0; k < rays; ++k) points.push_back(disc.point(i, j, k));
     }
   }

@@ -28,16 +28,16 @@ struct Look {
 Look look(const std::vector<float>& points, const std::vector<Quad>& quads, int size,
           const PixelSamples& places) {
   ScreenQuads screen;
-  screen.put(points, quads, kDistance, size);
+  screen.project(points, quads, kDistance, size);
   Look look;
-  for (int top = 0; top < size; top += kSquare) {
-    for (int left = 0; left < size; left += kSquare) {
-      const PixelRectangle pixels = {std::max(left - kRim, 0), std::max(top - kRim, 0),
-                                     std::min(left + kSquare + kRim, size),
-                                     std::min(top + kSquare + kRim, size)};
+  for (int top = 0; top < size; top += kSquareSide) {
+    for (int left = 0; left < size; left += kSquareSide) {
+      const PixelRectangle pixels = {std::max(left - kRimWidth, 0), std::max(top - kRimWidth, 0),
+                                     std::min(left + kSquareSide + kRimWidth, size),
+                                     std::min(top + kSquareSide + kRimWidth, size)};
       std::vector<std::optional<RayHit>> hits;
       const std::vector<const PixelSamples*> all(pixels.count(), &places);
-      screen.nearest_hits({left / kSquare, top / kSquare}, pixels, all, hits);
+      screen.nearest_hits({left / kSquareSide, top / kSquareSide}, pixels, all, hits);
       look.hits.insert(look.hits.end(), hits.begin(), hits.end());
       for (int y = pixels.top; y < pixels.bottom; ++y) {
         for (int x = pixels.left; x < pixels.right; ++x) {
@@ -152,13 +152,13 @@ TEST(ScreenQuads, TheSameAloneAndOnManyThreadsAndBesidesAFaceBefore) {
     for (const auto& hit : look.hits) found.push_back(hit->distance);
     return found;
   };
-  const auto many = distances(look(surface.points, surface.quads, 2 * kSquare, places));
+  const auto many = distances(look(surface.points, surface.quads, 2 * kSquareSide, places));
   const ThreadLimit one(1);
-  EXPECT_EQ(distances(look(surface.points, surface.quads, 2 * kSquare, places)), many);
+  EXPECT_EQ(distances(look(surface.points, surface.quads, 2 * kSquareSide, places)), many);
   ScreenQuads screen;
-  screen.put(before.points, before.quads, kDistance, 4 * kSquare);
-  screen.put(surface.points, surface.quads, kDistance, 2 * kSquare);
-  const PixelRectangle pixels = {0, 0, kSquare + kRim, kSquare + kRim};
+  screen.project(before.points, before.quads, kDistance, 4 * kSquareSide);
+  screen.project(surface.points, surface.quads, kDistance, 2 * kSquareSide);
+  const PixelRectangle pixels = {0, 0, kSquareSide + kRimWidth, kSquareSide + kRimWidth};
   std::vector<std::optional<RayHit>> hits;
   const std::vector<const PixelSamples*> all(pixels.count(), &places);
   screen.nearest_hits({0, 0}, pixels, all, hits);
@@ -190,7 +190,7 @@ TEST(ScreenQuads, TheSameWithAnyInstructionSet) {
 TEST(ScreenQuads, OnlyPixelsThatAreLookedAtHaveHits) {
   const Soup surface = grid(10);
   ScreenQuads screen;
-  screen.put(surface.points, surface.quads, kDistance, 20);
+  screen.project(surface.points, surface.quads, kDistance, 20);
   const PixelSamples few(sample_positions_in_pixel(1)), many(sample_positions_in_pixel(3));
   const PixelRectangle pixels = {2, 3, 6, 5};
   std::vector<const PixelSamples*> places(pixels.count(), nullptr);
@@ -200,7 +200,7 @@ TEST(ScreenQuads, OnlyPixelsThatAreLookedAtHaveHits) {
   screen.nearest_hits({0, 0}, pixels, places, hits);
   ASSERT_EQ(hits.size(), 10U);
   EXPECT_EQ(std::count(hits.begin(), hits.end(), std::nullopt), 0);
-  screen.put({}, {}, kDistance, 20);
+  screen.project({}, {}, kDistance, 20);
   screen.nearest_hits({0, 0}, pixels, places, hits);
   EXPECT_EQ(std::count(hits.begin(), hits.end(), std::nullopt), 10);
 }

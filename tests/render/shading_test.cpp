@@ -67,8 +67,8 @@ std::vector<ShadePoint> many_points() {
     point.albedo = Light(unit(), unit(), unit());
     point.kind = static_cast<SurfaceKind>(i % 6);
     point.inside = i % 5 == 0;
-    point.sky = unit();
-    point.key = unit();
+    point.sky_visibility = unit();
+    point.key_visibility = unit();
     if (i % 3 == 0) point.roughness = unit();
   }
   return points;
@@ -85,7 +85,7 @@ TEST(Shade, IsTheSameAloneAndInCompanyWithAnyInstructionSet) {
     for (const ShadePoint& point : points) batch.add(point, 0.7F);
     batch.shade();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      EXPECT_TRUE((batch.light(i) == alone[i]).all()) << name << ", point " << i;
+      EXPECT_TRUE((batch.radiance(i) == alone[i]).all()) << name << ", point " << i;
     }
   }
   use_instruction_set(instruction_sets().front());
@@ -113,13 +113,14 @@ Eigen::Array3d plain_key_light(const ShadePoint& point) {
     };
     gloss = n_l * distribution * fresnel / (smith(n_l) * smith(n_v));
   }
-  return lamp.colour.cast<double>() * static_cast<double>(point.key) * (albedo * diffuse + gloss);
+  return lamp.colour.cast<double>() * static_cast<double>(point.key_visibility) *
+         (albedo * diffuse + gloss);
 }
 
 TEST(Shade, OfTheKeyIsTheFormulaInDoublePrecision) {
   for (ShadePoint point : many_points()) {
     point.inside = false;
-    point.sky = 0;
+    point.sky_visibility = 0;
     point.roughness = -1;
     // Dark skin and attachments reflect less; other tests check that.
     if (point.kind == SurfaceKind::kAttachment) point.kind = SurfaceKind::kTeeth;
@@ -178,27 +179,27 @@ TEST(Gleam, SkinIsToldFromAPictureWithHairAndBlackAround) {
 TEST(Shade, LessLightArrivingIsDarker) {
   ShadePoint point{key_direction(), Eigen::Vector3f::UnitZ(), albedo_of(SurfaceKind::kSkin)};
   const Light full = shade(point);
-  point.key = 0;
+  point.key_visibility = 0;
   const Light shadowed = shade(point);
-  point.sky = 0;
+  point.sky_visibility = 0;
   const Light dark = shade(point);
   EXPECT_TRUE((shadowed < 0.6F * full).all());
   EXPECT_TRUE((dark < shadowed).all());
   EXPECT_NEAR(dark.maxCoeff(), 0, 1e-6);
-  point.key = point.sky = 1;
+  point.key_visibility = point.sky_visibility = 1;
   point.inside = true;
   EXPECT_TRUE((shade(point) < 0.5F * full).all());
 }
 
 TEST(Background, IsLighterOnTop) {
-  EXPECT_TRUE((background(0) > background(1)).all());
+  EXPECT_TRUE((background_colour(0) > background_colour(1)).all());
 }
 
 TEST(Perpendicular, CompletesARightHandedFrame) {
   for (const Eigen::Vector3f& axis :
        {Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(0, 0, -1), Eigen::Vector3f(0.6F, 0, 0.8F),
         Eigen::Vector3f(-0.48F, 0.6F, -0.64F)}) {
-    const auto [s, t] = perpendicular(axis);
+    const auto [s, t] = tangent_basis(axis);
     Eigen::Matrix3f frame;
     frame << s, t, axis;
     EXPECT_TRUE((frame * frame.transpose()).isIdentity(1e-5F));

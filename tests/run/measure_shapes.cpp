@@ -122,9 +122,10 @@ struct LipFigures {
 
   void add(const GapPreserver& lips, const Positions& neutral, const Positions& face,
            const Displacements& of_template, const Displacements& moves) {
-    const auto rest = lips.gaps(neutral), there = lips.gaps(in_shape(neutral, of_template));
-    const auto before = lips.gaps(face), after = lips.gaps(in_shape(face, moves)),
-               same = lips.gaps(in_shape(face, of_template));
+    const auto rest = lips.measure_gaps(neutral),
+               there = lips.measure_gaps(in_shape(neutral, of_template));
+    const auto before = lips.measure_gaps(face), after = lips.measure_gaps(in_shape(face, moves)),
+               same = lips.measure_gaps(in_shape(face, of_template));
     for (std::size_t p = 0; p < rest.size(); ++p) {
       if (std::abs(there[p] - rest[p]) > kTenthOfMm / 5) continue;
       carried = std::max(carried, std::abs(after[p] - before[p]));

@@ -64,7 +64,7 @@ TEST_F(NeckPlacing, HeadsAreMovedButNotTiltedScaledOrBent) {
     const auto& [placed, turn, moved_mm, turned_degrees, bent_mm] = job.inputs.neck->heads[h];
     const Positions& head = job.inputs.faces.heads[h].positions;
     const Positions by = head - plain.inputs.faces.heads[h].positions;
-    const Eigen::RowVector3d shift = (placed.to - placed.from).transpose();
+    const Eigen::RowVector3d shift = (placed.moved_pivot - placed.pivot).transpose();
     EXPECT_TRUE(placed.rotation.isIdentity(1e-12));
     EXPECT_TRUE(turn.isZero(0));
     EXPECT_LT(turned_degrees, 1e-9);

@@ -152,7 +152,7 @@ inline ShapeSet shapes_of(const Heads& heads, const Positions& neutral) {
   ShapeSet set{neutral, {}};
   const auto eyes = heads.eyes();
   const auto add = [&](const char* name, const Positions& mesh) {
-    set.shapes.push_back(shape_of(name, neutral, mesh, kExtent));
+    set.shapes.push_back(make_shape(name, neutral, mesh, kExtent));
   };
   add("blink", blinking(heads, *eyes.at(0), neutral));
   add("smile", smiling(heads, neutral));

@@ -91,7 +91,8 @@ TEST(FrameField, IsThePlainLeastSquaresFit) {
     next = std::max_element(nearest.begin(), nearest.end()) - nearest.begin();
   }
   Matrix3d whole;
-  for (Index c = 0; c < 3; ++c) whole.col(c) = frames.whole.turn(Vector3d::Unit(c));
+  for (Index c = 0; c < 3; ++c)
+    whole.col(c) = frames.face_motion.apply_to_direction(Vector3d::Unit(c));
   std::vector<Matrix3d> maps;
   for (const Index place : places) {
     double sum = 0;

@@ -15,15 +15,15 @@ ShapeSet sets_of(const Heads& heads) {
   ShapeSet set{mean_head(heads.faces), {}};
   std::vector<std::string> names;
   for (const Head& head : heads.faces.heads) {
-    std::vector<OwnShape>& own = set.of_head.emplace_back();
+    std::vector<OwnShape>& own = set.head_shapes.emplace_back();
     names.clear();
     for (const Shape& shape : shapes_of(heads, head.positions).shapes) {
-      own.push_back(own_shape_of(shape.moves));
+      own.push_back(make_own_shape(shape.moves));
       names.push_back(shape.name);
     }
   }
   for (std::size_t s = 0; s < names.size(); ++s) {
-    set.shapes.push_back({names[s], mean_of(set.of_head, s)});
+    set.shapes.push_back({names[s], mean_displacements(set.head_shapes, s)});
   }
   return set;
 }
@@ -50,7 +50,7 @@ TEST(HeadShapes, AHeadHasItsOwn) {
   for (const std::uint32_t h : {1U, 4U}) {
     const auto carried = transfer.carry(h, heads[h], everywhere(set, {{h, 1}}));
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
-      const Positions own = in_shape(heads[h], displacements_of(set.of_head[h][s]));
+      const Positions own = in_shape(heads[h], displacements_of(set.head_shapes[h][s]));
       const Positions mean = in_shape(heads[h], set.shapes[s].moves);
       const double off = (in_shape(heads[h], carried[s]) - own).cwiseAbs().maxCoeff();
       EXPECT_LT(off, 1e-6) << set.shapes[s].name;
@@ -69,7 +69,7 @@ TEST(HeadShapes, OfHeadsThatAreTheSameAreThoseOfEither) {
                                one_region(heads));
   const auto carried = transfer.carry(1, heads[1], everywhere(set, {{1, 0.3}, {3, 0.7}}));
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
-    const Positions own = in_shape(heads[1], displacements_of(set.of_head[1][s]));
+    const Positions own = in_shape(heads[1], displacements_of(set.head_shapes[1][s]));
     EXPECT_LT((in_shape(heads[1], carried[s]) - own).cwiseAbs().maxCoeff(), 1e-6);
   }
 }
@@ -100,7 +100,7 @@ TEST(HeadShapes, ABlinkClosesBetweenTwoHeads) {
   for (std::size_t i = 0; i < rims.low.size(); ++i) {
     double wanted = 0;
     for (const std::size_t h : {2, 5}) {
-      wanted += gap(in_shape(heads[h], displacements_of(set.of_head[h][0])), i) / 2;
+      wanted += gap(in_shape(heads[h], displacements_of(set.head_shapes[h][0])), i) / 2;
     }
     EXPECT_NEAR(gap(closed, i), wanted, 0.08) << i;
     EXPECT_GT(gap(face, i), 0.3);
@@ -118,7 +118,7 @@ TEST(HeadShapes, ComeRegionByRegion) {
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set, halves);
   const RegionShares mouth_of_two = {{{2, 1}}, {{4, 1}}};
   const auto carried = transfer.carry(4, heads[4], std::vector(set.shapes.size(), mouth_of_two));
-  const Positions own_blink = in_shape(heads[4], displacements_of(set.of_head[4][0]));
+  const Positions own_blink = in_shape(heads[4], displacements_of(set.head_shapes[4][0]));
   EXPECT_LT((in_shape(heads[4], carried[0]) - own_blink).cwiseAbs().maxCoeff(), 1e-6);
   const auto other = transfer.carry(4, heads[4], everywhere(set, {{2, 1}}));
   const Displacements& smile = carried[1];

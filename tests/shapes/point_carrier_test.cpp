@@ -74,7 +74,7 @@ TEST(PointCarrier, MovesThemWithAFaceThatIsTurnedMovedAndScaled) {
   RigidMotion motion;
   motion.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   motion.scale = 1.25;
-  motion.to = {3, -2, 7};
+  motion.moved_pivot = {3, -2, 7};
   Positions face = heads[0];
   for (Index v = 0; v < face.rows(); ++v) {
     face.row(v) = motion.apply(row3(heads[0], v)).transpose();

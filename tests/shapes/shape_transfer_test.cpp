@@ -140,7 +140,7 @@ std::optional<IctModel> ict_model(const std::vector<std::string>& shapes) {
   ShapeSet set{neutral.positions, {}};
   for (const std::string& name : shapes) {
     const Positions mesh = read_obj(folder / "ict_shapes" / (name + ".obj")).positions;
-    set.shapes.push_back(shape_of(name, set.neutral, mesh, kExtent));
+    set.shapes.push_back(make_shape(name, set.neutral, mesh, kExtent));
   }
   return IctModel{Heads(std::move(faces)), std::move(set)};
 }
@@ -281,7 +281,7 @@ TEST(ShapeTransfer, RigidPartsStayRigid) {
     open(v, 1) = std::cos(0.3) * y - std::sin(0.3) * z;
     open(v, 2) = std::sin(0.3) * y + std::cos(0.3) * z;
   }
-  const ShapeSet set{heads[0], {shape_of("jaw", heads[0], open, kExtent)}};
+  const ShapeSet set{heads[0], {make_shape("jaw", heads[0], open, kExtent)}};
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set);
   Positions face = heads[4];
   transfer.carry(4, heads[4])[0].add_to(face);

@@ -89,7 +89,7 @@ class SkinCrossingsTest : public ::testing::Test {
     Positions mesh = face;
     const Index left = crossings_.repair(there, watched, mesh, result);
     EXPECT_EQ(mesh, face);
-    EXPECT_EQ(crossings_.count(there, watched, result, mesh), left);
+    EXPECT_EQ(crossings_.count_intersecting(there, watched, result, mesh), left);
     EXPECT_EQ(mesh, face);
     return result;
   }

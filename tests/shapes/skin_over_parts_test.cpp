@@ -52,7 +52,8 @@ class SkinOverPartsTest : public ::testing::Test {
     return shape;
   }
   static void turn(const RigidMotion& by, Positions& rows) {
-    for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = by.turn(row3(rows, i)).transpose();
+    for (Index i = 0; i < rows.rows(); ++i)
+      rows.row(i) = by.apply_to_direction(row3(rows, i)).transpose();
   }
   /// All of the skin goes back.
   Displacements back(double by) const {

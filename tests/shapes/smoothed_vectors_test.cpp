@@ -37,19 +37,19 @@ TEST(SmoothedVectors, NearItIsTheMeanAndFarAwayWhatItWas) {
   const SmoothedVectors field({kHere, kThere}, 0.5, 1, 2);
   // One in two goes up, the next one down.
   auto samples = scattered([](const auto&) { return Eigen::Vector3d::Zero().eval(); });
-  for (auto& sample : samples) sample.value.z() = sample.number % 2 == 0 ? 1 : -1;
+  for (auto& sample : samples) sample.value.z() = sample.index % 2 == 0 ? 1 : -1;
   std::vector<double> left(samples.size());
-  for (const auto& sample : samples) left[sample.number] = sample.value.z();
+  for (const auto& sample : samples) left[sample.index] = sample.value.z();
   for (const auto& [number, by] : field.changes(samples)) left[number] += by.z();
   std::size_t near = 0, far = 0;
   for (const auto& sample : samples) {
     const double distance =
         std::min((sample.position - kHere).norm(), (sample.position - kThere).norm());
     if (distance < 1) {
-      EXPECT_LT(std::abs(left[sample.number]), 0.6);
+      EXPECT_LT(std::abs(left[sample.index]), 0.6);
       ++near;
     } else if (distance > 2) {
-      EXPECT_EQ(left[sample.number], sample.value.z());
+      EXPECT_EQ(left[sample.index], sample.value.z());
       ++far;
     }
   }

@@ -13,7 +13,7 @@ using testing::TwoCharts;
 TEST(SurfaceTexels, CoverEachChartOnceWithSharesThatSumToThePlace) {
   const TwoCharts sheet(256);
   const SurfaceTexels texels = sheet.texels();
-  EXPECT_NEAR(static_cast<double>(texels.covered()), 0.8 * 0.8 * 256 * 256, 1500);
+  EXPECT_NEAR(static_cast<double>(texels.covered_count()), 0.8 * 0.8 * 256 * 256, 1500);
   std::size_t covered = 0;
   double farthest = 0;
   for (int y = 0; y < texels.height(); ++y) {
@@ -39,7 +39,7 @@ TEST(SurfaceTexels, CoverEachChartOnceWithSharesThatSumToThePlace) {
       }
     }
   }
-  EXPECT_EQ(covered, texels.covered());
+  EXPECT_EQ(covered, texels.covered_count());
   EXPECT_LT(farthest, 1e-3) << "a fifth of a texel";
 }
 

@@ -140,9 +140,9 @@ TEST(TextureBlender, DetailThatAgreesIsNotMadeStronger) {
 /// The first channel of words, as their numbers.
 std::vector<double> first_numbers(const BlendedPicture& picture) {
   std::vector<double> values;
-  for (std::size_t i = 0; i < picture.words.size();
+  for (std::size_t i = 0; i < picture.values16.size();
        i += static_cast<std::size_t>(picture.channels)) {
-    values.push_back(picture.low + double{picture.step} * picture.words[i]);
+    values.push_back(picture.low + double{picture.step} * picture.values16[i]);
   }
   return values;
 }
@@ -154,7 +154,7 @@ TEST(TextureBlender, NormalsKeepTheirReliefAndUnitLength) {
         [=](double, double, int column, int row) -> Eigen::Array3f {
           return {0.1F * noise(h, column, row, 4), 0.1F * noise(h + 4, column, row, 4), 0};
         },
-        MapCoding::slopes());
+        MapCoding::slope_coding());
   }
   const TextureBlender blender = sheet.blender();
   const BlendedPicture one = blender.blend(alone(2), 0), mixed = blender.blend(evenly(4), 0);
@@ -171,8 +171,9 @@ TEST(TextureBlender, NormalsKeepTheirReliefAndUnitLength) {
                 .normalized();
         Eigen::Vector3d blended;
         for (std::size_t c = 0; c < 3; ++c) {
-          ASSERT_NEAR(one.words[at + c] / 65535.0 * 2 - 1, expected[static_cast<Index>(c)], 1e-4);
-          blended[static_cast<Index>(c)] = mixed.words[at + c] / 65535.0 * 2 - 1;
+          ASSERT_NEAR(one.values16[at + c] / 65535.0 * 2 - 1, expected[static_cast<Index>(c)],
+                      1e-4);
+          blended[static_cast<Index>(c)] = mixed.values16[at + c] / 65535.0 * 2 - 1;
         }
         ASSERT_NEAR(blended.norm(), 1, 1e-4);
       }
@@ -192,7 +193,7 @@ TEST(TextureBlender, HeightsOfDifferentRangesAreBlendedAsNumbers) {
         [h](double x, double, int, int) -> Eigen::Array3f {
           return Eigen::Array3f::Constant(static_cast<float>(h * 40 + 2 * x));
         },
-        MapCoding::values(1, h == 0 ? -1.0F : 39.0F, h == 0 ? 3.0F : 44.0F));
+        MapCoding::value_coding(1, h == 0 ? -1.0F : 39.0F, h == 0 ? 3.0F : 44.0F));
   }
   const BlendedPicture mixed = sheet.blender().blend(evenly(2), 0);
   ASSERT_EQ(mixed.channels, 1);

@@ -60,7 +60,7 @@ TEST(ElasticSolve, GivesWhatADenseSolutionGives) {
   Eigen::VectorXd right(3 * count);
   for (std::uint32_t i = 0; i < count; ++i) {
     whole.block<3, 3>(3 * i, 3 * i) += data_terms.matrices[i];
-    right.segment<3>(3 * i) = data_terms.right.row(i).transpose();
+    right.segment<3>(3 * i) = data_terms.right_hand_side.row(i).transpose();
     for (std::uint32_t j = 0; j < count; ++j) {
       whole.block<3, 3>(3 * i, 3 * j).diagonal().array() += energy.coeff(i, j);
     }
@@ -68,7 +68,7 @@ TEST(ElasticSolve, GivesWhatADenseSolutionGives) {
   const Eigen::VectorXd expected = whole.ldlt().solve(right);
   const ElasticSolver solver(energy, Eigen::VectorXd::Constant(count, 0.5));
   Positions found = Positions::Zero(count, 3);
-  solver.solve(data_terms, {.steps = 300, .tolerance = 1e-12}, found);
+  solver.solve(data_terms, {.max_steps = 300, .tolerance = 1e-12}, found);
   for (std::uint32_t v = 0; v < count; ++v) {
     EXPECT_LT((found.row(v).transpose() - expected.segment<3>(3 * v)).norm(), 1e-8);
   }

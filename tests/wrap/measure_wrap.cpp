@@ -110,7 +110,7 @@ constexpr double kWrongLipsMm = 5;
 
 struct Measured {
   std::vector<double> skin, face, eyes, lips, surface;
-  Index flipped = 0;
+  Index folded_triangle_count = 0;
   double seconds = 0;
   std::string notes = {};  ///< what the program says of this head
 };
@@ -119,8 +119,8 @@ void print_row(const std::string& name, const Measured& m) {
   std::printf("%-22s %5.2f /%5.2f  %5.2f /%5.2f  %5.2f  %5.2f  %5.2f  %4ld  %5.1f s\n",
               name.c_str(), percentile(m.skin, 0.5), percentile(m.skin, 0.95),
               percentile(m.face, 0.5), percentile(m.face, 0.95), percentile(m.eyes, 0.5),
-              percentile(m.lips, 0.5), percentile(m.surface, 0.95), static_cast<long>(m.flipped),
-              m.seconds);
+              percentile(m.lips, 0.5), percentile(m.surface, 0.95),
+              static_cast<long>(m.folded_triangle_count), m.seconds);
   if (!m.notes.empty()) std::printf("%s", m.notes.c_str());
   std::fflush(stdout);
 }
@@ -157,7 +157,7 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
       const Eigen::Vector3d there = row3(truth.pose.apply(head.positions), at->vertex);
       m.notes += concat("  ", landmark.name, ": detected ",
                         format_fixed((there - at->place).norm() / truth.pose.scale, 1),
-                        " mm from its place, ends ", format_fixed(landmark.final_mm, 1),
+                        " mm from its place, ends ", format_fixed(landmark.final_distance_mm, 1),
                         " mm from where it was detected\n");
     }
     m.notes += "  agreement:";
@@ -187,9 +187,10 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
       m.surface.push_back(result.distance_mm(static_cast<Index>(i)));
     }
   }
-  m.flipped = TargetTriangles(shape.skin.triangles, shape.skin.rows_of(shape.positions))
-                  .compare(shape.skin.rows_of(result.positions))
-                  .flipped;
+  m.folded_triangle_count =
+      TargetTriangles(shape.skin.triangles, shape.skin.rows_of(shape.positions))
+          .compare(shape.skin.rows_of(result.positions))
+          .flipped;
   return m;
 }
 
@@ -251,7 +252,7 @@ int main(int argc, char** argv) {
     const auto print_estimate = [&](const WrapTemplate& shape, const ShapeModel& model) {
       std::vector<double> off;
       for (const auto& [name, mm] :
-           unseen_landmarks(shape, &model, truth.scan, truth.landmarks, std::nullopt)) {
+           leave_out_distances(shape, &model, truth.scan, truth.landmarks, std::nullopt)) {
         off.push_back(mm);
       }
       std::printf(
@@ -269,11 +270,11 @@ int main(int argc, char** argv) {
       add(m.eyes, sum.eyes);
       add(m.lips, sum.lips);
       add(m.surface, sum.surface);
-      sum.flipped += m.flipped;
+      sum.folded_triangle_count += m.folded_triangle_count;
       sum.seconds += m.seconds / static_cast<double>(chosen.size());
     };
     run("one", make_template(topology, heads[(h + next) % heads.size()], {}), nullptr);
-    const ShapeModel whole = make_model(others);
+    const ShapeModel whole = make_shape_model(others);
     const WrapTemplate mean = make_template(topology, whole.mean, {});
     run("mean", mean, nullptr);
     const ShapeModel of_skin = skin_model(whole, mean);

@@ -32,7 +32,7 @@ class ScanFaults : public ::testing::Test {
     regions_.names = {"brow", "nose", "mouth"};
     for (const std::uint32_t v : shape_.skin.vertices) {
       const double above_eyes = shape_.positions(v, 1) - ball().centre.y();
-      regions_.of_vertex.push_back(above_eyes > 20 ? 0 : above_eyes > -40 ? 1 : 2);
+      regions_.region_of_vertex.push_back(above_eyes > 20 ? 0 : above_eyes > -40 ? 1 : 2);
     }
   }
   const Part& eye() const {
@@ -82,9 +82,9 @@ TEST_F(ScanFaults, LipsThatPartAreAnOpenMouth) {
 }
 
 TEST_F(ScanFaults, ASkullThatStandsOutIsHair) {
-  for (std::size_t v = 0; v < regions_.of_vertex.size(); ++v) {
+  for (std::size_t v = 0; v < regions_.region_of_vertex.size(); ++v) {
     const auto row = static_cast<Index>(shape_.skin.vertices[v]);
-    if (regions_.of_vertex[v] != 0) continue;
+    if (regions_.region_of_vertex[v] != 0) continue;
     const Eigen::RowVector3d out = shape_.positions.row(row) - ball().centre.transpose();
     result_.positions.row(row) += 25 * out.normalized();
   }
@@ -93,8 +93,8 @@ TEST_F(ScanFaults, ASkullThatStandsOutIsHair) {
 
 TEST_F(ScanFaults, ASkullThatIsFarFromTheScanIsHairOrAHat) {
   const auto make_far = [&](std::size_t step) {
-    for (std::size_t v = 0; v < regions_.of_vertex.size(); ++v) {
-      const bool is_far = regions_.of_vertex[v] == 0 && v % step == 0;
+    for (std::size_t v = 0; v < regions_.region_of_vertex.size(); ++v) {
+      const bool is_far = regions_.region_of_vertex[v] == 0 && v % step == 0;
       result_.distance_mm(static_cast<Index>(v)) = is_far ? 5 : 0;
     }
   };

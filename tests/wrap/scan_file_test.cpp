@@ -121,10 +121,10 @@ std::vector<Eigen::RowVector3d> corners_of(const Scan& scan) {
 
 TEST(MissingShare, IsOfTheSurfaceThatWouldCloseTheScan) {
   Scan scan = cube();
-  EXPECT_NEAR(missing_share(scan), 0, 1e-12);
+  EXPECT_NEAR(unclosed_fraction(scan), 0, 1e-12);
   const auto count = scan.triangles.size();
   scan.triangles.resize(count - 2);  // five of six sides
-  EXPECT_NEAR(missing_share(scan), 0.2, 1e-12);
+  EXPECT_NEAR(unclosed_fraction(scan), 0.2, 1e-12);
 }
 
 // Programs that wind triangles the other way, or mirror a scan, leave it inside out.
@@ -219,13 +219,13 @@ TEST(ScanFile, LashesOfAHeadWithEyesAreLeftOut) {
     for (std::uint32_t& v : t) v += static_cast<std::uint32_t>(rows);
     dressed.triangles.push_back(t);
   }
-  EXPECT_EQ(without_shells(dressed).triangles, head.triangles);
+  EXPECT_EQ(remove_shells(dressed).triangles, head.triangles);
   std::erase_if(dressed.triangles, [&](const Triangle& t) {
     return std::ranges::any_of(shape.parts.parts, [&](const Part& part) {
       return part.eyeball && std::ranges::binary_search(part.vertices, t[0]);
     });
   });
-  EXPECT_EQ(without_shells(dressed).triangles, dressed.triangles) << "a scan in pieces";
+  EXPECT_EQ(remove_shells(dressed).triangles, dressed.triangles) << "a scan in pieces";
 }
 
 TEST(ScanFile, GlbNodesStandWhereTheirParentsPutThem) {
@@ -374,8 +374,8 @@ TEST(ScanFile, SmallPiecesAreLeftOut) {
   scan.positions.conservativeResize(11, 3);
   scan.positions.bottomRows(3) << 5, 0, 0, 5.01, 0, 0, 5, 0.01, 0;
   scan.triangles.push_back({8, 9, 10});
-  EXPECT_EQ(without_small_pieces(scan, 0.001).triangles.size(), 12U);
-  EXPECT_EQ(without_small_pieces(scan, 0).triangles.size(), 13U);
+  EXPECT_EQ(remove_small_pieces(scan, 0.001).triangles.size(), 12U);
+  EXPECT_EQ(remove_small_pieces(scan, 0).triangles.size(), 13U);
 }
 
 }  // namespace

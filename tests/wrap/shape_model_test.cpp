@@ -24,7 +24,7 @@ ShapeModel some_model() {
     }
     heads.push_back(head);
   }
-  return make_model(heads);
+  return make_shape_model(heads);
 }
 
 /// Of coordinate y at two vertices.
@@ -41,7 +41,7 @@ TEST(ShapeModel, MirrorImagesOfItsHeadsAreHeadsToo) {
     map.corners.push_back({v ^ 1U, v, v});
     map.shares.push_back({1, 0, 0});
   }
-  const ShapeModel both = with_mirror_images(model, map);
+  const ShapeModel both = add_mirror_images(model, map);
   EXPECT_EQ(both.mean, model.mean);
   for (Index v = 0; v < 60; ++v) {
     const Index other = v ^ 1;
@@ -72,7 +72,8 @@ TEST(ShapeRegression, WhereAPlaceLiesAlongTheSurfaceFollowsFromHowHeadsDiffer) {
   const Positions head = model.mean + model.modes[0];
   const ScanSurface scan(Scan{head, skin.triangles});
   const auto off = [&](const ShapeModel& used) {
-    const Positions found = regress_shape(skin, used, model.mean, scan, {}, {.smooth_mm = 0.1});
+    const Positions found =
+        regress_shape(skin, used, model.mean, scan, {}, {.smooth_deviation_mm = 0.1});
     return (found - head).rowwise().norm().mean();
   };
   EXPECT_LT(off(model), 0.5);

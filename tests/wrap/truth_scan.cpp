@@ -26,7 +26,7 @@ Eigen::Vector3d normal3(const RandomKey& key) {
 
 /// What can be seen from outside: skin and eyeballs.
 std::vector<Triangle> visible_triangles(const WrapTemplate& head) {
-  std::vector<Triangle> solid = solid_triangles(head);
+  std::vector<Triangle> solid = occluding_triangles(head);
   std::vector<std::uint32_t> all(static_cast<std::size_t>(head.positions.rows()));
   std::iota(all.begin(), all.end(), 0U);
   const std::vector<double> open =

@@ -77,8 +77,8 @@ TEST_P(WrapAtTwoSizes, FindsAHeadItHasNeverSeen) {
   const std::vector<double> errors = errors_of(head, truth, result);
   EXPECT_LT(percentile(errors, 0.5), 1.8);
   EXPECT_LT(percentile(errors, 0.95), 6);
-  EXPECT_LT(distances_of(shape, result).percentile_95, 0.5);
-  EXPECT_EQ(result.flipped, 0);
+  EXPECT_LT(measure_distances(shape, result).percentile_95, 0.5);
+  EXPECT_EQ(result.folded_triangle_count, 0);
   EXPECT_NEAR(result.pose.scale / truth.pose.scale, 1, 0.1);
   EXPECT_TRUE(result.positions.allFinite());
   EXPECT_NO_THROW(refuse_bad_wrap(shape, result, {}));
@@ -112,9 +112,9 @@ TEST(Wrap, AFaceIsFoundInAnyTurnAndBelowAHighCrown) {
       if (is_face) errors.push_back((row3(found, v) - place).norm());
     }
     EXPECT_LT(percentile(errors, 0.5), 4) << "where each place of the face ends";
-    ASSERT_TRUE(result.face_off_mm);
-    EXPECT_LT(*result.face_off_mm, 10);
-    result.face_off_mm = 150;
+    ASSERT_TRUE(result.face_distance_mm);
+    EXPECT_LT(*result.face_distance_mm, 10);
+    result.face_distance_mm = 150;
     expect_error(ExitCode::kBadData, {""}, [&] { refuse_bad_wrap(shape, result, {}); });
   }
 }
@@ -153,7 +153,7 @@ TEST(Wrap, AModelFindsAHeadBetterThanItsMean) {
   const SyntheticHeads heads(5000, SyntheticHeads::Parts::kEyesAndTeeth);
   std::vector<Positions> others;
   for (std::uint64_t i = 1; i <= 12; ++i) others.emplace_back(kMmPerCm * heads.positions(1, i));
-  const ShapeModel whole = make_model(others);
+  const ShapeModel whole = make_shape_model(others);
   const WrapTemplate shape = make_template(heads.topology(), whole.mean, {});
   const ShapeModel model = skin_model(whole, shape);
   const WrapTemplate head = make_template(heads.topology(), kMmPerCm * heads.positions(1, 20), {});
@@ -177,8 +177,8 @@ TEST(Wrap, ALargeSkinIsBentByWayOfAReducedOne) {
       make_truth_scan(head, spread_landmarks(head, 16), {.triangles = 40000, .seed = 3});
   const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
   EXPECT_LT(percentile(errors_of(head, truth, result), 0.5), 1.9);
-  EXPECT_LT(distances_of(shape, result).percentile_95, 0.5);
-  EXPECT_EQ(result.flipped, 0);
+  EXPECT_LT(measure_distances(shape, result).percentile_95, 0.5);
+  EXPECT_EQ(result.folded_triangle_count, 0);
 }
 
 /// The scan's surface, pores and all, from a template of as many vertices that has none.
@@ -214,7 +214,7 @@ TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
     ++count;
   }
   EXPECT_LT(std::sqrt(missed / count), 0.35 * std::sqrt(relief));
-  EXPECT_EQ(result.flipped, 0);
+  EXPECT_EQ(result.folded_triangle_count, 0);
 }
 
 TEST(Wrap, OneThreadGivesWhatManyGive) {
@@ -237,7 +237,7 @@ TEST(Wrap, WithoutLandmarksTheWayItLooksIsEnough) {
   truth.scan.positions = truth.pose.apply(truth.scan.positions);
   const WrapResult result = wrap(shape, nullptr, truth.scan, {},
                                  PoseHint{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY()});
-  EXPECT_LT(distances_of(shape, result).percentile_95, 0.8);
+  EXPECT_LT(measure_distances(shape, result).percentile_95, 0.8);
   EXPECT_LT(percentile(errors_of(head, truth, result), 0.5), 4);
   expect_error(ExitCode::kBadData, {"at least 4", "--scan-up"},
                [&] { wrap(shape, nullptr, truth.scan, {}, std::nullopt); });
@@ -250,8 +250,8 @@ TEST(Wrap, AMisplacedLandmarkIsNamed) {
   truth.landmarks[5].place += truth.pose.scale * Eigen::Vector3d(14, 14, 14);
   const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
   for (std::size_t i = 0; i < result.landmarks.size(); ++i) {
-    EXPECT_EQ(result.landmarks[i].outlier, i == 5)
-        << result.landmarks[i].name << ' ' << result.landmarks[i].final_mm;
+    EXPECT_EQ(result.landmarks[i].is_outlier, i == 5)
+        << result.landmarks[i].name << ' ' << result.landmarks[i].final_distance_mm;
   }
 }
 
@@ -259,7 +259,8 @@ TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
   const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
   const TruthOptions options{.triangles = 20000, .landmark_error_mm = 0, .seed = 5};
   TruthScan truth = make_truth_scan(head, spread_landmarks(head, 13), options);
-  const auto unseen = unseen_landmarks(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
+  const auto unseen =
+      leave_out_distances(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
   ASSERT_EQ(unseen.size(), truth.landmarks.size());
   // The same by hand, of a landmark of the second fold.
   std::vector<WrapLandmark> others;
@@ -274,7 +275,8 @@ TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
   EXPECT_NEAR(unseen.at(left_out.name),
               (result.positions.row(left_out.vertex) - picked.row(0)).norm(), 1e-9);
   truth.landmarks.resize(kMinLandmarks);
-  EXPECT_TRUE(unseen_landmarks(shape, nullptr, truth.scan, truth.landmarks, std::nullopt).empty());
+  EXPECT_TRUE(
+      leave_out_distances(shape, nullptr, truth.scan, truth.landmarks, std::nullopt).empty());
 }
 
 TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {

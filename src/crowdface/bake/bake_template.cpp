@@ -18,8 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// Removes textures that the skin does not use. For skin without a texture, adds a file without a
-/// path for each material and tile.
+/// Removes textures that the skin does not use. For each material and tile of untextured skin, adds
+/// a texture file without a path.
 /// \param is_skin  #F: whether the face belongs to the skin
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      HeadsTextures& found) {
@@ -54,7 +54,7 @@ void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is
 
 }  // namespace
 
-BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int size)
+BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int picture_side)
     : shape_(shape) {
   const Topology& topology = file.topology;
   skin_rows_.assign(static_cast<std::size_t>(topology.vertex_count), kNotSkin);
@@ -85,8 +85,8 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int s
   choose_pictures(materials, is_skin, found);
   TextureLayout layout;
   const std::vector<PictureSource> pictures = lay_out_pictures(found, layout);
-  names_ = picture_names(found, pictures, materials);
-  for (TextureLayout::Picture& picture : layout.pictures) picture = {size, size};
+  picture_names_ = crowdface::picture_names(found, pictures, materials);
+  for (TextureLayout::Picture& picture : layout.pictures) picture = {picture_side, picture_side};
   for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
     if (layout.of_face[f] == kNoIndex) continue;
     pictures_by_material_.try_emplace(materials.names[materials.of_face[f]], layout.of_face[f]);
@@ -94,13 +94,13 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int s
   maps_ = read_mesh_maps(own, TextureKind::kColour, topology, file.uvs);
   for (std::uint32_t p = 0; p < pictures.size(); ++p) {
     texels_.emplace_back(topology, file.uvs, layout, p);
-    textures_.push_back(pictures[p].row < maps_.files.size() ? maps_.files[pictures[p].row].get()
-                                                             : nullptr);
+    textures_.push_back(
+        pictures[p].row < maps_.textures.size() ? maps_.textures[pictures[p].row].get() : nullptr);
   }
-  place_vertices(file, layout);
+  find_picture_vertices(file, layout);
 }
 
-void BakeTemplate::place_vertices(const ObjFile& file, const TextureLayout& layout) {
+void BakeTemplate::find_picture_vertices(const ObjFile& file, const TextureLayout& layout) {
   picture_vertices_.resize(shape_.skin.vertices.size());
   const Topology& topology = file.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {

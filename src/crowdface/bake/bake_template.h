@@ -14,22 +14,21 @@
 
 namespace crowdface {
 
-/// The texture layout and the colours of a template, for baking any number of scans.
+/// The texture layout and the colours of a template. One object serves any number of bakes.
 ///
-/// Each texture file that the template's skin uses gives a picture (an image to bake). Skin without
-/// a texture gets a picture for each material and UDIM tile.
+/// There is one picture (an image to bake) for each texture file that the template's skin uses, and
+/// for each material and UDIM tile of untextured skin.
 class BakeTemplate {
  public:
   /// \param file, shape  the file and the shape of the template; must outlive this object.
-  /// \param size  width and height of each picture, in texels.
+  /// \param picture_side  width and height of each picture, in texels.
   /// \throws InvalidInput if the skin has no texture coordinates.
-  BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int size);
+  BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int picture_side);
 
   const WrapTemplate& shape() const { return shape_; }
   /// #pictures: the name of each picture.
-
-  const std::vector<PictureName>& names() const { return names_; }
-  /// The index of the picture of each baked material.
+  const std::vector<PictureName>& picture_names() const { return picture_names_; }
+  /// For each baked material, the index of a picture that contains it.
   const std::map<std::string, std::size_t>& pictures_by_material() const {
     return pictures_by_material_;
   }
@@ -41,24 +40,23 @@ class BakeTemplate {
 
   /// Marks vertices outside the skin.
   static constexpr std::uint32_t kNotSkin = kNoIndex;
-  /// #V: row of the skin of each vertex of the template, or kNotSkin.
+  /// #V: for each vertex of the template, its row in the skin, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
 
-  /// The texture coordinate of a vertex in a picture.
+  /// A vertex's picture and its position in this picture.
   struct PictureVertex {
     std::uint32_t picture = kNoIndex;  ///< kNoIndex: the vertex is in no picture
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();
     double uv_per_mm = 0;  ///< scale of the picture at the vertex
   };
-  /// #skin: the texture coordinate of each vertex of the skin.
-
+  /// #skin: the picture and texture coordinate of each vertex of the skin.
   const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:
-  void place_vertices(const ObjFile& file, const TextureLayout& layout);
+  void find_picture_vertices(const ObjFile& file, const TextureLayout& layout);
 
   const WrapTemplate& shape_;
-  std::vector<PictureName> names_;
+  std::vector<PictureName> picture_names_;
   std::map<std::string, std::size_t> pictures_by_material_;
   std::vector<SurfaceTexels> texels_;
   MeshMaps maps_;

@@ -31,7 +31,7 @@ using LanczosWeights = std::array<float, 2 * kLobes>;
 
 /// Lanczos weights of the six texels around a position (Duchon 1979). \param t distance of the
 /// position from the third texel
-LanczosWeights lanczos(double t) {
+LanczosWeights lanczos_weights(double t) {
   LanczosWeights weights;
   float sum = 0;
   for (int i = 0; i < 2 * kLobes; ++i) {
@@ -56,7 +56,7 @@ int taps_of(double length) {
 }  // namespace
 
 FilteredTexture::FilteredTexture(TextureMap map, std::vector<bool> covered)
-    : map_(std::move(map)), values_(values_of(map_.coding)), covered_(std::move(covered)) {
+    : map_(std::move(map)), decoded_values_(values_of(map_.coding)), covered_(std::move(covered)) {
   require(covered_.size() == map_.texels(), "coverage of ", covered_.size(), " texels");
   int width = map_.width, height = map_.height;
   while (std::max(width, height) > kBlockSide) {
@@ -87,7 +87,7 @@ Eigen::Array3f FilteredTexture::stored_value(int x, int y) const {
   Eigen::Array3f value;
   for (int c = 0; c < 3; ++c) {
     const int plane = std::min(c, map_.coding.channels - 1);
-    value[c] = values_[map_.row(plane, y)[x]];
+    value[c] = decoded_values_[map_.row(plane, y)[x]];
   }
   return value;
 }
@@ -132,8 +132,8 @@ Eigen::Array4f FilteredTexture::sample_lanczos(double x, double y) const {
       if (!is_covered(left + i, top + j)) return sample_linear(0, x, y);
     }
   }
-  const LanczosWeights across = lanczos(x - 0.5 - std::floor(x - 0.5));
-  const LanczosWeights down = lanczos(y - 0.5 - std::floor(y - 0.5));
+  const LanczosWeights across = lanczos_weights(x - 0.5 - std::floor(x - 0.5));
+  const LanczosWeights down = lanczos_weights(y - 0.5 - std::floor(y - 0.5));
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   for (int j = 0; j < kSide; ++j) {
     Eigen::Array3f row = Eigen::Array3f::Zero();
@@ -152,8 +152,9 @@ Eigen::Array3f FilteredTexture::nearest_texel(double x, double y) const {
                       static_cast<int>(std::clamp(y, 0.0, map_.height - 1.0)));
 }
 
-Eigen::Array3f FilteredTexture::mean_at(const Eigen::Vector2d& uv, const Eigen::Vector2d& across,
-                                        const Eigen::Vector2d& down) const {
+Eigen::Array3f FilteredTexture::mean_at(const Eigen::Vector2d& uv,
+                                        const Eigen::Vector2d& right_step,
+                                        const Eigen::Vector2d& lower_step) const {
   constexpr float kMinCovered = 1e-3F;
   const Eigen::Array2d size(map_.width, map_.height);
   const auto in_texels = [&](const Eigen::Vector2d& side) -> Eigen::Vector2d {
@@ -161,7 +162,7 @@ Eigen::Array3f FilteredTexture::mean_at(const Eigen::Vector2d& uv, const Eigen::
   };
   const Eigen::Vector2d middle(std::clamp(uv.x(), 0.0, 1.0) * size.x(),
                                (1 - std::clamp(uv.y(), 0.0, 1.0)) * size.y());
-  Eigen::Vector2d one = in_texels(across), other = in_texels(down), place = middle;
+  Eigen::Vector2d one = in_texels(right_step), other = in_texels(lower_step), place = middle;
   std::size_t level = 0;
   while (std::max(one.norm(), other.norm()) > kMaxTaps && level < levels_.size()) {
     one /= kBlockSide;

@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// A texture for area-filtered lookups: colours as linear light, other maps as plain numbers.
-/// Texels outside the surface have an effect only where no texel of the surface is near, so that
-/// the background of a texture atlas does not bleed into the surface.
+/// A texture that returns means over areas: colours as linear light, other maps as plain numbers.
+/// Texels that the surface does not cover count only where no covered texel is near, so that the
+/// background of a texture atlas does not bleed into the surface.
 class FilteredTexture {
  public:
   /// \param covered  #texels, row by row: whether the surface covers the texel's centre.
@@ -24,13 +24,13 @@ class FilteredTexture {
   /// or less, interpolates with Lanczos weights of 6 by 6 texels, which keep fine detail sharper
   /// than linear or cubic interpolation.
   /// \param uv  from 0 to 1; v points up. Coordinates outside are clamped to the border.
-  /// \param across, down  the sides of the parallelogram, in units of uv.
-  Eigen::Array3f mean_at(const Eigen::Vector2d& uv, const Eigen::Vector2d& across,
-                         const Eigen::Vector2d& down) const;
+  /// \param right_step, lower_step  the sides of the parallelogram, in units of uv.
+  Eigen::Array3f mean_at(const Eigen::Vector2d& uv, const Eigen::Vector2d& right_step,
+                         const Eigen::Vector2d& lower_step) const;
 
  private:
-  /// A level of the pyramid: means of blocks of 4 by 4 texels of the next finer level. Each texel
-  /// holds three values, multiplied by the covered share of its block, and this share.
+  /// A level of the pyramid: each texel is the mean of 4 by 4 texels of the next finer level. It
+  /// holds three values times the covered fraction of its area, then this fraction.
   struct Level {
     int width = 0, height = 0;
     std::vector<Eigen::Array4f> texels;
@@ -47,7 +47,8 @@ class FilteredTexture {
   Eigen::Array3f nearest_texel(double x, double y) const;
 
   TextureMap map_;
-  std::vector<float> values_;  ///< #65536: the number that each stored 16-bit value represents
+  std::vector<float>
+      decoded_values_;  ///< #65536: the number that each stored 16-bit value represents
   std::vector<bool> covered_;
   std::vector<Level> levels_;  ///< levels 1, 2, …; level 0 is the texture itself
 };

@@ -20,13 +20,13 @@ namespace {
 
 constexpr Index kVertexBlock = 256;
 constexpr int kTexelRows = 8;
-/// Largest distance between the wrapped skin and the surface of the scan that gives a texel its
-/// colour.
-constexpr double kReachMm = 3;
-/// Distance from the edge of the scan's data over which its colours fade out.
+/// Largest distance between a texel on the wrapped skin and the point of the scan that gives the
+/// texel its colour.
+constexpr double kMaxDistanceMm = 3;
+/// Width of the band along the edge of the scan's data in which the scan's colours fade out.
 constexpr double kFeatherMm = 3;
-/// smallest size of the differences in tone that continue into holes
-constexpr double kToneMm = 8;
+/// Smallest size of the differences in tone that continue into holes; smaller differences fade.
+constexpr double kMinToneSizeMm = 8;
 constexpr int kMaxSamples = 4;
 
 /// Smooth function of `value`: 0 up to `low`, 1 from `high` on.
@@ -73,50 +73,53 @@ double spacing_of(const Scan& scan) {
 
 }  // namespace
 
-ScanBake::ScanBake(const BakeTemplate& target, const Positions& wrapped, const ScanSurface& surface,
-                   const ScanColours& colours, const BakeOptions& options)
-    : target_(target),
+ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
+                   const ScanSurface& surface, const ScanColours& colours,
+                   const BakeOptions& options)
+    : template_(bake_template),
       surface_(surface),
       colours_(colours),
-      positions_(target.shape().skin.rows_of(wrapped)),
-      normals_(vertex_normals_or_zero(target.shape().skin.triangles, positions_)),
-      spacing_mm_(spacing_of(surface.scan())) {
+      positions_(bake_template.shape().skin.rows_of(wrapped)),
+      normals_(vertex_normals_or_zero(bake_template.shape().skin.triangles, positions_)),
+      scan_spacing_mm_(spacing_of(surface.scan())) {
   Positions densities = Positions::Zero(positions_.rows(), 3);
   const std::vector<double> confidence = measure_vertices(densities);
-  find_trust(confidence);
-  if (options.delight) {
+  compute_edge_weights(confidence);
+  if (options.remove_shading) {
     estimate_shading(confidence, densities);
-    densities -= shading_;
+    densities -= shading_densities_;
   }
   for (Index v = 0; v < densities.rows(); ++v) {
-    const auto& place = target_.picture_vertices()[static_cast<std::size_t>(v)];
+    const auto& place = template_.picture_vertices()[static_cast<std::size_t>(v)];
     if (place.picture == kNoIndex) continue;
-    const double side = place.uv_per_mm * edge_length(v);
+    const double side = place.uv_per_mm * mean_edge_length(v);
     densities.row(v) -=
         template_density(place.picture, place.uv, {side, 0}, {0, -side}).transpose();
   }
-  match_tone(confidence, densities);
+  compute_tone_differences(confidence, densities);
 }
 
-double ScanBake::edge_length(Index vertex) const {
-  const auto around = target_.shape().skin.adjacency.of(vertex);
+double ScanBake::mean_edge_length(Index vertex) const {
+  const auto around = template_.shape().skin.adjacency.of(vertex);
   double sum = 0;
   for (const std::uint32_t n : around) sum += (positions_.row(n) - positions_.row(vertex)).norm();
   return around.empty() ? 0 : sum / static_cast<double>(around.size());
 }
 
-ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& from, std::uint32_t guess) const {
+ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
+                                              std::uint32_t guess) const {
   ScanPoint seen;
-  ScanSurface::ClosestPoint place =
-      surface_.nearest(from.position, from.normal, kMinCosine, kReachMm, guess);
+  ScanSurface::ClosestPoint place = surface_.nearest(skin_point.position, skin_point.normal,
+                                                     kMinNormalCosine, kMaxDistanceMm, guess);
   if (place.triangle == kNoIndex) return seen;
   // Find the surface along the normal, not the closest surface, by one step of a fixed-point
   // iteration.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
-    const double height = (place.point - from.position).dot(from.normal);
-    const auto along = surface_.nearest(from.position + height * from.normal, from.normal,
-                                        kMinCosine, kReachMm, place.triangle);
+    const double height = (place.point - skin_point.position).dot(skin_point.normal);
+    const auto along =
+        surface_.nearest(skin_point.position + height * skin_point.normal, skin_point.normal,
+                         kMinNormalCosine, kMaxDistanceMm, place.triangle);
     if (along.triangle != kNoIndex) place = along;
   }
   seen.area.triangle = place.triangle;
@@ -124,29 +127,30 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& from, std::uint32
                                          surface_.scan().triangles[place.triangle], place.point)
                          .shares;
   if (!place.found) return seen;
-  const double distance = (place.point - from.position).norm();
-  seen.confidence = (1 - smooth_step(0.6 * kReachMm, kReachMm, distance)) *
-                    smooth_step(kMinCosine, kMinCosine + 0.15, place.normal.dot(from.normal)) *
-                    smooth_step(0.5 * kSeen, 1.5 * kSeen, from.openness);
+  const double distance = (place.point - skin_point.position).norm();
+  seen.confidence =
+      (1 - smooth_step(0.6 * kMaxDistanceMm, kMaxDistanceMm, distance)) *
+      smooth_step(kMinNormalCosine, kMinNormalCosine + 0.15, place.normal.dot(skin_point.normal)) *
+      smooth_step(0.5 * kVisibleOpenness, 1.5 * kVisibleOpenness, skin_point.openness);
   return seen;
 }
 
-std::optional<Eigen::Vector3d> ScanBake::density_at(const ScanArea& area) const {
+std::optional<Eigen::Vector3d> ScanBake::mean_density(const ScanArea& area) const {
   const auto light = colours_.mean_at(surface_.scan(), area);
   if (!light) return std::nullopt;
   return density_of(*light);
 }
 
 Eigen::Vector3d ScanBake::template_density(std::size_t picture, const Eigen::Vector2d& uv,
-                                           const Eigen::Vector2d& across,
-                                           const Eigen::Vector2d& down) const {
-  const FilteredTexture* texture = target_.texture(picture);
+                                           const Eigen::Vector2d& right_step,
+                                           const Eigen::Vector2d& lower_step) const {
+  const FilteredTexture* texture = template_.texture(picture);
   if (texture == nullptr) return Eigen::Vector3d::Zero();
-  return density_of(texture->mean_at(uv, across, down));
+  return density_of(texture->mean_at(uv, right_step, lower_step));
 }
 
 std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
-  const SkinMesh& skin = target_.shape().skin;
+  const SkinMesh& skin = template_.shape().skin;
   std::vector<double> confidence(skin.vertices.size(), 0.0);
   parallel_blocks(positions_.rows(), kVertexBlock, [&](Index begin, Index end) {
     std::uint32_t guess = kNoIndex;
@@ -158,9 +162,9 @@ std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
       const auto [one, other] = tangents_of(normal);
-      seen.area.across = edge_length(v) * one;
-      seen.area.down = edge_length(v) * other;
-      const auto density = density_at(seen.area);
+      seen.area.right_step = mean_edge_length(v) * one;
+      seen.area.lower_step = mean_edge_length(v) * other;
+      const auto density = mean_density(seen.area);
       if (!density) continue;
       densities.row(v) = density->transpose();
       confidence[row] = seen.confidence;
@@ -169,29 +173,29 @@ std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
   return confidence;
 }
 
-/// Computes trust_ from the distance between each vertex and the nearest visible vertex without
+/// Computes edge_weights_ from each vertex's distance to the nearest visible vertex without scan
 /// data.
-void ScanBake::find_trust(const std::vector<double>& confidence) {
+void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   constexpr double kNone = 0.5;
-  const SkinMesh& skin = target_.shape().skin;
+  const SkinMesh& skin = template_.shape().skin;
   std::vector<std::uint32_t> without;
   for (std::uint32_t v = 0; v < confidence.size(); ++v) {
-    if (confidence[v] < kNone && skin.openness[v] > kOpenEnough) without.push_back(v);
+    if (confidence[v] < kNone && skin.openness[v] > kUnfoldedOpenness) without.push_back(v);
   }
   EdgeDistances distances(skin.adjacency, positions_);
   distances.search(without, kFeatherMm);
-  trust_.assign(confidence.size(), 1.0);
+  edge_weights_.assign(confidence.size(), 1.0);
   for (const std::uint32_t v : distances.reached()) {
-    trust_[v] = smooth_step(0, kFeatherMm, distances.distance(v));
+    edge_weights_[v] = smooth_step(0, kFeatherMm, distances.distance(v));
   }
 }
 
-/// Fits the mean density of the channels by spherical harmonics of the normals (light from far away
-/// on a convex surface: Ramamoorthi & Hanrahan 2001), by iteratively reweighted least squares,
-/// which gives lips, brows and hair small weights.
+/// Fits spherical harmonics of the normals to the mean density of the channels (Ramamoorthi &
+/// Hanrahan 2001: distant light on a convex surface). Iteratively reweighted least squares gives
+/// lips, brows and hair small weights.
 void ScanBake::estimate_shading(const std::vector<double>& confidence, const Positions& densities) {
   constexpr int kRounds = 10;
-  const SkinMesh& skin = target_.shape().skin;
+  const SkinMesh& skin = template_.shape().skin;
   const Eigen::VectorXd areas = vertex_areas(skin.triangles, positions_);
   const Eigen::VectorXd mean = densities.rowwise().mean();
   std::vector<Harmonics> basis;
@@ -199,8 +203,9 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
   for (Index v = 0; v < positions_.rows(); ++v) {
     const auto row = static_cast<std::size_t>(v);
     basis.push_back(harmonics_of(row3(normals_, v)));
-    given.push_back(skin.openness[row] > kOpenEnough ? areas(v) * confidence[row] * trust_[row]
-                                                     : 0);
+    given.push_back(skin.openness[row] > kUnfoldedOpenness
+                        ? areas(v) * confidence[row] * edge_weights_[row]
+                        : 0);
   }
   Harmonics fit = Harmonics::Zero(), middle = Harmonics::Zero();
   double scale = 0;  // residual scale of the weights; 0 in the first round: no reweighting
@@ -229,14 +234,15 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
     for (const double weight : given) all += weight;
     scale = 2 * off / all;
   }
-  shading_.resize(positions_.rows(), 3);
+  shading_densities_.resize(positions_.rows(), 3);
   for (Index v = 0; v < positions_.rows(); ++v) {
-    shading_.row(v).setConstant((basis[static_cast<std::size_t>(v)] - middle).dot(fit));
+    shading_densities_.row(v).setConstant((basis[static_cast<std::size_t>(v)] - middle).dot(fit));
   }
 }
 
-void ScanBake::match_tone(const std::vector<double>& confidence, const Positions& differences) {
-  const WrapTemplate& shape = target_.shape();
+void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
+                                        const Positions& differences) {
+  const WrapTemplate& shape = template_.shape();
   // For templates with many vertices, solve on the reduced skin.
   std::vector<std::uint32_t> rows(shape.skin.vertices.size());
   for (std::uint32_t v = 0; v < rows.size(); ++v) rows[v] = v;
@@ -253,7 +259,7 @@ void ScanBake::match_tone(const std::vector<double>& confidence, const Positions
   double total = 0;
   for (std::uint32_t v = 0; v < used.size(); ++v) {
     const std::uint32_t row = used[v];
-    const double weight = areas(v) * confidence[row] * trust_[row];
+    const double weight = areas(v) * confidence[row] * edge_weights_[row];
     if (weight == 0) continue;
     data.add(v, Eigen::Vector3d::UnitZ(), 0, weight, row3(differences, row));
     sum += weight * differences.row(row);
@@ -261,15 +267,15 @@ void ScanBake::match_tone(const std::vector<double>& confidence, const Positions
   }
   const Eigen::RowVector3d mean = total > 0 ? Eigen::RowVector3d(sum / total) : sum;
   Positions tone = mean.replicate(count, 1);
-  const SparseMatrix stiffness = -kToneMm * kToneMm * laplacian(triangles, places);
-  ElasticSolver(stiffness, areas).solve(data, {.steps = 300, .tolerance = 1e-6}, tone);
-  tone_ = shape.reduced ? shape.reduced->carry(tone, shape.skin) : tone;
+  const SparseMatrix stiffness = -kMinToneSizeMm * kMinToneSizeMm * laplacian(triangles, places);
+  ElasticSolver(stiffness, areas).solve(data, {.max_steps = 300, .tolerance = 1e-6}, tone);
+  tone_differences_ = shape.reduced ? shape.reduced->interpolate(tone, shape.skin) : tone;
 }
 
 ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, int x, int y,
                                      std::uint32_t& guess) const {
   const SurfaceTexels::Triangle& triangle = *texel.triangle;
-  const std::vector<double>& openness = target_.shape().skin.openness;
+  const std::vector<double>& openness = template_.shape().skin.openness;
   const auto mix = [&](const Positions& values, const std::array<double, 3>& shares) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) sum += shares[k] * row3(values, texel.rows[k]);
@@ -284,15 +290,15 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
   Eigen::Vector3d scan = Eigen::Vector3d::Zero();
   double trust = 0, open = 0, found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    trust += middle[k] * trust_[texel.rows[k]];
+    trust += middle[k] * edge_weights_[texel.rows[k]];
     open += middle[k] * openness[texel.rows[k]];
   }
   // Textures are filtered over the area of the texel; vertex colours are sampled at several points
   // of this area.
-  const double side = std::max(texel.across.norm(), texel.down.norm());
+  const double side = std::max(texel.right_step.norm(), texel.lower_step.norm());
   const int samples =
       colours_.has_vertex_colours()
-          ? std::clamp(static_cast<int>(std::lround(side / spacing_mm_)), 1, kMaxSamples)
+          ? std::clamp(static_cast<int>(std::lround(side / scan_spacing_mm_)), 1, kMaxSamples)
           : 1;
   for (int j = 0; j < samples && trust > 0; ++j) {
     for (int i = 0; i < samples; ++i) {
@@ -301,9 +307,9 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
           {mix(positions_, shares), mix(normals_, shares).normalized(), open}, guess);
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
-      seen.area.across = texel.across / samples;
-      seen.area.down = texel.down / samples;
-      const auto density = density_at(seen.area);
+      seen.area.right_step = texel.right_step / samples;
+      seen.area.lower_step = texel.lower_step / samples;
+      const auto density = mean_density(seen.area);
       if (!density) continue;
       scan += seen.confidence * *density;
       found += seen.confidence;
@@ -312,28 +318,29 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
   Colour colour;
   const double share = trust * found / (samples * samples);
   if (share < 1) {
-    const double width = target_.texels(picture).width(), height = target_.texels(picture).height();
+    const double width = template_.texels(picture).width(),
+                 height = template_.texels(picture).height();
     colour.density =
-        (1 - share) *
-        (mix(tone_, middle) + template_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
-                                               {1 / width, 0}, {0, -1 / height}));
+        (1 - share) * (mix(tone_differences_, middle) +
+                       template_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
+                                        {1 / width, 0}, {0, -1 / height}));
   }
   if (share > 0) {
     scan /= found;
-    if (shading_.rows() > 0) scan -= mix(shading_, middle);
+    if (shading_densities_.rows() > 0) scan -= mix(shading_densities_, middle);
     colour.density += share * scan;
   }
-  colour.filled = 1 - share;
+  colour.filled_share = 1 - share;
   return colour;
 }
 
-BakedPicture ScanBake::picture(std::size_t number) const {
-  const SurfaceTexels& texels = target_.texels(number);
+BakedPicture ScanBake::bake_picture(std::size_t picture) const {
+  const SurfaceTexels& texels = template_.texels(picture);
   const int width = texels.width(), height = texels.height();
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   BakedPicture result{width, height, {}, {}, 0};
   result.srgb.resize(3 * count);
-  result.filled.resize(count);
+  result.filled_mask.resize(count);
   struct Sums {
     std::array<std::uint64_t, 3> srgb = {};
     std::uint64_t filled = 0;
@@ -350,22 +357,22 @@ BakedPicture ScanBake::picture(std::size_t number) const {
         texel.triangle = &texels.triangle(span.triangle);
         bool is_skin = true;
         for (std::size_t k = 0; k < 3; ++k) {
-          texel.rows[k] = target_.skin_rows()[texels.vertices()[texel.triangle->corners[k]]];
+          texel.rows[k] = template_.skin_rows()[texels.vertices()[texel.triangle->corners[k]]];
           is_skin = is_skin && texel.rows[k] != BakeTemplate::kNotSkin;
         }
         if (is_skin) {
           const Eigen::Vector3d first = row3(positions_, texel.rows[0]);
           const Eigen::Vector3d one = row3(positions_, texel.rows[1]) - first;
           const Eigen::Vector3d other = row3(positions_, texel.rows[2]) - first;
-          texel.across = texel.triangle->second[1] * one + texel.triangle->third[1] * other;
-          texel.down = texel.triangle->second[2] * one + texel.triangle->third[2] * other;
+          texel.right_step = texel.triangle->second[1] * one + texel.triangle->third[1] * other;
+          texel.lower_step = texel.triangle->second[2] * one + texel.triangle->third[2] * other;
         }
         for (int x = span.begin; x < span.end; ++x) {
           Colour colour;
           if (is_skin) {
-            colour = colour_of(texel, number, x, y, guess);
+            colour = colour_of(texel, picture, x, y, guess);
           } else {
-            colour.density = template_density(number, {(x + 0.5) / width, 1 - (y + 0.5) / height},
+            colour.density = template_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
                                               {1.0 / width, 0}, {0, -1.0 / height});
           }
           const std::size_t at = row + static_cast<std::size_t>(x);
@@ -375,8 +382,9 @@ BakedPicture ScanBake::picture(std::size_t number) const {
             result.srgb[3 * at + static_cast<std::size_t>(c)] = byte;
             sum.srgb[static_cast<std::size_t>(c)] += byte;
           }
-          result.filled[at] = static_cast<std::uint8_t>(std::lround(255 * colour.filled));
-          sum.filled += result.filled[at];
+          result.filled_mask[at] =
+              static_cast<std::uint8_t>(std::lround(255 * colour.filled_share));
+          sum.filled += result.filled_mask[at];
         }
       }
     }
@@ -386,12 +394,12 @@ BakedPicture ScanBake::picture(std::size_t number) const {
     for (std::size_t c = 0; c < 3; ++c) all.srgb[c] += row.srgb[c];
     all.filled += row.filled;
   }
-  const std::uint64_t covered = std::max<std::uint64_t>(1, texels.covered());
+  const std::uint64_t covered = std::max<std::uint64_t>(1, texels.covered_count());
   std::array<std::uint8_t, 3> fill = {};
   for (std::size_t c = 0; c < 3; ++c) fill[c] = static_cast<std::uint8_t>(all.srgb[c] / covered);
   fill_uncovered(texels, std::span<const std::uint8_t>(fill), result.srgb.data());
   const std::array<std::uint8_t, 1> none = {0};
-  fill_uncovered(texels, std::span<const std::uint8_t>(none), result.filled.data());
+  fill_uncovered(texels, std::span<const std::uint8_t>(none), result.filled_mask.data());
   result.filled_share = static_cast<double>(all.filled) / (255.0 * static_cast<double>(covered));
   return result;
 }

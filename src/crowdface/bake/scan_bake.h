@@ -13,17 +13,18 @@
 namespace crowdface {
 
 struct BakeOptions {
-  /// Whether to remove shading: the part of the brightness that spherical harmonics of the normals
-  /// explain.
-  bool delight = false;
+  /// Whether to remove shading from the colours: brightness variation that a function of the
+  /// surface normal (spherical harmonics) explains.
+  bool remove_shading = false;
 };
 
-/// A baked texture of the template.
+/// A baked texture image in the layout of the template.
 struct BakedPicture {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> srgb;    ///< height by width by 3
-  std::vector<std::uint8_t> filled;  ///< height by width: 255 where no colour comes from the scan
-  double filled_share = 0;           ///< mean of `filled` over the covered texels, 0 to 1
+  std::vector<std::uint8_t> srgb;  ///< height by width by 3
+  std::vector<std::uint8_t>
+      filled_mask;          ///< height by width: 255 where no colour comes from the scan
+  double filled_share = 0;  ///< mean of `filled_mask` over the covered texels, 0 to 1
 };
 
 /// Transfers the colours of a scan to the texture layout of a template that was wrapped onto it.
@@ -39,63 +40,65 @@ class ScanBake {
   /// \param wrapped  #V by 3, as `wrap` returns them: in the template's frame, in millimetres.
   /// \param surface  the scan in the template's frame.
   /// All parameters must outlive this object.
-  ScanBake(const BakeTemplate& target, const Positions& wrapped, const ScanSurface& surface,
+  ScanBake(const BakeTemplate& bake_template, const Positions& wrapped, const ScanSurface& surface,
            const ScanColours& colours, const BakeOptions& options);
 
   /// Bakes one picture (texture image). The bytes do not depend on the number of threads.
-  BakedPicture picture(std::size_t number) const;
+  BakedPicture bake_picture(std::size_t picture) const;
 
  private:
-  /// The point of the scan that lies on the normal of a point of the wrapped skin.
+  /// The point at which the normal of a skin point hits the scan.
   struct ScanPoint {
     ScanArea area;
     double confidence = 0;  ///< 0 to 1
   };
-  /// A texel or vertex of the wrapped skin.
+  /// A point of the wrapped skin: a vertex or a sample point of a texel.
   struct SkinPoint {
     Eigen::Vector3d position, normal;
     double openness = 1;  ///< see SkinMesh::openness
   };
-  /// Mean length of the edges at a vertex of the skin.
-  double edge_length(Index vertex) const;
-  ScanPoint find_scan_point(const SkinPoint& from, std::uint32_t guess) const;
+  /// Mean length in mm of the edges at a vertex of the skin.
+  double mean_edge_length(Index vertex) const;
+  ScanPoint find_scan_point(const SkinPoint& skin_point, std::uint32_t guess) const;
   /// The mean optical density of an area of the scan; nothing if the area has no colour.
-  std::optional<Eigen::Vector3d> density_at(const ScanArea& area) const;
+  std::optional<Eigen::Vector3d> mean_density(const ScanArea& area) const;
   /// The optical densities of the template over a texel; zero if the template has no texture.
   Eigen::Vector3d template_density(std::size_t picture, const Eigen::Vector2d& uv,
-                                   const Eigen::Vector2d& across,
-                                   const Eigen::Vector2d& down) const;
-  /// Measures the scan at the vertices: sets `densities`, and returns the confidence of each.
+                                   const Eigen::Vector2d& right_step,
+                                   const Eigen::Vector2d& lower_step) const;
+  /// Measures the scan at each skin vertex. Sets `densities`, #skin by 3; returns #skin confidences
+  /// from 0 to 1.
   std::vector<double> measure_vertices(Positions& densities) const;
-  void find_trust(const std::vector<double>& confidence);
+  void compute_edge_weights(const std::vector<double>& confidence);
   void estimate_shading(const std::vector<double>& confidence, const Positions& densities);
-  /// Computes tone_ from the differences at the vertices.
-  /// \param differences  #skin by 3: density of the scan minus that of the template.
-  void match_tone(const std::vector<double>& confidence, const Positions& differences);
+  /// Computes tone_differences_ from the differences at the vertices.
+  /// \param differences  #skin by 3: density of the scan minus density of the template.
+  void compute_tone_differences(const std::vector<double>& confidence,
+                                const Positions& differences);
 
   /// One texel of a picture.
   struct Texel {
     const SurfaceTexels::Triangle* triangle = nullptr;
     std::array<std::uint32_t, 3> rows = {};  ///< rows of the triangle's corners in the skin
-    Eigen::Vector3d across, down;  ///< vectors to the texel to the right and to the texel below
+    Eigen::Vector3d right_step, lower_step;  ///< vectors to the texels on the right and below
   };
-  /// The colour of a texel of the skin, as optical densities, and the share of this colour that
-  /// does not come from the scan.
+  /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
+  /// the template instead of the scan.
   struct Colour {
     Eigen::Vector3d density = Eigen::Vector3d::Zero();
-    double filled = 1;
+    double filled_share = 1;
   };
   Colour colour_of(const Texel& texel, std::size_t picture, int x, int y,
                    std::uint32_t& guess) const;
 
-  const BakeTemplate& target_;
+  const BakeTemplate& template_;
   const ScanSurface& surface_;
   const ScanColours& colours_;
-  Positions positions_, normals_;  ///< #skin by 3
-  double spacing_mm_;              ///< mean distance between neighbouring vertices of the scan
-  std::vector<double> trust_;      ///< #skin: 0 at the edge of the scan, 1 away from it
-  Positions tone_;                 ///< #skin by 3: density of the scan minus that of the template
-  Positions shading_;              ///< #skin by 3: densities to remove; or no rows
+  Positions positions_, normals_;     ///< #skin by 3
+  double scan_spacing_mm_;            ///< mean distance between neighbouring vertices of the scan
+  std::vector<double> edge_weights_;  ///< #skin: 0 at the edge of the scan, 1 away from it
+  Positions tone_differences_;   ///< #skin by 3: density of the scan minus that of the template
+  Positions shading_densities_;  ///< #skin by 3: densities to remove; or no rows
 };
 
 }  // namespace crowdface

@@ -27,7 +27,7 @@ TextureMap map_of(const Image& image, TextureKind kind) {
   if (kind == TextureKind::kColour) {
     return make_texture_map(image.width, image.height, light_of(image));
   }
-  return make_texture_map(image.width, image.height, slopes_of(image), MapCoding::slopes());
+  return make_texture_map(image.width, image.height, slopes_of(image), MapCoding::slope_coding());
 }
 
 /// #texels of a picture: whether a polygon that uses this file covers the texel's centre.
@@ -35,10 +35,10 @@ std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, 
                            const Topology& topology, const TextureCoordinates& uvs) {
   std::vector<bool> covered(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (Index f = 0; f < topology.face_count(); ++f) {
-    if (maps.of_face[static_cast<std::size_t>(f)] != file) continue;
+    if (maps.texture_of_face[static_cast<std::size_t>(f)] != file) continue;
     const auto corners = topology.face_uvs(f);
     if (std::ranges::count(corners, kNoIndex) > 0) continue;
-    const auto& tile = maps.tiles[static_cast<std::size_t>(f)];
+    const auto& tile = maps.tile_of_face[static_cast<std::size_t>(f)];
     const auto at = [&](std::size_t corner) -> Eigen::Vector2d {
       const auto uv = uvs.row(corners[corner]);
       return {(uv[0] - tile[0]) * width, (1 - (uv[1] - tile[1])) * height};
@@ -53,7 +53,7 @@ std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, 
   return covered;
 }
 
-/// The lower corner of the unit square that contains the centre of a polygon's texture coordinates.
+/// The lower corner of the unit square of texture space that contains the centre of a polygon.
 /// Textures repeat in each unit square.
 std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
                                       const TextureCoordinates& uvs) {
@@ -71,38 +71,38 @@ std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
 
 }  // namespace
 
-MeshMaps read_mesh_maps(const AttachmentTextures& placed, TextureKind kind,
+MeshMaps read_mesh_maps(const AttachmentTextures& textures, TextureKind kind,
                         const Topology& topology, const TextureCoordinates& uvs) {
   MeshMaps maps;
-  maps.of_face = placed.of_face;
-  if (placed.files.empty()) return maps;
-  maps.tiles.resize(static_cast<std::size_t>(topology.face_count()));
+  maps.texture_of_face = textures.of_face;
+  if (textures.files.empty()) return maps;
+  maps.tile_of_face.resize(static_cast<std::size_t>(topology.face_count()));
   constexpr Index kBlock = 16384;
   parallel_for_each(topology.face_count(), kBlock, [&](Index f) {
-    maps.tiles[static_cast<std::size_t>(f)] = square_of(topology.face_uvs(f), uvs);
+    maps.tile_of_face[static_cast<std::size_t>(f)] = square_of(topology.face_uvs(f), uvs);
   });
-  maps.files.resize(placed.files.size());
-  parallel_for_each(placed.files.size(), [&](std::size_t i) {
-    TextureMap map = map_of(read_image(placed.files[i].path, {.jpeg = true}), kind);
+  maps.textures.resize(textures.files.size());
+  parallel_for_each(textures.files.size(), [&](std::size_t i) {
+    TextureMap map = map_of(read_image(textures.files[i].path, {.jpeg = true}), kind);
     std::vector<bool> covered =
         coverage(maps, static_cast<std::uint32_t>(i), map.width, map.height, topology, uvs);
-    maps.files[i] = std::make_unique<FilteredTexture>(std::move(map), std::move(covered));
+    maps.textures[i] = std::make_unique<FilteredTexture>(std::move(map), std::move(covered));
   });
   return maps;
 }
 
 ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
-  faces_.topology = std::move(mesh.topology);
-  faces_.uvs = std::move(mesh.uvs);
-  const Topology& topology = faces_.topology;
-  // List the source of each triangle, in the order of triangles_of.
+  mesh_.topology = std::move(mesh.topology);
+  mesh_.uvs = std::move(mesh.uvs);
+  const Topology& topology = mesh_.topology;
+  // List the corners of each triangle, in the order of triangles_of.
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto [begin, end] = topology.corners(f);
     for (std::uint32_t c = begin + 1; c + 1 < end; ++c) {
-      sources_.push_back({static_cast<std::uint32_t>(f), begin, c, c + 1});
+      triangle_corners_.push_back({static_cast<std::uint32_t>(f), begin, c, c + 1});
     }
   }
-  // Read textures: files that material files name, or files inside the mesh file.
+  // Read textures: files that material files name, or images inside the mesh file.
   const ScratchFolder scratch;
   for (MaterialRange& range : mesh.materials) range.name = material_name_of(range.name);
   ObjFile named;
@@ -113,17 +113,17 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     named.material_libraries = {write_mesh_textures(mesh, scratch.path(), "scan")};
     named.textures_at = scratch.path() / "scan";
   }
-  HeadsTextures found = find_attachment_textures(faces_, {&named, 1}).front();
+  HeadsTextures found = find_attachment_textures(mesh_, {&named, 1}).front();
   warnings_ = std::move(found.warnings);
   for (std::string& warning : leave_out_unreadable(found)) warnings_.push_back(std::move(warning));
-  colours_ = read_mesh_maps(found.heads[0], TextureKind::kColour, topology, faces_.uvs);
+  colours_ = read_mesh_maps(found.heads[0], TextureKind::kColour, topology, mesh_.uvs);
   if (mesh.textures.empty()) {
     for (const AttachmentTextures::File& texture : found.heads[0].files) {
-      paths_.push_back(texture.path);
+      texture_paths_.push_back(texture.path);
     }
   }
   // Read colours of vertices and of materials.
-  if (mesh.colours.rows() > 0) light_ = linear_light(byte_colours(mesh.colours));
+  if (mesh.colours.rows() > 0) vertex_light_ = linear_light(byte_colours(mesh.colours));
   FaceMaterials materials = face_materials(mesh.materials, topology.face_count());
   const std::vector<SurfaceMaterial> looks =
       surface_materials_of(materials.names, find_material_files(file, mesh.material_libraries));
@@ -133,27 +133,28 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     if (own != mesh.material_colours.end()) colour = own->second;
     material_light_.push_back(colour);
   }
-  material_ = std::move(materials.of_face);
+  material_of_face_ = std::move(materials.of_face);
   has_colours_ =
-      !colours_.files.empty() || has_vertex_colours() ||
+      !colours_.textures.empty() || has_vertex_colours() ||
       std::ranges::any_of(material_light_, [](const auto& light) { return light.has_value(); });
 }
 
 std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanArea& area) const {
-  const Source& source = sources_[scan.sources[area.triangle]];
-  const std::uint32_t file = colours_.of_face.empty() ? kNoIndex : colours_.of_face[source.face];
+  const TriangleCorners& source = triangle_corners_[scan.sources[area.triangle]];
+  const std::uint32_t file =
+      colours_.texture_of_face.empty() ? kNoIndex : colours_.texture_of_face[source.face];
   if (file != kNoIndex) {
-    const auto& rows = faces_.topology.corner_uvs;
+    const auto& rows = mesh_.topology.corner_uvs;
     if (rows[source.first] != kNoIndex && rows[source.second] != kNoIndex &&
         rows[source.third] != kNoIndex) {
-      const auto& tile = colours_.tiles[source.face];
+      const auto& tile = colours_.tile_of_face[source.face];
       const auto uv_of = [&](std::uint32_t corner) -> Eigen::Vector2d {
-        return faces_.uvs.row(rows[corner]).transpose();
+        return mesh_.uvs.row(rows[corner]).transpose();
       };
       const Eigen::Vector2d first = uv_of(source.first);
       const Eigen::Vector2d second = uv_of(source.second) - first;
       const Eigen::Vector2d third = uv_of(source.third) - first;
-      // Express a direction in space by the two edges of the triangle (least squares).
+      // Express a vector in space as a combination of two edges of the triangle (least squares).
       const Triangle& corners = scan.triangles[area.triangle];
       const Eigen::Vector3d at = row3(scan.positions, corners[0]);
       const Eigen::Vector3d one = row3(scan.positions, corners[1]) - at;
@@ -166,18 +167,18 @@ std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanA
         return ((bb * a - ab * b) * second + (aa * b - ab * a) * third) / det;
       };
       const Eigen::Vector2d uv = first + area.shares[1] * second + area.shares[2] * third;
-      return colours_.files[file]->mean_at(uv - Eigen::Vector2d(tile[0], tile[1]),
-                                           in_uv(area.across), in_uv(area.down));
+      return colours_.textures[file]->mean_at(uv - Eigen::Vector2d(tile[0], tile[1]),
+                                              in_uv(area.right_step), in_uv(area.lower_step));
     }
   }
   if (has_vertex_colours()) {
-    const auto& vertices = faces_.topology.corner_vertices;
-    const Eigen::Vector3d light = area.shares[0] * row3(light_, vertices[source.first]) +
-                                  area.shares[1] * row3(light_, vertices[source.second]) +
-                                  area.shares[2] * row3(light_, vertices[source.third]);
+    const auto& vertices = mesh_.topology.corner_vertices;
+    const Eigen::Vector3d light = area.shares[0] * row3(vertex_light_, vertices[source.first]) +
+                                  area.shares[1] * row3(vertex_light_, vertices[source.second]) +
+                                  area.shares[2] * row3(vertex_light_, vertices[source.third]);
     return light.cast<float>().array();
   }
-  const auto& light = material_light_[material_[source.face]];
+  const auto& light = material_light_[material_of_face_[source.face]];
   if (!light) return std::nullopt;
   return Eigen::Array3f((*light)[0], (*light)[1], (*light)[2]);
 }
@@ -189,7 +190,7 @@ ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
   std::vector<bool> is_done(static_cast<std::size_t>(rows.rows()), false);
   for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
     const Triangle& corners = scan.triangles[t];
-    // Take the mean over half a triangle, because vertices are farther apart than texels.
+    // Average over half a triangle, because vertices are farther apart than texels.
     const Eigen::Vector3d first = row3(scan.positions, corners[0]);
     ScanArea area{static_cast<std::uint32_t>(t),
                   {},

@@ -17,28 +17,29 @@
 
 namespace crowdface {
 
-/// The textures of one kind, such as colour, that the polygons of a mesh use.
+/// The textures of one kind, such as colour maps, that the polygons of a mesh use.
 struct MeshMaps {
-  std::vector<std::unique_ptr<const FilteredTexture>> files;
-  std::vector<std::uint32_t> of_face;  ///< #F, index into `files` or kNoIndex; or empty
+  std::vector<std::unique_ptr<const FilteredTexture>> textures;
+  std::vector<std::uint32_t> texture_of_face;  ///< #F, index into `textures` or kNoIndex; or empty
   std::vector<std::array<std::int32_t, 2>>
-      tiles;  ///< #F: lower corner of the polygon's unit square
+      tile_of_face;  ///< #F: lower corner of the polygon's unit square
 };
 
-/// Reads the textures in `placed`, and marks the texels that the polygons cover.
+/// Reads texture files, and marks the texels that the polygons cover.
 /// \throws InvalidInput naming a damaged file.
-MeshMaps read_mesh_maps(const AttachmentTextures& placed, TextureKind kind,
+MeshMaps read_mesh_maps(const AttachmentTextures& textures, TextureKind kind,
                         const Topology& topology, const TextureCoordinates& uvs);
 
-/// A point of a scan, and the area around it that one texel shows.
+/// A point of a scan, and the parallelogram around it that one texel shows.
 struct ScanArea {
   std::uint32_t triangle = 0;         ///< index of a triangle of the scan
   std::array<double, 3> shares = {};  ///< barycentric coordinates of the point
   /// Vectors from the texel to its right neighbour and to its lower neighbour, in the scan's frame.
-  Eigen::Vector3d across, down;
+  Eigen::Vector3d right_step, lower_step;
 };
 
-/// The colours of a scan. They come from textures, else from vertices, else from whole materials.
+/// The colours of a scan: from its textures; without textures, from its vertices; otherwise from
+/// its materials.
 class ScanColours {
  public:
   /// \param mesh  the file's mesh; its positions are not used.
@@ -47,28 +48,29 @@ class ScanColours {
 
   /// Whether at least one polygon has a colour.
   bool has_colours() const { return has_colours_; }
-  bool has_vertex_colours() const { return light_.rows() > 0; }
+  bool has_vertex_colours() const { return vertex_light_.rows() > 0; }
   /// Messages about missing or unreadable files.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The paths of the texture files that give colours.
-  const std::vector<std::filesystem::path>& files() const { return paths_; }
+  const std::vector<std::filesystem::path>& texture_paths() const { return texture_paths_; }
 
-  /// Returns the mean colour of an area in linear light; nothing if the polygon has no colour.
+  /// Returns the mean colour of an area in linear light; nothing if the polygon at this area has no
+  /// colour.
   /// \param scan  the scan that was made from the file, in any frame.
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:
-  struct Source {
+  struct TriangleCorners {
     std::uint32_t face = 0, first = 0, second = 0, third = 0;  ///< polygon, and its corners
   };
 
-  HeadSet faces_;                ///< topology and texture coordinates of the file
-  std::vector<Source> sources_;  ///< #triangles of the file
+  HeadSet mesh_;                                   ///< topology and texture coordinates of the file
+  std::vector<TriangleCorners> triangle_corners_;  ///< #triangles of the file
   MeshMaps colours_;
-  Positions light_;  ///< #V: colours of vertices in linear light; or no rows
+  Positions vertex_light_;  ///< #V: colours of vertices in linear light; or no rows
   std::vector<std::optional<std::array<float, 3>>> material_light_;  ///< #materials
-  std::vector<std::uint32_t> material_;                              ///< #F; or empty
-  std::vector<std::filesystem::path> paths_;
+  std::vector<std::uint32_t> material_of_face_;                      ///< #F; or empty
+  std::vector<std::filesystem::path> texture_paths_;
   std::vector<std::string> warnings_;
   bool has_colours_ = false;
 };

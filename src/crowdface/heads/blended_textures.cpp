@@ -74,9 +74,9 @@ bool holds_normals(const Image& image) {
 
 MapCoding coding_of_values(const Image& image, int channels) {
   const auto* floats = std::get_if<std::vector<float>>(&image.pixels);
-  if (floats == nullptr) return MapCoding::values(channels);
+  if (floats == nullptr) return MapCoding::value_coding(channels);
   const auto [low, high] = std::ranges::minmax_element(*floats);
-  return MapCoding::values(channels, *low, *high);
+  return MapCoding::value_coding(channels, *low, *high);
 }
 
 TextureMap map_of(const Image& image, const NeededMap& needed) {
@@ -88,7 +88,8 @@ TextureMap map_of(const Image& image, const NeededMap& needed) {
         throw InvalidInput(concat(needed.path.string(),
                                   ": expected a normal map, whose third channel is the brightest"));
       }
-      return make_texture_map(needed.width, needed.height, slopes_of(image), MapCoding::slopes());
+      return make_texture_map(needed.width, needed.height, slopes_of(image),
+                              MapCoding::slope_coding());
     case MapContent::kValues:
       return make_texture_map(needed.width, needed.height, values_of(image),
                               coding_of_values(image, needed.channels));
@@ -142,7 +143,7 @@ std::shared_ptr<const TextureMap> compose(
       coding.low = std::min(coding.low, map->coding.low);
       high = std::max(high, map->decode(65535));
     }
-    coding = MapCoding::values(coding.channels, coding.low, high);
+    coding = MapCoding::value_coding(coding.channels, coding.low, high);
   }
   const SurfaceTexels texels(faces.topology, faces.uvs, layout, picture);
   for (int y = 0; y < texels.height(); ++y) {
@@ -151,7 +152,7 @@ std::shared_ptr<const TextureMap> compose(
       for (int c = 0; c < coding.channels; ++c) {
         std::transform(from.row(c, y) + span.begin, from.row(c, y) + span.end,
                        composed->row(c, y) + span.begin,
-                       [&](Density number) { return coding.stored(from.decode(number)); });
+                       [&](Density number) { return coding.encode(from.decode(number)); });
       }
     }
   }

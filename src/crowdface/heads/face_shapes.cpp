@@ -66,7 +66,7 @@ FaceShapes::FaceShapes(const Config& config, const Inputs& inputs) : inputs_(inp
   if (set.shapes.empty()) return;
   transfer_ = std::make_unique<ShapeTransfer>(inputs.faces, inputs.adjacency, inputs.parts,
                                               head_axes(config), set, inputs.regions);
-  if (set.of_head.empty()) return;
+  if (set.head_shapes.empty()) return;
   for (const Shape& shape : set.shapes) {
     kept_.push_back(
         kept_by_smoothing(inputs.adjacency, shape.moves, config.smoothing.operator_kind));

@@ -62,12 +62,12 @@ void FaceTextures::blend_textures(const Config& config) {
   options.scale = {iterations(kDetailMm), iterations(kStrengthMm)};
   options.areas = face_areas(topology, inputs.skin, mean_head(inputs.faces), FaceArea::kFront,
                              config.faces.front);
-  options.target_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
+  options.is_target_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
   for (const Part& part : inputs.parts.parts) {
-    for (const std::uint32_t vertex : part.vertices) options.target_only[vertex] = true;
+    for (const std::uint32_t vertex : part.vertices) options.is_target_only[vertex] = true;
   }
   region_shares_ = region_shares(inputs.regions, options.areas);
-  if (!inputs.colours.empty()) target_only_ = options.target_only;
+  if (!inputs.colours.empty()) target_only_ = options.is_target_only;
   if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),

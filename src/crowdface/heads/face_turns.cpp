@@ -59,7 +59,7 @@ void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
     for (Index l = 0; l < moves.rows(); ++l) {
       for (Index i = 0; i < moves.cols(); i += 3) {
         const Eigen::Vector3d by = moves.block<1, 3>(l, i).transpose().cast<double>();
-        moves.block<1, 3>(l, i) = motion.turn(by).transpose().cast<float>();
+        moves.block<1, 3>(l, i) = motion.apply_to_direction(by).transpose().cast<float>();
       }
     }
   }
@@ -73,7 +73,9 @@ Eigen::Matrix3d product(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 /// x ↦ a(b(x)). Scales are 1 here and below.
 RigidMotion after(const RigidMotion& a, const RigidMotion& b) {
-  return {.rotation = product(a.rotation, b.rotation), .from = b.from, .to = a.apply(b.to)};
+  return {.rotation = product(a.rotation, b.rotation),
+          .pivot = b.pivot,
+          .moved_pivot = a.apply(b.moved_pivot)};
 }
 
 /// Returns the motion m′ for mirror images: applying m′ after mirroring is the same as applying
@@ -86,7 +88,9 @@ RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
         apply3(motion.rotation, directions.image(Eigen::Vector3d::Unit(c)));
     rotation.col(c) = directions.image(moved);
   }
-  return {.rotation = rotation, .from = plane.image(motion.from), .to = plane.image(motion.to)};
+  return {.rotation = rotation,
+          .pivot = plane.image(motion.pivot),
+          .moved_pivot = plane.image(motion.moved_pivot)};
 }
 
 /// Interpolates two motions: the translation at `pivot` and the turn vector are linear in w.

@@ -64,20 +64,20 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
     return level_error(level, map, all);
   };
   std::vector<Displacements> moves;
-  if (set.of_head.empty()) {
+  if (set.head_shapes.empty()) {
     for (const Shape& shape : set.shapes) moves.push_back(shape.moves);
     return error_on(set.neutral, moves);
   }
   LevelError error;
   double squares = 0;
-  for (std::size_t h = 0; h < set.of_head.size(); ++h) {
+  for (std::size_t h = 0; h < set.head_shapes.size(); ++h) {
     moves.clear();
-    for (const OwnShape& shape : set.of_head[h]) moves.push_back(displacements_of(shape));
+    for (const OwnShape& shape : set.head_shapes[h]) moves.push_back(displacements_of(shape));
     const LevelError on_head = error_on(inputs.faces.heads[h].positions, moves);
     error.max = std::max(error.max, on_head.max);
     squares += on_head.root_mean_square * on_head.root_mean_square;
   }
-  error.root_mean_square = std::sqrt(squares / static_cast<double>(set.of_head.size()));
+  error.root_mean_square = std::sqrt(squares / static_cast<double>(set.head_shapes.size()));
   return error;
 }
 

@@ -57,9 +57,9 @@ int finish_texels(int max_px) {
 Texture finish_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto row = [&](int y, std::span<Light> texels) {
-    const std::uint16_t* at = picture.words.data() + channels *
-                                                         static_cast<std::size_t>(picture.width) *
-                                                         static_cast<std::size_t>(y);
+    const std::uint16_t* at =
+        picture.values16.data() +
+        channels * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(y);
     for (Light& texel : texels) {
       texel = Light::Zero();
       for (std::size_t c = 0; c < channels; ++c) {

@@ -70,7 +70,8 @@ Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
     return sum;
   };
   constexpr double kHalf = 0.25;  // half the distance, squared
-  const bool counts = left(turned) < kHalf * left({.from = turned.from, .to = turned.to});
+  const bool counts =
+      left(turned) < kHalf * left({.pivot = turned.pivot, .moved_pivot = turned.moved_pivot});
   return counts ? turned.rotation : Matrix3d::Identity();
 }
 
@@ -101,7 +102,7 @@ struct Poses {
     }
     Positions sum = Positions::Zero(static_cast<Index>(vertices.size()), 3);
     for (std::size_t h = 0; h < turns.size(); ++h) {
-      const RigidMotion motion{.rotation = turns[h], .from = middles[h], .to = to};
+      const RigidMotion motion{.rotation = turns[h], .pivot = middles[h], .moved_pivot = to};
       Positions own = faces.heads[h].positions(vertices, kAllColumns);
       move_rows(motion, own);
       sum += own;
@@ -173,7 +174,8 @@ HeadsOnBody::Head place(const Rim& rim, const Goal& goal, const Matrix3d& turn, 
   placed.turn = apply3(goal.rotation, turn_vector(turn));
   const Vector3d middle = ring_middle(goal.body.rim);
   if (before != goal.body.rim || !goal.rotation.isIdentity(0)) {
-    placed.placed = {.rotation = goal.rotation, .from = ring_middle(before), .to = middle};
+    placed.placed = {
+        .rotation = goal.rotation, .pivot = ring_middle(before), .moved_pivot = middle};
     move_rows(placed.placed, head);
   }
   Positions after = head(rim, kAllColumns);

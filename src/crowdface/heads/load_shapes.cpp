@@ -90,7 +90,7 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   if (extent == 0) extent = extent_of(set.neutral, skin_vertices(inputs));
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     if (asked.files[s].empty()) continue;
-    set.shapes.push_back(shape_of(asked.names[s], set.neutral, meshes[s], extent));
+    set.shapes.push_back(make_shape(asked.names[s], set.neutral, meshes[s], extent));
     hold_ring(inputs, set.shapes.back().moves);
   }
   return set;
@@ -119,12 +119,12 @@ void load_head(const Source& source, const Inputs& inputs, std::size_t head, dou
   const std::vector<std::filesystem::path>& files = source.config.shapes.of_head[head];
   const RestingHead rest = resting_head(source.config, inputs, head);
   read_meshes(files, source, problems, [&](std::size_t s, const Positions& mesh) {
-    Displacements moves = shape_of({}, rest.mesh, mesh, extent).moves;
+    Displacements moves = make_shape({}, rest.mesh, mesh, extent).moves;
     for (Index row = 0; row < moves.moves.rows(); ++row) {
-      moves.moves.row(row) = rest.motion.turn(row3(moves.moves, row)).transpose();
+      moves.moves.row(row) = rest.motion.apply_to_direction(row3(moves.moves, row)).transpose();
     }
     hold_ring(inputs, moves);
-    shapes[s] = own_shape_of(moves);
+    shapes[s] = make_own_shape(moves);
   });
 }
 
@@ -132,7 +132,7 @@ void load_head(const Source& source, const Inputs& inputs, std::size_t head, dou
 void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_template,
              ShapeSet& set) {
   std::optional<ShapeTransfer> transfer;
-  for (std::size_t h = 0; h < set.of_head.size(); ++h) {
+  for (std::size_t h = 0; h < set.head_shapes.size(); ++h) {
     const auto& files = config.shapes.of_head[h];
     if (std::ranges::none_of(files, [](const auto& file) { return file.empty(); })) continue;
     if (!transfer) {
@@ -142,7 +142,7 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
     const auto carried = transfer->carry(static_cast<Index>(h), inputs.faces.heads[h].positions);
     for (std::size_t s = 0, i = 0; s < files.size(); ++s) {
       if (config.shapes.files[s].empty()) continue;
-      if (files[s].empty()) set.of_head[h][s] = own_shape_of(carried[i]);
+      if (files[s].empty()) set.head_shapes[h][s] = make_own_shape(carried[i]);
       ++i;
     }
   }
@@ -155,10 +155,10 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   ShapeSet& set = inputs.shapes;
   set.neutral = mean_head(inputs.faces);
   const double extent = extent_of(set.neutral, skin_vertices(inputs));
-  set.of_head.assign(inputs.faces.heads.size(), std::vector<OwnShape>(asked.names.size()));
+  set.head_shapes.assign(inputs.faces.heads.size(), std::vector<OwnShape>(asked.names.size()));
   const std::size_t before = problems.size();
-  for (std::size_t h = 0; h < set.of_head.size(); ++h) {
-    load_head(source, inputs, h, extent, set.of_head[h], problems);
+  for (std::size_t h = 0; h < set.head_shapes.size(); ++h) {
+    load_head(source, inputs, h, extent, set.head_shapes[h], problems);
   }
   if (problems.size() > before) return;
   if (!asked.neutral.empty()) {
@@ -167,7 +167,7 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
     fill_in(config, inputs, of_template, set);
   }
   for (std::size_t s = 0; s < asked.names.size(); ++s) {
-    set.shapes.push_back({asked.names[s], mean_of(set.of_head, s)});
+    set.shapes.push_back({asked.names[s], mean_displacements(set.head_shapes, s)});
   }
 }
 
@@ -181,7 +181,7 @@ void leave_out_still_shapes(Inputs& inputs) {
                        " moves no vertex of any head and is left out: is it the neutral?"));
     const auto place = static_cast<std::ptrdiff_t>(s);
     set.shapes.erase(set.shapes.begin() + place);
-    for (auto& of_head : set.of_head) of_head.erase(of_head.begin() + place);
+    for (auto& of_head : set.head_shapes) of_head.erase(of_head.begin() + place);
   }
 }
 
@@ -192,7 +192,7 @@ Digest digest_of_shapes(const ShapeSet& set) {
     hasher.add(shape.name).add_array(std::span(shape.moves.vertices));
     hasher.add_array(numbers_of(shape.moves.moves));
   }
-  for (const std::vector<OwnShape>& of_head : set.of_head) {
+  for (const std::vector<OwnShape>& of_head : set.head_shapes) {
     for (const OwnShape& shape : of_head) {
       hasher.add_array(std::span(shape.vertices)).add_array(numbers_of(shape.moves));
     }

@@ -141,7 +141,7 @@ RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& moti
   for (int k = 0; k < kSteps; ++k) {
     const RigidMotion next =
         step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, size, lids);
-    const double change = (next.to - fitted.to).norm();
+    const double change = (next.moved_pivot - fitted.moved_pivot).norm();
     fitted = next;
     if (change < kDoneShift * maps_[target].radius()) break;
   }
@@ -175,7 +175,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     gap.gap *= motion.scale;
     if (r == kNoIndex && gap.gap > far * radius) continue;
     lids[kept++] = lid;
-    const Eigen::Vector3d normal = motion.turn(gap.normal) / motion.scale;
+    const Eigen::Vector3d normal = motion.apply_to_direction(gap.normal) / motion.scale;
     // A translation by x changes the gap by −x · normal.
     QuadraticProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
     if (size == Size::kFree) {

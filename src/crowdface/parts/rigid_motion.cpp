@@ -36,16 +36,16 @@ Eigen::Matrix3d best_turn(const Eigen::Matrix3d& s) {
 
 }  // namespace
 
-Eigen::Vector3d RigidMotion::turn(const Eigen::Vector3d& direction) const {
+Eigen::Vector3d RigidMotion::apply_to_direction(const Eigen::Vector3d& direction) const {
   return scale * apply3(rotation, direction);
 }
 
 Eigen::Vector3d RigidMotion::undo(const Eigen::Vector3d& point) const {
-  return from + apply3(rotation.transpose(), (point - to) / scale);
+  return pivot + apply3(rotation.transpose(), (point - moved_pivot) / scale);
 }
 
 Eigen::Vector3d RigidMotion::apply(const Eigen::Vector3d& point) const {
-  return to + turn(point - from);
+  return moved_pivot + apply_to_direction(point - pivot);
 }
 
 void move_rows(const RigidMotion& motion, Positions& positions) {
@@ -57,41 +57,43 @@ void move_rows(const RigidMotion& motion, Positions& positions) {
 RigidMotion inverse(const RigidMotion& motion) {
   return {.rotation = motion.rotation.transpose(),
           .scale = 1 / motion.scale,
-          .from = motion.to,
-          .to = motion.from};
+          .pivot = motion.moved_pivot,
+          .moved_pivot = motion.pivot};
 }
 
 RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
-                   const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, double growth) {
+                   const Eigen::Vector3d& shift, const Eigen::Vector3d& rotation_vector,
+                   double growth) {
   RigidMotion result = motion;
   RigidMotion turned;
-  turned.rotation = rotation_of(1, turn.x() / 2, turn.y() / 2, turn.z() / 2);
+  turned.rotation =
+      rotation_of(1, rotation_vector.x() / 2, rotation_vector.y() / 2, rotation_vector.z() / 2);
   turned.scale = 1 + growth;
   for (Index c = 0; c < 3; ++c) {
     result.rotation.col(c) = apply3(turned.rotation, motion.rotation.col(c));
   }
   result.scale = motion.scale * turned.scale;
-  result.to = pivot + shift + turned.turn(motion.to - pivot);
+  result.moved_pivot = pivot + shift + turned.apply_to_direction(motion.moved_pivot - pivot);
   return result;
 }
 
-RigidMotion fit_rigid_motion(const Positions& from, const Positions& to,
+RigidMotion fit_rigid_motion(const Positions& source, const Positions& target,
                              std::span<const std::uint32_t> vertices,
                              std::span<const double> weights) {
   RigidMotion motion;
   double total = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     total += weights[i];
-    motion.from += weights[i] * row3(from, vertices[i]);
-    motion.to += weights[i] * row3(to, vertices[i]);
+    motion.pivot += weights[i] * row3(source, vertices[i]);
+    motion.moved_pivot += weights[i] * row3(target, vertices[i]);
   }
-  motion.from /= total;
-  motion.to /= total;
+  motion.pivot /= total;
+  motion.moved_pivot /= total;
   Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   double variance = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Eigen::Vector3d a = row3(from, vertices[i]) - motion.from;
-    const Eigen::Vector3d b = row3(to, vertices[i]) - motion.to;
+    const Eigen::Vector3d a = row3(source, vertices[i]) - motion.pivot;
+    const Eigen::Vector3d b = row3(target, vertices[i]) - motion.moved_pivot;
     // round before the product, so that the order is fixed
     const Eigen::Vector3d weighted = weights[i] * a;
     s += weighted * b.transpose();

@@ -17,19 +17,19 @@ inline Eigen::Vector3d apply3(const Eigen::Matrix3d& map, const Eigen::Vector3d&
           map(2, 0) * v.x() + map(2, 1) * v.y() + map(2, 2) * v.z()};
 }
 
-/// The motion x ↦ scale · R (x − from) + to. Computed with plain arithmetic, so that the bits are
-/// the same on every machine. (The factorisation behind `Similarity` in mesh/alignment.h depends on
-/// the library.)
+/// The motion x ↦ scale · R (x − pivot) + moved_pivot. Computed with plain arithmetic, so that the
+/// bits are the same on every machine. (The factorisation behind `Similarity` in mesh/alignment.h
+/// depends on the library.)
 struct RigidMotion {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double scale = 1;
-  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero(), moved_pivot = Eigen::Vector3d::Zero();
 
   Eigen::Vector3d apply(const Eigen::Vector3d& point) const;
   /// Inverse of `apply`.
   Eigen::Vector3d undo(const Eigen::Vector3d& point) const;
   /// Rotates and scales a direction.
-  Eigen::Vector3d turn(const Eigen::Vector3d& direction) const;
+  Eigen::Vector3d apply_to_direction(const Eigen::Vector3d& direction) const;
 };
 
 /// Moves all rows of positions.
@@ -39,23 +39,24 @@ RigidMotion inverse(const RigidMotion& motion);
 
 /// Returns the axes of a head after a motion.
 inline HeadAxes moved_axes(const HeadAxes& axes, const RigidMotion& motion) {
-  return {.front = motion.turn(axes.front) / motion.scale,
-          .up = motion.turn(axes.up) / motion.scale};
+  return {.front = motion.apply_to_direction(axes.front) / motion.scale,
+          .up = motion.apply_to_direction(axes.up) / motion.scale};
 }
 
 /// Returns the motion followed by a small translation, rotation and scaling about a pivot.
 /// \param pivot   The pivot, in its position after `motion`.
-/// \param turn    Rotation axis times angle (small).
+/// \param rotation_vector  Rotation axis times angle (small).
 /// \param growth  Relative change of scale; 0 keeps the size.
 RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
-                   const Eigen::Vector3d& shift, const Eigen::Vector3d& turn, double growth);
+                   const Eigen::Vector3d& shift, const Eigen::Vector3d& rotation_vector,
+                   double growth);
 
-/// Returns the motion that best maps rows of `from` to the same rows of `to`, by weighted least
-/// squares (Umeyama 1991), with the rotation as quaternion (Horn 1987).
+/// Returns the motion that best maps rows of `source` to the same rows of `target`, by weighted
+/// least squares (Umeyama 1991), with the rotation as quaternion (Horn 1987).
 ///
 /// \param vertices  Rows; at least three that are not collinear.
 /// \param weights   #vertices; not negative, with a positive sum.
-RigidMotion fit_rigid_motion(const Positions& from, const Positions& to,
+RigidMotion fit_rigid_motion(const Positions& source, const Positions& target,
                              std::span<const std::uint32_t> vertices,
                              std::span<const double> weights);
 

@@ -25,8 +25,8 @@ constexpr double kOffMm = 14;
 /// shows, because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
 
-/// Landmarks of a scan whose head has the axes `axes`; empty if the mesh is not usable as a head
-/// (for example too small).
+/// Landmarks by name, as scan vertices, of a scan whose head has the axes `axes`; empty if the mesh
+/// is not usable as a head (for example too small).
 std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
                                                 const HeadAxes& axes,
                                                 const std::optional<ReliefMatch>& face = {}) {

@@ -38,7 +38,7 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
       }
       bool whole = true;
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto number = read_number(entry.value.items[c], -kFarthest, kFarthest, out);
+        const auto number = read_number(entry.value.items[c], -kMaxCoordinate, kMaxCoordinate, out);
         whole = whole && number;
         place.point(static_cast<Index>(c)) = number.value_or(0);
       }
@@ -70,12 +70,12 @@ std::uint32_t nearest_vertex(const Positions& positions, const Eigen::Vector3d& 
 
 }  // namespace
 
-LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of) {
+LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarkMesh of) {
   Complaints complaints;
   LandmarkFile file;
   if (is_file(path)) {
     if (auto list = parse_landmark_list(MappedFile(path).bytes(), path)) {
-      (of == LandmarksOf::kScan ? file.of_scan : file.of_template) = std::move(*list);
+      (of == LandmarkMesh::kScan ? file.scan_places : file.template_places) = std::move(*list);
       return file;
     }
   }
@@ -84,8 +84,8 @@ LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of) {
     complaints.expected(*root, "a mapping with the keys template and scan");
   } else if (root) {
     const MapReader map(*root, {"template", "scan"}, complaints);
-    file.of_template = read_places(map.find("template"), complaints);
-    file.of_scan = read_places(map.find("scan"), complaints);
+    file.template_places = read_places(map.find("template"), complaints);
+    file.scan_places = read_places(map.find("scan"), complaints);
   }
   Problems problems;
   complaints.report_to(problems);
@@ -93,9 +93,10 @@ LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of) {
   return file;
 }
 
-std::uint32_t template_vertex(const LandmarkFile::Place& place, const Positions& of_template) {
-  return place.is_vertex ? vertex_of(place, of_template.rows(), "template")
-                         : nearest_vertex(of_template, place.point);
+std::uint32_t template_vertex(const LandmarkFile::Place& place,
+                              const Positions& template_positions) {
+  return place.is_vertex ? vertex_of(place, template_positions.rows(), "template")
+                         : nearest_vertex(template_positions, place.point);
 }
 
 Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan) {
@@ -103,35 +104,35 @@ Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan) {
   return scan.positions.row(vertex_of(place, scan.positions.rows(), "scan")).transpose();
 }
 
-std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file, const Positions& of_template,
-                                          const Scan& scan) {
+std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
+                                          const Positions& template_positions, const Scan& scan) {
   std::vector<WrapLandmark> landmarks;
-  for (const auto& [name, place] : file.of_template) {
-    const auto on_scan = file.of_scan.find(name);
-    if (on_scan == file.of_scan.end()) continue;
+  for (const auto& [name, place] : file.template_places) {
+    const auto on_scan = file.scan_places.find(name);
+    if (on_scan == file.scan_places.end()) continue;
     landmarks.push_back(
-        {name, template_vertex(place, of_template), scan_point(on_scan->second, scan)});
+        {name, template_vertex(place, template_positions), scan_point(on_scan->second, scan)});
   }
   return landmarks;
 }
 
 std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
                              std::string_view comments) {
-  std::string of_template, of_scan;
+  std::string template_lines, scan_lines;
   for (const PickedLandmark& landmark : landmarks) {
     const std::string key = concat("  ", write_scalar(landmark.name), ": ");
-    if (landmark.vertex) of_template += concat(key, *landmark.vertex, '\n');
+    if (landmark.vertex) template_lines += concat(key, *landmark.vertex, '\n');
     if (landmark.scan_vertex) {
-      of_scan += concat(key, *landmark.scan_vertex, '\n');
+      scan_lines += concat(key, *landmark.scan_vertex, '\n');
     } else if (landmark.point) {
       const Eigen::Vector3d& p = *landmark.point;
-      of_scan += concat(key, '[', p.x(), ", ", p.y(), ", ", p.z(), "]\n");
+      scan_lines += concat(key, '[', p.x(), ", ", p.y(), ", ", p.z(), "]\n");
     }
   }
   const auto section = [](std::string_view name, const std::string& lines) {
     return lines.empty() ? concat(name, ": {}\n") : concat(name, ":\n", lines);
   };
-  return concat(comments, section("template", of_template), section("scan", of_scan));
+  return concat(comments, section("template", template_lines), section("scan", scan_lines));
 }
 
 std::string_view opening_comments(std::string_view text) {
@@ -148,7 +149,7 @@ std::string_view opening_comments(std::string_view text) {
 }
 
 bool has_more_comments(std::string_view text) {
-  // Also true if a quoted name contains " #"; the user then gets a needless warning.
+  // This is also true if a quoted name contains " #"; then the user gets a needless warning.
   text.remove_prefix(opening_comments(text).size());
   return text.find(" #") != std::string_view::npos || text.find("\n#") != std::string_view::npos ||
          text.starts_with('#');

@@ -16,32 +16,35 @@
 
 namespace crowdface {
 
-/// The content of a landmark file: places by name, as vertex numbers from 0 or as points.
+/// The content of a landmark file: for each landmark name, a vertex number (from 0) or a point.
 struct LandmarkFile {
   using Place = LandmarkPlace;
-  std::map<std::string, Place> of_template, of_scan;  ///< by name of the landmark
+  std::map<std::string, Place> template_places, scan_places;  ///< by name of the landmark
 };
 
-/// The mesh to which the landmarks belong if the file does not say.
-enum class LandmarksOf { kTemplate, kScan };
+/// The mesh to which a file's landmarks belong if the file does not name the mesh.
+enum class LandmarkMesh { kTemplate, kScan };
 
 /// Reads a landmark file: YAML with the keys `template: {chin: 966}` and `scan: {chin: [x, y, z]}`,
 /// both optional and with at most 100 names each; or a list from another program
 /// (parse_landmark_list).
 /// \throws UsageError, MissingInput with a message that names every wrong place.
-LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarksOf of = LandmarksOf::kScan);
+LandmarkFile read_landmarks(const std::filesystem::path& path,
+                            LandmarkMesh of = LandmarkMesh::kScan);
 
-/// The template vertex for a place: its vertex number, or the vertex nearest to its point.
+/// The template vertex of a landmark: the given vertex number, or the vertex nearest to the given
+/// point.
 /// \throws UsageError if the template has no such vertex.
-std::uint32_t template_vertex(const LandmarkFile::Place& place, const Positions& of_template);
-/// The point on the scan for a place. \throws UsageError if the scan has no such vertex.
+std::uint32_t template_vertex(const LandmarkFile::Place& place,
+                              const Positions& template_positions);
+/// The position of a landmark on the scan. \throws UsageError if the scan has no such vertex.
 Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan);
 
 /// The landmarks that template and scan have in common: template vertices and points on the scan. A
 /// template point stands for its nearest vertex.
 /// \throws UsageError if there is no vertex with the number given.
-std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file, const Positions& of_template,
-                                          const Scan& scan);
+std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
+                                          const Positions& template_positions, const Scan& scan);
 
 /// A named landmark on the template, on the scan, or on both.
 struct PickedLandmark {

@@ -38,7 +38,7 @@ class PlaceList {
       place.vertex = static_cast<std::uint64_t>(numbers[0]);
     } else if (numbers.size() == 3) {
       place.point = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
-      if (!(place.point.array().abs() <= kFarthest).all())
+      if (!(place.point.array().abs() <= kMaxCoordinate).all())
         fail(where, "expected a point of finite numbers");
     } else {
       fail(where, concat("expected a vertex or x, y, z, found ", numbers.size(), " numbers"));

@@ -12,8 +12,8 @@ namespace crowdface {
 struct LandmarkName {
   std::string_view name;
   std::string_view where;  ///< description for the user
-  /// Whether find_landmarks searches the landmark on scans: edges or grooves of the skin mark its
-  /// place. A landmark that is only the widest or highest point varies too much.
+  /// Whether find_landmarks searches for the landmark on scans. Only edges or grooves of the skin
+  /// mark a landmark precisely enough; a widest or highest point does not.
   bool is_found_on_scans = false;
 };
 

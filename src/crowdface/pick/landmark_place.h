@@ -9,7 +9,7 @@
 namespace crowdface {
 
 /// Largest absolute coordinate of a landmark.
-inline constexpr double kFarthest = 1e9;
+inline constexpr double kMaxCoordinate = 1e9;
 
 /// A landmark in a file: the number of a vertex, from 0, or a point.
 struct LandmarkPlace {

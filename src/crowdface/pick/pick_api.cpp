@@ -47,7 +47,7 @@ Eigen::Vector3d vector_of(const Json& json, const std::string& key) {
     good = json[c].is_number();
     if (good) v[static_cast<Index>(c)] = json[c].get<double>();
   }
-  if (!good || !(v.cwiseAbs().maxCoeff() <= kFarthest)) {
+  if (!good || !(v.cwiseAbs().maxCoeff() <= kMaxCoordinate)) {
     throw UsageError(concat(key, ": expected three numbers"));
   }
   return v;
@@ -76,10 +76,10 @@ std::string name_in(const Json& body) {
 Json landmark_json(const PickedLandmark& landmark, const PickSession& session) {
   Json json = {{"name", landmark.name}, {"template", nullptr}, {"scan", nullptr}};
   if (landmark.vertex) {
-    json["template"] = place_json(session.of_template().at_vertex(*landmark.vertex), true);
+    json["template"] = place_json(session.template_mesh().place_at_vertex(*landmark.vertex), true);
   }
   if (landmark.point) {
-    json["scan"] = place_json(session.of_scan().at_point(*landmark.point), false);
+    json["scan"] = place_json(session.scan_mesh().place_at_point(*landmark.point), false);
     if (landmark.scan_vertex) json["scan"]["vertex"] = *landmark.scan_vertex;
   }
   return json;
@@ -114,9 +114,10 @@ std::vector<PickedLandmark> landmarks_in(const PickSession& session, const Json&
     }
     const Json vertex = item.value("template", Json()), place = item.value("scan", Json());
     if (!vertex.is_null()) {
-      landmark.vertex = number_of(vertex, session.of_template().positions().rows(), landmark.name);
+      landmark.vertex =
+          number_of(vertex, session.template_mesh().positions().rows(), landmark.name);
     }
-    const Positions& scan = session.of_scan().positions();
+    const Positions& scan = session.scan_mesh().positions();
     if (place.is_number()) {
       landmark.scan_vertex = number_of(place, scan.rows(), landmark.name);
       landmark.point = scan.row(*landmark.scan_vertex).transpose();
@@ -131,12 +132,13 @@ std::vector<PickedLandmark> landmarks_in(const PickSession& session, const Json&
 HttpAnswer suggest(const PickSession& session, const Json& body) {
   const SuggestedPlaces places = session.suggest(landmarks_in(session, body));
   Json of_template = Json::object(), of_scan = Json::object(), residuals = Json::object();
-  for (const auto& [name, place] : places.of_template) of_template[name] = place_json(place, true);
-  for (const auto& [name, place] : places.of_scan) of_scan[name] = place_json(place, false);
+  for (const auto& [name, place] : places.template_places)
+    of_template[name] = place_json(place, true);
+  for (const auto& [name, place] : places.scan_places) of_scan[name] = place_json(place, false);
   Json pose;
   if (places.pose) {
     for (const auto& [name, residual] : places.pose->residuals) {
-      residuals[name] = {{"mm", residual.mm}, {"outlier", residual.outlier}};
+      residuals[name] = {{"mm", residual.distance_mm}, {"outlier", residual.is_outlier}};
     }
     pose = pose_json(places.pose->pose);
   }
@@ -168,10 +170,10 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
     const std::shared_ptr<OpenScan> now = scans_.current();
     if (is("GET", "api/job")) return job(now->session);
     if (is("GET", "api/mesh/template")) {
-      return mesh(now->session.of_template(), {}, now->of_template);
+      return mesh(now->session.template_mesh(), {}, now->shown_template);
     }
     if (is("GET", "api/mesh/scan")) {
-      return mesh(now->session.of_scan(), now->session.inputs().scan_colours, now->of_scan);
+      return mesh(now->session.scan_mesh(), now->session.inputs().scan_colours, now->shown_scan);
     }
     if (is("POST", "api/pick")) return pick(now->session, body_of(asked));
     if (is("POST", "api/suggest")) return suggest(now->session, body_of(asked));

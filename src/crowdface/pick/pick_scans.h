@@ -23,7 +23,7 @@ struct ShownMesh {
 struct OpenScan {
   explicit OpenScan(PickInputs inputs) : session(std::move(inputs)) {}
   PickSession session;
-  ShownMesh of_template, of_scan;
+  ShownMesh shown_template, shown_scan;
 };
 
 /// The list of scans on which landmarks are picked, one at a time. Thread-safe.

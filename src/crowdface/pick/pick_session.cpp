@@ -17,8 +17,8 @@
 namespace crowdface {
 namespace {
 
-/// Tries all axis-aligned orientations. If the scan is tilted, the user turns it, or its first
-/// landmarks determine the rotation.
+/// Tries all axis-aligned orientations. The user or the first landmarks correct the orientation of
+/// a tilted scan.
 PoseHint guess_bearing(const Scan& scan) {
   constexpr std::size_t kEnough = 30000;
   const std::vector<Triangle> reduced = reduce_triangles(scan.triangles, scan.positions, kEnough);
@@ -32,16 +32,16 @@ PoseHint guess_bearing(const Scan& scan) {
 
 /// The largest power of ten that is at most a millionth of the mesh's bounding box diagonal.
 double step_of(const PickableMesh& mesh) {
-  const double size = (mesh.high() - mesh.low()).norm();
+  const double size = (mesh.box_max() - mesh.box_min()).norm();
   return size > 0 ? std::pow(10.0, std::floor(std::log10(size)) - 6) : 1e-6;
 }
 
 std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInputs& inputs) {
   std::map<std::string, PickedLandmark> by_name;
-  for (const auto& [name, place] : file.of_template) {
+  for (const auto& [name, place] : file.template_places) {
     by_name[name].vertex = template_vertex(place, inputs.file_positions);
   }
-  for (const auto& [name, place] : file.of_scan) {
+  for (const auto& [name, place] : file.scan_places) {
     PickedLandmark& landmark = by_name[name];
     landmark.point = scan_point(place, inputs.scan);
     if (place.is_vertex) landmark.scan_vertex = static_cast<std::uint32_t>(place.vertex);
@@ -62,20 +62,20 @@ std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInp
 
 PickSession::PickSession(PickInputs inputs)
     : inputs_(std::move(inputs)),
-      template_(pickable(inputs_.shape, inputs_.positions)),
+      template_(make_pickable(inputs_.shape, inputs_.positions)),
       scan_(inputs_.scan.positions, inputs_.scan.triangles),
-      plane_(middle_plane(inputs_.shape, inputs_.positions)),
+      plane_(symmetry_plane(inputs_.shape, inputs_.positions)),
       proposals_(propose_landmarks(inputs_.shape)),
       scan_orientation_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
       known_text_(text_on_disk()) {
   LandmarkFile file;
   if (!inputs_.template_landmarks.empty()) {
-    file.of_template = read_landmarks(inputs_.template_landmarks).of_template;
+    file.template_places = read_landmarks(inputs_.template_landmarks).template_places;
   }
   if (path_exists(inputs_.landmarks)) {
     const LandmarkFile own = read_landmarks(inputs_.landmarks);
-    for (const auto& [name, place] : own.of_template) file.of_template[name] = place;
-    file.of_scan = own.of_scan;
+    for (const auto& [name, place] : own.template_places) file.template_places[name] = place;
+    file.scan_places = own.scan_places;
   }
   landmarks_ = landmarks_of(file, inputs_);
 }
@@ -99,7 +99,7 @@ std::optional<PickedPlace> PickSession::pick_on_template(const Eigen::Vector3d& 
   constexpr double kBesideMm = 3;
   const auto place = template_.cast(origin, direction, kBesideMm);
   if (!place) return std::nullopt;
-  return template_.at_vertex(place->vertex);
+  return template_.place_at_vertex(place->vertex);
 }
 
 std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& origin,
@@ -108,7 +108,7 @@ std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& orig
   if (!place) return std::nullopt;
   const double step = step_of(scan_);
   for (double& x : place->point) {
-    // Rounds by way of text, so that the number saved is the decimal number shown.
+    // Rounds to a decimal text and back, so that the saved number equals the displayed number.
     const int decimals = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 15);
     x = parse_double(format_fixed(std::round(x / step) * step, decimals)).value_or(x);
   }

@@ -26,7 +26,8 @@ struct PickInputs {
   Scan scan;
   std::optional<PoseHint> hint;  ///< pose of the scan; estimated if not given
   std::filesystem::path template_file, scan_file, landmarks;
-  /// A further landmark file, for template landmarks that `landmarks` lacks; may be empty.
+  /// Path of another landmark file, for template landmarks that the file `landmarks` lacks; may be
+  /// empty.
   std::filesystem::path template_landmarks = {};
   ColourRows scan_colours = {};  ///< colours of the scan's vertices, or no rows
 };
@@ -40,8 +41,8 @@ class PickSession {
   explicit PickSession(PickInputs inputs);
 
   const PickInputs& inputs() const { return inputs_; }
-  const PickableMesh& of_template() const { return template_; }
-  const PickableMesh& of_scan() const { return scan_; }
+  const PickableMesh& template_mesh() const { return template_; }
+  const PickableMesh& scan_mesh() const { return scan_; }
   /// Up and front direction of the head on the scan, given or estimated.
   const PoseHint& scan_orientation() const { return scan_orientation_; }
   /// The landmarks read from the file or saved last.

@@ -108,11 +108,11 @@ std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,
   return place_of(skin_[hit.triangle], hit.shares);
 }
 
-PickedPlace PickableMesh::at_vertex(std::uint32_t vertex) const {
+PickedPlace PickableMesh::place_at_vertex(std::uint32_t vertex) const {
   return {vertex, row3(positions_, vertex), row3(normals_, vertex)};
 }
 
-PickedPlace PickableMesh::at_point(const Eigen::Vector3d& point) const {
+PickedPlace PickableMesh::place_at_point(const Eigen::Vector3d& point) const {
   const SurfaceHit hit = tree_.nearest(point, std::numeric_limits<double>::infinity());
   if (hit.triangle == kNoIndex) return {kNoIndex, point, Eigen::Vector3d::Zero()};
   PickedPlace place = place_of(skin_[hit.triangle], hit.shares);
@@ -154,8 +154,8 @@ std::string PickableMesh::preview(std::size_t max_triangles, const ColourRows& c
     return nlohmann::ordered_json::array({v.x(), v.y(), v.z()});
   };
   answer.head["origin"] = list(middle_);
-  answer.head["low"] = list(low() - middle_);
-  answer.head["high"] = list(high() - middle_);
+  answer.head["low"] = list(box_min() - middle_);
+  answer.head["high"] = list(box_max() - middle_);
   answer.head["whole_triangles"] = quads_.size();
   answer.add("positions", std::span<const float>(points));
   answer.add("normals", std::span<const std::int16_t>(normals));

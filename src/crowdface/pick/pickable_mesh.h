@@ -15,7 +15,7 @@
 
 namespace crowdface {
 
-/// A point on a surface that the user pointed at.
+/// A point on a mesh that the user picked, or that is suggested to the user.
 struct PickedPlace {
   std::uint32_t vertex = kNoIndex;  ///< nearest corner of the triangle hit
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -56,20 +56,21 @@ class PickableMesh {
   /// \param facing  unit vector.
   std::optional<PickedPlace> nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                      double min_cosine, double reach) const;
-  /// Returns a vertex as a place on the surface.
-  PickedPlace at_vertex(std::uint32_t vertex) const;
+  /// Returns the position and normal of a vertex.
+  PickedPlace place_at_vertex(std::uint32_t vertex) const;
   /// Returns `point` itself, with the normal and vertex of the nearest skin point.
-  PickedPlace at_point(const Eigen::Vector3d& point) const;
+  PickedPlace place_at_point(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }
   const std::vector<Triangle>& skin() const { return skin_; }
-  Eigen::Vector3d low() const { return box_.min(); }
-  Eigen::Vector3d high() const { return box_.max(); }
+  Eigen::Vector3d box_min() const { return box_.min(); }
+  Eigen::Vector3d box_max() const { return box_.max(); }
 
   /// The mesh reduced to about `max_triangles` triangles, with the normals of the full mesh, as a
   /// BinaryAnswer. Head: `origin`, `low` and `high` (relative to `origin`), `whole_triangles`
   /// (number of triangles of the full mesh). Arrays: `positions` (relative to `origin`), `normals`
-  /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other), and `colours` if there are any.
+  /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other), and `colours` if there
+  /// are any.
   /// \param colours  of the vertices, or no rows
   std::string preview(std::size_t max_triangles, const ColourRows& colours = {}) const;
 

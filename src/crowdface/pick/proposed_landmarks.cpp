@@ -23,12 +23,12 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape
   return proposals;
 }
 
-PickableMesh pickable(const WrapTemplate& shape, const Positions& positions) {
+PickableMesh make_pickable(const WrapTemplate& shape, const Positions& positions) {
   std::vector<Triangle> skin = shape.skin.triangles, others;
   for (Triangle& t : skin) {
     for (std::uint32_t& v : t) v = shape.skin.vertices[v];
   }
-  for (const Triangle& t : solid_triangles(shape)) {
+  for (const Triangle& t : occluding_triangles(shape)) {
     const PartClass of_part = shape.parts.classes[shape.components.of_vertex[t[0]]];
     if (of_part != PartClass::kSkin) others.push_back(t);
   }
@@ -58,12 +58,12 @@ SkinRegions face_regions(const WrapTemplate& shape) {
   for (const std::uint32_t v : shape.skin.vertices) {
     Index most = 0;
     alpha.row(v).maxCoeff(&most);
-    regions.of_vertex.push_back(static_cast<std::size_t>(most));
+    regions.region_of_vertex.push_back(static_cast<std::size_t>(most));
   }
   return regions;
 }
 
-MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions) {
+MirrorPlane symmetry_plane(const WrapTemplate& shape, const Positions& positions) {
   HeadShape head = head_shape(shape);
   head.positions = positions;
   return {shape.axes.side(), symmetry_offset(shape.topology, head, shape.axes)};

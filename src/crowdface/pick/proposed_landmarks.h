@@ -18,13 +18,13 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape
 
 /// A mesh of the template whose skin can be picked and whose eyes and teeth occlude the skin.
 /// \param positions  #V by 3
-PickableMesh pickable(const WrapTemplate& shape, const Positions& positions);
+PickableMesh make_pickable(const WrapTemplate& shape, const Positions& positions);
 
 /// Regions of the skin: brow, nose and mouth, and ears and neck if they are found. Empty if no face
 /// is found.
 SkinRegions face_regions(const WrapTemplate& shape);
 
 /// The symmetry plane between the left and right half of a template.
-MirrorPlane middle_plane(const WrapTemplate& shape, const Positions& positions);
+MirrorPlane symmetry_plane(const WrapTemplate& shape, const Positions& positions);
 
 }  // namespace crowdface

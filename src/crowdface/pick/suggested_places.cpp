@@ -21,16 +21,16 @@ struct Pair {
 };
 
 std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
-                           const Positions& of_template) {
+                           const Positions& template_positions) {
   std::vector<Pair> pairs;
   for (const PickedLandmark& landmark : landmarks) {
     if (!landmark.vertex || !landmark.point) continue;
-    pairs.push_back({landmark.name, row3(of_template, *landmark.vertex), *landmark.point});
+    pairs.push_back({landmark.name, row3(template_positions, *landmark.vertex), *landmark.point});
   }
   return pairs;
 }
 
-/// Whether the places determine a rotation: places on a line do not.
+/// Whether the points determine a rotation, which points on a line do not.
 bool spread_out(const Positions& places) {
   constexpr double kMinRatio = 0.1;
   const Positions centred = places.rowwise() - places.colwise().mean();
@@ -95,7 +95,7 @@ Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& p
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = kHeld;
   for (const Pair& pair : pairs) {
-    if (pose.residuals.at(pair.name).outlier) continue;
+    if (pose.residuals.at(pair.name).is_outlier) continue;
     const double weight = std::exp(-(pair.from - place).squaredNorm() / (2 * kReachMm * kReachMm));
     sum += weight * (pair.to - apply_similarity(pose.pose, pair.from));
     weights += weight;
@@ -118,14 +118,14 @@ std::map<std::string, PickedPlace> suggest_on_template(
     const MirrorPlane& plane, const std::map<std::string, std::uint32_t>& proposals) {
   constexpr double kReachMm = 20;
   std::map<std::string, PickedPlace> places;
-  for (const auto& [name, vertex] : proposals) places[name] = mesh.at_vertex(vertex);
+  for (const auto& [name, vertex] : proposals) places[name] = mesh.place_at_vertex(vertex);
   for (const PickedLandmark& landmark : landmarks) {
     const auto other = landmark.vertex ? mirrored_name(landmark.name) : std::nullopt;
     if (!other) continue;
-    const PickedPlace here = mesh.at_vertex(*landmark.vertex);
+    const PickedPlace here = mesh.place_at_vertex(*landmark.vertex);
     const Eigen::Vector3d facing = here.normal - 2 * plane.normal.dot(here.normal) * plane.normal;
-    const auto there = mesh.nearest(plane.image(here.point), facing, kMinCosine, kReachMm);
-    if (there) places[*other] = mesh.at_vertex(there->vertex);
+    const auto there = mesh.nearest(plane.image(here.point), facing, kMinNormalCosine, kReachMm);
+    if (there) places[*other] = mesh.place_at_vertex(there->vertex);
   }
   for (const PickedLandmark& landmark : landmarks) {
     if (landmark.vertex) places.erase(landmark.name);
@@ -135,9 +135,9 @@ std::map<std::string, PickedPlace> suggest_on_template(
 
 }  // namespace
 
-std::optional<LandmarkPose> pose_of_picked(const std::vector<PickedLandmark>& landmarks,
-                                           const Positions& of_template) {
-  const std::vector<Pair> pairs = pairs_of(landmarks, of_template);
+std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>& landmarks,
+                                               const Positions& template_positions) {
+  const std::vector<Pair> pairs = pairs_of(landmarks, template_positions);
   std::vector<bool> used(pairs.size(), true);
   LandmarkPose result;
   std::vector<double> residuals;
@@ -157,30 +157,30 @@ std::optional<LandmarkPose> pose_of_picked(const std::vector<PickedLandmark>& la
 }
 
 SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
-                               const PickableMesh& of_template, const PickableMesh& of_scan,
+                               const PickableMesh& template_mesh, const PickableMesh& scan_mesh,
                                const MirrorPlane& plane,
                                const std::map<std::string, std::uint32_t>& proposals) {
   constexpr double kMinFacing = 0.3, kReachMm = 25, kDepthMm = 5;
   SuggestedPlaces suggested;
-  suggested.of_template = suggest_on_template(landmarks, of_template, plane, proposals);
-  suggested.pose = pose_of_picked(landmarks, of_template.positions());
+  suggested.template_places = suggest_on_template(landmarks, template_mesh, plane, proposals);
+  suggested.pose = fit_pose_to_picked(landmarks, template_mesh.positions());
   if (!suggested.pose) return suggested;
 
-  std::map<std::string, PickedPlace> wanted = suggested.of_template;
+  std::map<std::string, PickedPlace> wanted = suggested.template_places;
   for (const PickedLandmark& landmark : landmarks) {
-    if (landmark.vertex) wanted[landmark.name] = of_template.at_vertex(*landmark.vertex);
+    if (landmark.vertex) wanted[landmark.name] = template_mesh.place_at_vertex(*landmark.vertex);
     if (landmark.point) wanted.erase(landmark.name);
   }
-  const std::vector<Pair> pairs = pairs_of(landmarks, of_template.positions());
+  const std::vector<Pair> pairs = pairs_of(landmarks, template_mesh.positions());
   const Similarity& pose = suggested.pose->pose;
   for (const auto& [name, place] : wanted) {
     const Eigen::Vector3d point =
         apply_similarity(pose, place.point) + correction(pairs, *suggested.pose, place.point);
     const auto near = outermost(
-        of_scan,
-        of_scan.nearest(point, pose.rotation * place.normal, kMinFacing, kReachMm * pose.scale),
+        scan_mesh,
+        scan_mesh.nearest(point, pose.rotation * place.normal, kMinFacing, kReachMm * pose.scale),
         kDepthMm * pose.scale);
-    if (near) suggested.of_scan[name] = *near;
+    if (near) suggested.scan_places[name] = *near;
   }
   return suggested;
 }

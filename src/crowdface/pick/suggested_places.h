@@ -19,9 +19,10 @@ struct LandmarkPose {
   struct Residual {
     /// Distance between both landmarks of the pair after a fit to the other pairs, in mm. With
     /// three pairs: after a fit to all three pairs.
-    double mm = 0;
-    /// Far larger than the other residuals: most likely a mistake; not used for `pose`.
-    bool outlier = false;
+    double distance_mm = 0;
+    /// Whether the distance is far larger than the other distances, most likely by mistake;
+    /// outliers are not used for `pose`.
+    bool is_outlier = false;
   };
   std::map<std::string, Residual> residuals;  ///< one for each pair
 };
@@ -29,23 +30,23 @@ struct LandmarkPose {
 /// Fits the similarity (Umeyama 1991) to landmark pairs. While one pair is an outlier, it is
 /// removed and the fit repeated.
 /// \return nothing if there are fewer than three pairs, or if the landmarks lie almost on a line.
-std::optional<LandmarkPose> pose_of_picked(const std::vector<PickedLandmark>& landmarks,
-                                           const Positions& of_template);
+std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>& landmarks,
+                                               const Positions& template_positions);
 
 /// Likely positions of landmarks that are not picked yet, estimated from their mirror image or from
 /// the other mesh.
 struct SuggestedPlaces {
-  std::map<std::string, PickedPlace> of_template;
-  std::map<std::string, PickedPlace> of_scan;
+  std::map<std::string, PickedPlace> template_places;
+  std::map<std::string, PickedPlace> scan_places;
   std::optional<LandmarkPose> pose;
 };
 
 /// Suggests likely positions of the landmarks that are not picked yet.
-/// \param of_template  the template, in millimetres
+/// \param template_mesh  the template, in millimetres
 /// \param plane        symmetry plane of the template
 /// \param proposals    template vertices estimated from shape, for names that are not picked
 SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
-                               const PickableMesh& of_template, const PickableMesh& of_scan,
+                               const PickableMesh& template_mesh, const PickableMesh& scan_mesh,
                                const MirrorPlane& plane,
                                const std::map<std::string, std::uint32_t>& proposals);
 

@@ -73,15 +73,15 @@ const AttachmentSurface& AttachmentSurfaces::at(const Attachment& item) const {
   });
 }
 
-AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& made_of) const {
+AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& source) const {
   AttachmentMaterial material;
-  if (made_of.colour) {
-    material.colour = Light((*made_of.colour)[0], (*made_of.colour)[1], (*made_of.colour)[2]);
+  if (source.colour) {
+    material.colour = Light((*source.colour)[0], (*source.colour)[1], (*source.colour)[2]);
   }
-  material.share = made_of.opacity;
-  if (!made_of.colour_map.empty()) {
-    const Picture& picture = colour_maps_.get(made_of.colour_map, [&] {
-      const Image image = read_image(made_of.colour_map, {.jpeg = true});
+  material.opacity_factor = source.opacity;
+  if (!source.colour_map.empty()) {
+    const Picture& picture = colour_maps_.get(source.colour_map, [&] {
+      const Image image = read_image(source.colour_map, {.jpeg = true});
       const LightRows light = light_of(image);
       Texture colours = shrunk_texture(image.width, image.height, max_px_, light.row);
       auto read = std::make_unique<Picture>();
@@ -92,17 +92,17 @@ AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& made_o
       read->colours = std::make_shared<const Texture>(std::move(colours));
       return read;
     });
-    if (textured_) {
+    if (shows_textures_) {
       material.texture = picture.colours;
-    } else if (!made_of.colour) {
+    } else if (!source.colour) {
       material.colour = albedo_of(SurfaceKind::kSkin);
     }
     material.opacity = picture.opacity;
   }
-  if (!made_of.opacity_map.empty()) {
-    material.opacity = opacity_maps_.get(made_of.opacity_map, [&] {
+  if (!source.opacity_map.empty()) {
+    material.opacity = opacity_maps_.get(source.opacity_map, [&] {
       return std::make_unique<std::shared_ptr<const MipMap>>(std::make_shared<const MipMap>(
-          opacity_texture(read_image(made_of.opacity_map, {.jpeg = true}), max_px_)));
+          opacity_texture(read_image(source.opacity_map, {.jpeg = true}), max_px_)));
     });
   }
   return material;

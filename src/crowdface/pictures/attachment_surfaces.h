@@ -14,13 +14,13 @@
 
 namespace crowdface {
 
-/// The attachments of a crowd as meshes for rendering. Materials and textures are read on first
-/// use. Thread-safe.
+/// Converts the attachments of a crowd to meshes for rendering. Reads materials and textures on
+/// first use. Thread-safe.
 class AttachmentSurfaces {
  public:
   /// \param max_px   larger textures are reduced to this many texels a side.
   /// \param textured  whether colour textures are shown; opacity is always applied.
-  AttachmentSurfaces(int max_px, bool textured) : max_px_(max_px), textured_(textured) {}
+  AttachmentSurfaces(int max_px, bool textured) : max_px_(max_px), shows_textures_(textured) {}
 
   /// \param item  attachment of the inputs.
   const AttachmentSurface& at(const Attachment& item) const;
@@ -33,12 +33,12 @@ class AttachmentSurfaces {
     std::shared_ptr<const Texture> colours;
     std::shared_ptr<const MipMap> opacity;  ///< null: no alpha channel
   };
-  AttachmentMaterial material_of(const SurfaceMaterial& made_of) const;
+  AttachmentMaterial material_of(const SurfaceMaterial& source) const;
 
   int max_px_;
-  bool textured_;
+  bool shows_textures_;
   mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;
-  // A cache by file, because many attachments share the same textures.
+  // Textures by file, because many attachments share the same textures.
   mutable LazyMap<std::filesystem::path, Picture> colour_maps_;
   mutable LazyMap<std::filesystem::path, std::shared_ptr<const MipMap>> opacity_maps_;
 };

@@ -19,9 +19,9 @@ namespace {
 /// judging faces.
 constexpr double kCutBelow = 0.22;
 
-/// Extreme points of the attachments on all heads, estimated without fitting the attachments: maps
-/// a sample of their vertices from the bounding box of the head for which the attachment was made
-/// to the bounding box of each other head. This is accurate enough for framing.
+/// Estimates the extreme points of the attachments on all heads, for framing: maps a sample of each
+/// attachment's vertices from the bounding box of the head for which it was made to the bounding
+/// boxes of the other heads.
 std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& faces) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
@@ -51,8 +51,8 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
   return reach;
 }
 
-/// For each vertex, the displacement of the shape that moves the vertex lowest, because an open jaw
-/// reaches below the neutral head.
+/// For each vertex, its lowest displacement in any shape, because an open jaw reaches below the
+/// neutral head.
 Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {
@@ -104,9 +104,9 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
                 mesh_.surfaces(),
                 &PicturedFace(mesh_, inputs.faces.heads.front().positions).positions()),
       inputs_(inputs),
-      textured_(sheet.texture != SheetTexture::kNo),
+      shows_textures_(sheet.texture != SheetTexture::kNo),
       max_texels_(shown_texels(sheet)),
-      attachment_surfaces_(max_texels_, textured_) {}
+      attachment_surfaces_(max_texels_, shows_textures_) {}
 
 FacePictures CrowdRenders::render_files(const std::string& id, Index target,
                                         const Positions& positions,
@@ -134,14 +134,14 @@ std::string CrowdRenders::head_script(Index head, std::span<const Displacements>
   const auto& [name, positions] = inputs_.faces.heads[static_cast<std::size_t>(head)];
   const std::optional<TextureSet> texture_set = texture_set_of(head);
   const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
-  const auto body = body_of(recipe_of_head(head));
+  const auto body = blend_body_texture(recipe_of_head(head));
   // The prefix "head" distinguishes the script from the script of a face with the same name.
   return gallery_->face_script(concat("head ", name), positions, moves,
                                texture_set ? &*texture_set : nullptr, colours ? &*colours : nullptr,
                                {}, body ? &*body : nullptr);
 }
 
-std::optional<BlendedPicture> CrowdRenders::body_of(const Recipe& recipe) const {
+std::optional<BlendedPicture> CrowdRenders::blend_body_texture(const Recipe& recipe) const {
   if (!mesh_.has_body() || textures_->body() == nullptr) return std::nullopt;
   return textures_->paint_body(recipe);
 }
@@ -159,7 +159,8 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
 }
 
 std::optional<FaceTextureSet> CrowdRenders::face_texture_set(Index target) const {
-  if (!textured_ || !(inputs_.textures.blend() || any_is_shown(inputs_.maps))) return std::nullopt;
+  if (!shows_textures_ || !(inputs_.textures.blend() || any_is_shown(inputs_.maps)))
+    return std::nullopt;
   return FaceTextureSet(inputs_.textures, inputs_.maps, target, max_texels_);
 }
 
@@ -173,7 +174,7 @@ std::optional<FaceTextureSet> CrowdRenders::face_texture_set(const FaceTextures&
 }
 
 std::optional<TextureSet> CrowdRenders::texture_set_of(Index head) const {
-  if (!textured_) return std::nullopt;
+  if (!shows_textures_) return std::nullopt;
   std::optional<TextureSet> texture_set = texture_set_of_head(inputs_.textures, head, max_texels_);
   if (!texture_set && any_is_shown(inputs_.maps)) {
     texture_set.emplace().of_face.assign(
@@ -201,7 +202,7 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
                                      const Recipe& recipe) const {
   const std::optional<FaceTextureSet> own = face_texture_set(textures, recipe);
-  const auto body = body_of(recipe);
+  const auto body = blend_body_texture(recipe);
   const BlendedPicture* const shown_body = body ? &*body : nullptr;
   if (own) return render_png(positions, nullptr, &own->texture_set(), {}, shown_body);
   const auto colours = shown_colours(textures.vertex_colours(recipe), nullptr);
@@ -212,7 +213,7 @@ std::string CrowdRenders::render_png(const Positions& positions, const FaceTextu
 std::string CrowdRenders::render_png(const Positions& positions, Index head) const {
   const std::optional<TextureSet> texture_set = texture_set_of(head);
   const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
-  const auto body = body_of(recipe_of_head(head));
+  const auto body = blend_body_texture(recipe_of_head(head));
   return render_png(positions, colours ? &*colours : nullptr, texture_set ? &*texture_set : nullptr,
                     {}, body ? &*body : nullptr);
 }

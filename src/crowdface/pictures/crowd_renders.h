@@ -23,7 +23,8 @@ namespace crowdface {
 
 class CrowdRenders;
 
-/// A crowd whose folder contains rendered images. All referenced objects must outlive this object.
+/// The inputs for pictures of a crowd whose faces are already rendered. All referenced objects must
+/// outlive this object.
 struct PicturedCrowd {
   const Config& config;  ///< must have contact sheets
   const Inputs& inputs;
@@ -63,7 +64,7 @@ class CrowdRenders {
   /// \param target     the head whose textures the face shows if `own` is null.
   /// \param positions  in single precision, as in mesh files.
   /// \param moves      displacements of each shape, for the gallery.
-  /// \param own        the face's blended textures, from face_texture_set, or null.
+  /// \param own        the face's own textures, from face_texture_set, or null.
   /// \param placed     the attachments that the face wears.
   /// \param colours    vertex colours, shown if there are no textures; may have no rows.
   /// \param body       texture of the body, or null.
@@ -80,10 +81,10 @@ class CrowdRenders {
   /// Vertex colours of a head; nothing if the head has no vertex colours or if textures replace
   /// them.
   std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
-  /// Returns a texture set for a face that the caller fills; nothing if faces have no textures of
-  /// their own or if textures are not shown.
+  /// Returns an empty texture set, which the caller fills with a face's own textures; nothing if
+  /// faces have no own textures or if textures are not shown.
   std::optional<FaceTextureSet> face_texture_set(Index target) const;
-  /// Returns a face_texture_set filled with the textures of a face.
+  /// Returns a texture set that contains the face's own textures.
   std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,
                                                  const Recipe& recipe) const;
 
@@ -109,14 +110,14 @@ class CrowdRenders {
 
  private:
   /// The body's texture for a recipe; nothing if images do not show the body.
-  std::optional<BlendedPicture> body_of(const Recipe& recipe) const;
+  std::optional<BlendedPicture> blend_body_texture(const Recipe& recipe) const;
 
   PicturedMesh mesh_;
   const FaceTextures* textures_;
   std::vector<Camera> cameras_;
   FaceRenderer renderer_;
   const Inputs& inputs_;
-  bool textured_;
+  bool shows_textures_;
   int max_texels_;
   AttachmentSurfaces attachment_surfaces_;
   const GalleryMeshes* gallery_ = nullptr;

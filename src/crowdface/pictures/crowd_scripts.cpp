@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 /// Largest number of faces in the plane view if the recipes are split into several scripts.
 constexpr std::size_t kMaxOnPlane = 2000;
 
-/// All data of the crowd's script except the faces.
+/// All data of the crowd's script except the data of single faces.
 Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
                     const std::vector<std::vector<double>>& head_traits, bool has_textures) {
   const PlanNames names = config.plan_names();
@@ -99,7 +99,8 @@ Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
   return json;
 }
 
-/// The data for filtering, sorting and the grid, column by column.
+/// The data for filtering, for sorting and for the grid: a column of values over all faces for each
+/// kind of data.
 std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
                     const Likeness& likeness) {
   std::string text;

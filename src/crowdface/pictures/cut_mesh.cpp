@@ -9,7 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// New points on edges, interpolated between the rows of both ends; at most one point per edge.
+/// Adds points on edges: rows interpolated between the rows of both ends; at most one point per
+/// edge.
 template <class Rows>
 class EdgePoints {
  public:
@@ -44,7 +45,7 @@ class EdgePoints {
 
 }  // namespace
 
-Mesh cut_mesh(const Mesh& mesh, std::span<const double> above) {
+Mesh cut_mesh(const Mesh& mesh, std::span<const double> signed_distances) {
   Topology part;
   EdgePoints points(mesh.positions);
   EdgePoints uv_points(mesh.uvs);
@@ -54,7 +55,7 @@ Mesh cut_mesh(const Mesh& mesh, std::span<const double> above) {
     std::vector<std::uint32_t> corners, uvs;
     for (std::size_t c = 0; c < face.size(); ++c) {
       const std::size_t next = (c + 1) % face.size();
-      const double here = above[face[c]], there = above[face[next]];
+      const double here = signed_distances[face[c]], there = signed_distances[face[next]];
       if (here >= 0) {
         corners.push_back(face[c]);
         if (has_uvs) uvs.push_back(face_uvs[c]);

@@ -7,11 +7,11 @@
 
 namespace crowdface {
 
-/// Cuts a mesh: keeps the part in which a function, given at the vertices and linear along edges,
-/// is not negative. Polygons that cross zero are clipped (Sutherland & Hodgman 1974). All vertices
-/// and texture coordinates of the mesh come first, also if no polygon uses them any more; the rows
-/// of new vertices follow.
-/// \param above  #V: the function at each vertex
-Mesh cut_mesh(const Mesh& mesh, std::span<const double> above);
+/// Keeps the part of a mesh in which a function is not negative. The function is given at the
+/// vertices and linear along edges. Polygons that cross zero are clipped (Sutherland & Hodgman
+/// 1974). Vertices and texture coordinates keep their rows, even if no polygon uses them any more;
+/// new rows follow.
+/// \param signed_distances  #V: the function at each vertex
+Mesh cut_mesh(const Mesh& mesh, std::span<const double> signed_distances);
 
 }  // namespace crowdface

@@ -64,9 +64,9 @@ FaceComparison::FaceComparison(const PicturedCrowd& crowd)
     : crowd_(crowd), comparison_(crowd.config.output.contact_sheet->compare) {
   if (comparison_.with != With::kFile) return;
   if (std::filesystem::is_directory(comparison_.file)) {
-    others_ = crowd_at(comparison_.file);
+    other_crowd_ = crowd_at(comparison_.file);
   } else {
-    reference_ = read_reference(comparison_.file, crowd.inputs.faces.topology.vertex_count);
+    reference_mesh_ = read_reference(comparison_.file, crowd.inputs.faces.topology.vertex_count);
   }
 }
 
@@ -77,7 +77,7 @@ Positions FaceComparison::mesh_of(std::size_t face) const {
 
 /// The mesh to compare with the face; nothing if faces are not compared, or if the crowd has no
 /// other face.
-std::optional<Positions> FaceComparison::other(std::size_t face) const {
+std::optional<Positions> FaceComparison::compared_mesh(std::size_t face) const {
   switch (comparison_.with) {
     case With::kTarget:
       return target_positions(crowd_.inputs.faces, crowd_.faces[face].recipe);
@@ -85,9 +85,9 @@ std::optional<Positions> FaceComparison::other(std::size_t face) const {
       if (crowd_.likeness.neighbours[face].empty()) return std::nullopt;
       return mesh_of(crowd_.likeness.neighbours[face].front().face);
     case With::kFile:
-      if (reference_.rows() > 0) return reference_;
-      return read_face(others_, crowd_.faces[face].id,
-                       {format_of_face(others_, crowd_.faces[face].id)},
+      if (reference_mesh_.rows() > 0) return reference_mesh_;
+      return read_face(other_crowd_, crowd_.faces[face].id,
+                       {format_of_face(other_crowd_, crowd_.faces[face].id)},
                        crowd_.inputs.faces.topology.vertex_count);
     case With::kNothing:
       break;
@@ -97,7 +97,7 @@ std::optional<Positions> FaceComparison::other(std::size_t face) const {
 
 ComparedFace FaceComparison::compare(std::size_t face) const {
   Positions mesh = mesh_of(face);
-  const auto with = other(face);
+  const auto with = compared_mesh(face);
   if (!with) return {mesh, Eigen::VectorXd::Zero(mesh.rows())};
   const Similarity move = fit_similarity(*with, mesh, ScaleFit::kRigid);
   return {mesh, mm_per(crowd_.config.faces.units) * (move.apply(*with) - mesh).rowwise().norm()};

@@ -11,9 +11,8 @@
 
 namespace crowdface {
 
-/// A face and the distance of each of its vertices to the same vertex of another mesh, after that
-/// mesh is fitted rigidly to the face. If there is no other mesh, as for the only face of a crowd,
-/// all distances are 0.
+/// A face, and its vertices' distances to the same vertices of another mesh that was fitted rigidly
+/// to the face. All distances are 0 if there is no other mesh.
 struct ComparedFace {
   Positions mesh;
   Eigen::VectorXd mm;  ///< #V distances
@@ -22,7 +21,7 @@ struct ComparedFace {
 /// Compares the faces of a crowd with other meshes, as the contact sheet's key `compare` specifies.
 class FaceComparison {
  public:
-  /// \throws Error if a file to compare with cannot be read.
+  /// \throws Error if a file with a mesh for comparison cannot be read.
   explicit FaceComparison(const PicturedCrowd& crowd);
 
   ComparedFace compare(std::size_t face) const;
@@ -33,16 +32,15 @@ class FaceComparison {
 
  private:
   Positions mesh_of(std::size_t face) const;
-  std::optional<Positions> other(std::size_t face) const;
+  std::optional<Positions> compared_mesh(std::size_t face) const;
 
   const PicturedCrowd& crowd_;
   const Config::Comparison& comparison_;
-  CrowdDirectory others_;  ///< the crowd that `comparison` names, if any
-  Positions reference_;    ///< the mesh to compare all faces with, or empty
+  CrowdDirectory other_crowd_;  ///< the crowd that `comparison` names, if any
+  Positions reference_mesh_;    ///< the mesh to compare all faces with, or empty
 };
 
-/// Checks the mesh file that the config names to compare with, if any, and adds errors to
-/// `problems`.
+/// Checks the config's mesh file for comparison, if there is one, and adds errors to `problems`.
 void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems);
 
 /// Checks, before the run makes any face, that the crowd to compare with has a mesh for every face

@@ -27,8 +27,8 @@ using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
 constexpr std::size_t kMaxTriangles = 24'000;
-/// Limit for triangles behind closed lips, because the meshes of teeth and mouth cavity are finer
-/// than the face's mesh.
+/// Limit for hidden triangles, such as triangles behind closed lips: teeth and mouth cavity have
+/// finer meshes than the face.
 constexpr std::size_t kMaxHidden = 2'000;
 /// Width and height of a face's textures; half of this if there are more than two textures.
 constexpr int kMaxTexels = 1024;
@@ -53,8 +53,8 @@ std::vector<float> openness_at(const Topology& topology, const std::vector<Surfa
   return open_at;
 }
 
-/// Labels polygons for split_mesh: polygons with the same label share the same texture, or have no
-/// texture, on every head.
+/// Labels polygons for split_mesh: on every head, polygons with the same label have the same
+/// texture or none.
 /// \return #F labels; kNoIndex for polygons that are not shown.
 /// \param faces  number of polygons of the face; all later polygons belong to the body
 std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
@@ -193,13 +193,13 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   add_shapes(surfaces, mean);
 }
 
-double GalleryMeshes::min_move() const {
+double GalleryMeshes::min_displacement() const {
   return kMinMoveMm / mm_per(config_.faces.units);
 }
 
 void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) {
   if (inputs_.shapes.shapes.empty()) return;
-  const double least = min_move();
+  const double least = min_displacement();
   for (const Shape& shape : inputs_.shapes.shapes) {
     // Store the vertices of the reduced mesh that the shape moves visibly.
     ShownMoves& shown = shown_moves_.emplace_back();
@@ -213,8 +213,8 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shown.vertices.push_back(v);
     }
   }
-  // Also compute the visibility for the shape that moves vertices most, because an open mouth lets
-  // light reach more vertices.
+  // Also compute the visibility for the shape with the largest displacements, because an open mouth
+  // lets light reach more vertices.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
   widest_shape_ = static_cast<std::size_t>(
@@ -229,7 +229,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   for (float& open : visibility_) open = std::max(open, kMinLight);
 }
 
-std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried) const {
+std::string GalleryMeshes::pack_shapes(std::span<const Displacements> carried) const {
   std::string bytes;
   for (std::size_t s = 0; s < carried.size(); ++s) {
     for (const std::uint32_t row : shown_moves_[s].rows) {
@@ -239,7 +239,7 @@ std::string GalleryMeshes::packed_shapes(std::span<const Displacements> carried)
   return bytes;
 }
 
-std::string GalleryMeshes::skin(const TextureSet& texture_set) const {
+std::string GalleryMeshes::textures_as_json(const TextureSet& texture_set) const {
   std::vector<std::uint32_t> placed;  // indices of textures, without duplicates
   Json pictures = Json::array(), of_look = Json::array();
   for (const std::uint32_t first : mesh_.material_starts) {
@@ -261,7 +261,7 @@ std::string GalleryMeshes::skin(const TextureSet& texture_set) const {
   return Json{{"pictures", std::move(pictures)}, {"of_look", std::move(of_look)}}.dump();
 }
 
-std::string GalleryMeshes::roughness(const TextureSet& texture_set) const {
+std::string GalleryMeshes::pack_roughness(const TextureSet& texture_set) const {
   std::string bytes;
   if (texture_set.roughness.of_face.empty()) return bytes;
   constexpr float kSkin = 0.56F;  // the page's value for skin without a roughness map
@@ -272,7 +272,7 @@ std::string GalleryMeshes::roughness(const TextureSet& texture_set) const {
   return bytes;
 }
 
-std::string GalleryMeshes::shades(const VertexColours& colours) const {
+std::string GalleryMeshes::pack_vertex_colours(const VertexColours& colours) const {
   std::string bytes;
   for (Index v = 0; v < colours.rows(); ++v) {
     for (int c = 0; c < 3; ++c) {
@@ -298,7 +298,7 @@ std::string GalleryMeshes::shared_script() const {
     json["uvs"] = base64(little_endian(mesh_.uvs));
     json["looks"] = mesh_.material_starts;
   }
-  json["colours"] = base64(shades(colours_));
+  json["colours"] = base64(pack_vertex_colours(colours_));
   add_eyes(config_, inputs_, pictured_mesh_, mesh_, json);
   const auto light = [](const std::vector<float>& open) {
     std::string bytes;
@@ -329,28 +329,29 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
   if (texture_set != nullptr && !texture_places_.empty()) {
     lean = [&](std::size_t v, const Eigen::Vector3d& normal) {
-      return leaning_normal(*texture_set, pictured_mesh_.topology(), pictured_mesh_.uvs(),
-                            texture_places_[v], positions, normal);
+      return tilted_normal(*texture_set, pictured_mesh_.topology(), pictured_mesh_.uvs(),
+                           texture_places_[v], positions, normal);
     };
   }
   std::string bytes =
       pack_face(pictured_mesh_.topology(), mesh_.vertices, vertex_faces_, frame_, positions, lean);
-  if (texture_set != nullptr) bytes += roughness(*texture_set);
+  if (texture_set != nullptr) bytes += pack_roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
   if (!shown_moves_.empty())
-    parts.push_back(concat("\"moves\":\"", base64(packed_shapes(moves)), '"'));
+    parts.push_back(concat("\"moves\":\"", base64(pack_shapes(moves)), '"'));
   if (!placed.empty()) {
     std::vector<std::string> packed;
     for (const PlacedAttachment& one : placed) {
       packed.push_back(concat(Json(one.look().name()).dump(), ':',
-                              attachments_.packed(one, frame_, min_move())));
+                              attachments_.positions_as_json(one, frame_, min_displacement())));
     }
     parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }
-  if (texture_set != nullptr) parts.push_back(concat("\"skin\":", skin(*texture_set)));
+  if (texture_set != nullptr) parts.push_back(concat("\"skin\":", textures_as_json(*texture_set)));
   if (colours != nullptr) {
-    parts.push_back(
-        concat("\"colours\":\"", base64(shades((*colours)(mesh_.vertices, kAllColumns))), '"'));
+    parts.push_back(concat("\"colours\":\"",
+                           base64(pack_vertex_colours((*colours)(mesh_.vertices, kAllColumns))),
+                           '"'));
   }
   return concat("crowdface.setFace(", Json(name).dump(), ",{", join(parts, ","), "});\n");
 }
@@ -358,7 +359,7 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
 std::string GalleryMeshes::attachment_script(const AttachmentLook& look,
                                              const AttachmentSurfaces& surfaces) const {
   return concat("crowdface.setAttachment(", Json(look.name()).dump(), ',',
-                attachments_.look(look, surfaces.at(*look.item)), ");\n");
+                attachments_.look_as_json(look, surfaces.at(*look.item)), ");\n");
 }
 
 }  // namespace crowdface

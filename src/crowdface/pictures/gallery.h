@@ -24,8 +24,8 @@ namespace crowdface {
 /// load scripts but no other files. The data that all faces share is computed once.
 class GalleryMeshes {
  public:
-  /// \param inputs, shown  must outlive this object.
-  GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& shown);
+  /// \param inputs, pictured_mesh  must outlive this object.
+  GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& pictured_mesh);
 
   /// The file data/mesh.js: triangles, colours, texture coordinates and the coordinate frame of
   /// packed positions.
@@ -47,16 +47,17 @@ class GalleryMeshes {
                                 const AttachmentSurfaces& surfaces) const;
 
  private:
-  /// Three bytes (sRGB) per vertex; colours are darker where little of the sky is visible.
-  std::string shades(const VertexColours& colours) const;
+  /// The vertex colours as three sRGB bytes per vertex, darkened at vertices from which little of
+  /// the sky is visible.
+  std::string pack_vertex_colours(const VertexColours& colours) const;
   /// Returns as JSON the textures of a set, and for each material of the reduced mesh the index of
   /// its texture.
-  std::string skin(const TextureSet& texture_set) const;
+  std::string textures_as_json(const TextureSet& texture_set) const;
   /// The roughness of each vertex, one byte per vertex; empty if the set has no roughness maps.
-  std::string roughness(const TextureSet& texture_set) const;
-  double min_move() const;
+  std::string pack_roughness(const TextureSet& texture_set) const;
+  double min_displacement() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
-  std::string packed_shapes(std::span<const Displacements> carried) const;
+  std::string pack_shapes(std::span<const Displacements> carried) const;
 
   const Config& config_;
   const Inputs& inputs_;

@@ -13,7 +13,7 @@ namespace crowdface {
 namespace fs = std::filesystem;
 
 std::optional<fs::path> gallery_page_folder() {
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread sets environment variables
   if (const char* chosen = std::getenv("CROWDFACE_GALLERY"); chosen != nullptr && *chosen != 0) {
     return chosen;
   }

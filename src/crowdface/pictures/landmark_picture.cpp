@@ -47,7 +47,7 @@ void draw_label(const std::string& label, const Pixel& at, Rgb8Image& image) {
   constexpr int kHeight = 15, kPerLetter = 9, kBeside = 6;
   const Rgb8Image text =
       label_strip(label, kPerLetter * static_cast<int>(label.size()) + 4, kHeight,
-                  {.text_px = 12, .text = {255, 255, 255}, .background = kRim});
+                  {.text_px = 12, .text_colour = {255, 255, 255}, .background_colour = kRim});
   const int left = std::clamp(static_cast<int>(at.x) + kBeside, 0, image.width - text.width);
   const int top = std::clamp(static_cast<int>(at.y) - kHeight / 2, 0, image.height - kHeight);
   for (int y = 0; y < text.height; ++y) {

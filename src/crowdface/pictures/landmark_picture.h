@@ -16,7 +16,7 @@ struct LabelledPoint {
 };
 
 /// Draws an image of a head with labelled points, as the bytes of a PNG file: all views of
-/// `renders` side by side. Each view shows the points on skin that faces its camera.
+/// `renders` side by side. Each view shows only the points on skin that faces its camera.
 std::string landmark_picture(const CrowdRenders& renders, const Topology& topology,
                              const Positions& head, const std::vector<LabelledPoint>& points);
 

@@ -17,7 +17,7 @@ std::uint8_t srgb_byte(float light);
 
 /// The texture as JPEG in sRGB.
 std::string colour_picture(const Texture& texture, int max_px);
-/// The first channel as a PNG with one channel.
+/// The first channel of the texture as a PNG with one channel.
 std::string opacity_picture(const Texture& texture, int max_px);
 
 }  // namespace crowdface

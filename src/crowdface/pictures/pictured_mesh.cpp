@@ -115,14 +115,14 @@ Eigen::Vector3d PicturedMesh::lowest_shown() const {
   return middle + (lowest - middle.dot(up)) * up;
 }
 
-Positions PicturedMesh::with_body(const Positions& face) const {
+Positions PicturedMesh::add_body(const Positions& face) const {
   Positions joined(face.rows() + body_->points.rows(), 3);
   joined << face, body_->points;
   return joined;
 }
 
-TextureSet PicturedMesh::with_body(TextureSet textures, const BlendedPicture* body,
-                                   int max_px) const {
+TextureSet PicturedMesh::add_body(TextureSet textures, const BlendedPicture* body,
+                                  int max_px) const {
   const auto polygons = static_cast<std::size_t>(body_->topology.face_count());
   const auto faces = static_cast<std::size_t>(inputs_.faces.topology.face_count());
   textures.of_face.resize(faces, TextureSet::kNone);
@@ -154,7 +154,7 @@ TextureSet PicturedMesh::with_body(TextureSet textures, const BlendedPicture* bo
   return textures;
 }
 
-VertexColours PicturedMesh::with_body(const VertexColours& face, const BlendedPicture* body) const {
+VertexColours PicturedMesh::add_body(const VertexColours& face, const BlendedPicture* body) const {
   const float grey = to_srgb(albedo_of(SurfaceKind::kSkin))[1];
   VertexColours joined = VertexColours::Constant(face.rows() + body_->points.rows(), 3, grey);
   joined.topRows(face.rows()) = face;

@@ -19,8 +19,8 @@ namespace crowdface {
 /// normals there. The body is cut at the chest. Vertices and polygons of the face come first.
 class PicturedMesh {
  public:
-  /// Height of the part of the body that images of faces show below the heads, as a fraction of the
-  /// heads' height.
+  /// Images of faces show this much of the body below the heads, as a fraction of the heads'
+  /// height.
   static constexpr double kShoulderHeight = 0.1;
 
   /// \param inputs    must outlive this object.
@@ -35,17 +35,17 @@ class PicturedMesh {
   /// The vertex positions of the body; no rows if the body is not shown.
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }
 
-  /// The lowest point that images of faces with the body must show. Requires has_body().
+  /// The lowest point of the body that images of faces must show. Requires has_body().
   Eigen::Vector3d lowest_shown() const;
 
   /// Adds the body to a face. Requires has_body().
-  Positions with_body(const Positions& face) const;
+  Positions add_body(const Positions& face) const;
   /// Adds the body's texture to the face's textures. The body gets the mean roughness of the face
   /// at the neck ring.
   /// \param body    texture of the body, or null
   /// \param max_px  maximum side length of that texture
-  TextureSet with_body(TextureSet textures, const BlendedPicture* body, int max_px) const;
-  VertexColours with_body(const VertexColours& face, const BlendedPicture* body) const;
+  TextureSet add_body(TextureSet textures, const BlendedPicture* body, int max_px) const;
+  VertexColours add_body(const VertexColours& face, const BlendedPicture* body) const;
 
  private:
   struct Body {
@@ -69,11 +69,11 @@ class PicturedFace {
                const BlendedPicture* body = nullptr, int max_px = 0)
       : positions_(&positions), textures_(textures), colours_(colours) {
     if (!mesh.has_body()) return;
-    positions_ = &joined_positions_.emplace(mesh.with_body(positions));
+    positions_ = &joined_positions_.emplace(mesh.add_body(positions));
     if (textures != nullptr) {
-      textures_ = &joined_textures_.emplace(mesh.with_body(*textures, body, max_px));
+      textures_ = &joined_textures_.emplace(mesh.add_body(*textures, body, max_px));
     }
-    if (colours != nullptr) colours_ = &joined_colours_.emplace(mesh.with_body(*colours, body));
+    if (colours != nullptr) colours_ = &joined_colours_.emplace(mesh.add_body(*colours, body));
   }
   PicturedFace(const PicturedFace&) = delete;
   PicturedFace& operator=(const PicturedFace&) = delete;

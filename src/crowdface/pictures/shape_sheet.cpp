@@ -69,7 +69,7 @@ void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
     const std::span shown =
         std::span(columns).subspan(first, std::min(per_page, columns.size() - first));
     std::vector<SheetCell> cells;
-    add_row(crowd.renders, shown, set.of_head.empty() ? "template" : "mean head", set.neutral,
+    add_row(crowd.renders, shown, set.head_shapes.empty() ? "template" : "mean head", set.neutral,
             of_template, cells);
     for (std::size_t f = 0; f < faces; ++f) {
       throw_if_interrupted();

@@ -37,11 +37,11 @@ std::string to_exr(const Rgb8Image& image) {
 SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
                          std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {
-  pngs_.reserve(kPagesPerVolume);  // background tasks point to elements, which must not move
+  volume_pngs_.reserve(kPagesPerVolume);  // background tasks point to elements, which must not move
 }
 
 std::filesystem::path SheetWriter::add_file(const std::string& name) {
-  return written_.emplace_back(folder_ / name);
+  return written_files_.emplace_back(folder_ / name);
 }
 
 void SheetWriter::write_in_background(const std::string& stem, Rgb8Image page) {
@@ -50,7 +50,8 @@ void SheetWriter::write_in_background(const std::string& stem, Rgb8Image page) {
   const auto png_file = add_file(stem + ".png");
   std::filesystem::path exr_file;
   if (contains(formats_, SheetFormat::kExr)) exr_file = add_file(stem + ".exr");
-  std::string* kept = contains(formats_, SheetFormat::kPdf) ? &pngs_.emplace_back() : nullptr;
+  std::string* kept =
+      contains(formats_, SheetFormat::kPdf) ? &volume_pngs_.emplace_back() : nullptr;
   tasks_.run([png_file, exr_file, kept, page = std::move(page)] {
     std::string png = to_png(page);
     write_file(png_file, png);
@@ -65,44 +66,45 @@ void SheetWriter::wait() {
 }
 
 void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8Image page) {
-  if (index_.size() == kPagesPerVolume) finish_volume(false);
+  if (index_cells_.size() == kPagesPerVolume) finish_volume(false);
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
-  index_.push_back({shrink_picture(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
-                    concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
+  index_cells_.push_back(
+      {shrink_picture(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
+       concat(std::filesystem::path(stem).filename().string(), "\n", caption)});
   write_in_background(stem, std::move(page));
 }
 
 void SheetWriter::write_index(const std::string& number) {
   const auto columns = static_cast<int>(
-      std::clamp(std::ceil(std::sqrt(static_cast<double>(index_.size()))), 1.0, 8.0));
+      std::clamp(std::ceil(std::sqrt(static_cast<double>(index_cells_.size()))), 1.0, 8.0));
   const std::size_t before = volumes_ * kPagesPerVolume;
-  const std::string note = number.empty()
-                               ? concat(index_.size(), " sheets")
-                               : concat("sheets ", before + 1, " to ", before + index_.size());
+  const std::string note =
+      number.empty() ? concat(index_cells_.size(), " sheets")
+                     : concat("sheets ", before + 1, " to ", before + index_cells_.size());
   const Rgb8Image page = sheet_in_columns(
-      index_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
+      index_cells_, {.columns = columns, .rows = 0, .title = title_, .legend = {}, .note = note});
   const std::string png = to_png(page);
   write_file(add_file(concat("index", number, ".png")), png);
   wait();
-  if (contains(formats_, SheetFormat::kPdf)) pngs_.insert(pngs_.begin(), png);
+  if (contains(formats_, SheetFormat::kPdf)) volume_pngs_.insert(volume_pngs_.begin(), png);
 }
 
 void SheetWriter::finish_volume(bool is_last) {
   const bool is_only = is_last && volumes_ == 0;
   const std::string number = is_only ? std::string() : concat('_', zero_padded(volumes_ + 1, 3));
-  if (!is_only || index_.size() > 1) write_index(number);
+  if (!is_only || index_cells_.size() > 1) write_index(number);
   wait();
-  if (!pngs_.empty()) {
-    write_file(add_file(concat("sheets", number, ".pdf")), encode_pdf(pngs_));
+  if (!volume_pngs_.empty()) {
+    write_file(add_file(concat("sheets", number, ".pdf")), encode_pdf(volume_pngs_));
   }
-  index_.clear();
-  pngs_.clear();
+  index_cells_.clear();
+  volume_pngs_.clear();
   ++volumes_;
 }
 
 std::vector<std::filesystem::path> SheetWriter::finish() {
   finish_volume(true);
-  return std::move(written_);
+  return std::move(written_files_);
 }
 
 }  // namespace crowdface

@@ -38,10 +38,10 @@ class SheetWriter {
   std::filesystem::path folder_;
   std::vector<SheetFormat> formats_;
   std::string title_;
-  std::size_t volumes_ = 0;        ///< number of finished volumes
-  std::vector<std::string> pngs_;  ///< pages of the current volume, if a PDF is requested
-  std::vector<SheetCell> index_;   ///< pages in the index of the current volume
-  std::vector<std::filesystem::path> written_;
+  std::size_t volumes_ = 0;               ///< number of finished volumes
+  std::vector<std::string> volume_pngs_;  ///< pages of the current volume, if a PDF is requested
+  std::vector<SheetCell> index_cells_;    ///< pages in the index of the current volume
+  std::vector<std::filesystem::path> written_files_;
   int pages_in_memory_ = 0;
   // Last member, so that its tasks end before the members they use are destroyed.
   BackgroundTasks tasks_;

@@ -104,7 +104,8 @@ class CrowdSheets {
     return pages;
   }
 
-  /// Adds cells in as many rows as needed, on several pages if one page would be too large.
+  /// Adds a sheet with as many rows as its cells need, on several pages if one page would be too
+  /// large.
   /// \param stem  returns the file name of a page without extension; takes the page number, from 1.
   void add_tall_pages(const std::function<std::string(std::size_t)>& stem,
                       const std::string& caption, const std::string& title, const std::string& note,
@@ -180,7 +181,7 @@ class CrowdSheets {
       const Rgb8Image face = read_render(crowd_.directory.render(crowd_.faces[members.front()].id));
       return {pad_picture({}, face.width, face.height), ""};
     };
-    // The file name is unambiguous, because names of families contain no '+'.
+    // Separate the parts of the file name by '+', which names of families do not contain.
     const auto stem = [&](std::size_t page) {
       return concat("family_", family, page > 1 ? concat('+', page) : std::string());
     };

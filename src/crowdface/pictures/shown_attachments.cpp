@@ -51,7 +51,7 @@ Json part_to_json(const PreviewMesh& mesh, const Positions& positions,
   json["twins"] = base64(little_endian(mesh.twins));
   if (!mesh.uvs.empty()) json["uvs"] = base64(little_endian(mesh.uvs));
   json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
-  json["share"] = material.share;
+  json["share"] = material.opacity_factor;
   if (mesh.uvs.empty()) return json;
   if (material.texture) json["picture"] = colour_picture(*material.texture, kMaxAttachmentTexels);
   if (material.opacity)
@@ -80,8 +80,8 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
   });
 }
 
-std::string ShownAttachments::look(const AttachmentLook& look,
-                                   const AttachmentSurface& surface) const {
+std::string ShownAttachments::look_as_json(const AttachmentLook& look,
+                                           const AttachmentSurface& surface) const {
   const Parts& meshes = parts(*look.item);
   Json json = Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -91,8 +91,8 @@ std::string ShownAttachments::look(const AttachmentLook& look,
   return json.dump();
 }
 
-std::string ShownAttachments::packed(const PlacedAttachment& placed, const PackingFrame& frame,
-                                     double least) const {
+std::string ShownAttachments::positions_as_json(const PlacedAttachment& placed,
+                                                const PackingFrame& frame, double least) const {
   std::vector<std::uint32_t> shown;
   for (const PreviewMesh& part : parts(*placed.item)) {
     shown.insert(shown.end(), part.vertices.begin(), part.vertices.end());

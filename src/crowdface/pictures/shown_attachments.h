@@ -16,13 +16,14 @@ namespace crowdface {
 /// once; each face only adds positions. Thread-safe.
 class ShownAttachments {
  public:
-  /// The part of an attachment that does not depend on the face, as JSON: triangles and appearance
-  /// for each material.
-  std::string look(const AttachmentLook& look, const AttachmentSurface& surface) const;
+  /// The triangles and the appearance of each material of an attachment, which do not depend on the
+  /// face, as JSON.
+  std::string look_as_json(const AttachmentLook& look, const AttachmentSurface& surface) const;
   /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
   /// of the face the vertices that the shape moves, with their displacements.
-  /// \param least  shortest displacement to store, in the unit of the positions
-  std::string packed(const PlacedAttachment& placed, const PackingFrame& frame, double least) const;
+  /// \param min_displacement  shortest displacement to store, in the unit of the positions
+  std::string positions_as_json(const PlacedAttachment& placed, const PackingFrame& frame,
+                                double min_displacement) const;
   /// Positions on a face as plain numbers, three per vertex.
   std::vector<float> points(const PlacedAttachment& placed) const;
 

@@ -44,8 +44,8 @@ double covered(const Image& image, const Topology& topology, const TextureCoordi
   return count == 0 ? 1 : sum / static_cast<double>(count);
 }
 
-/// Whether a material is mostly transparent on these polygons, as on shells over the eyes and on
-/// lash cards.
+/// Whether a material is mostly transparent on these polygons; this is true for shells over the
+/// eyes and for lash cards.
 bool is_see_through(const SurfaceMaterial& material, const HeadSet& faces,
                     const std::vector<Index>& of_material) {
   constexpr double kSolid = 0.9;

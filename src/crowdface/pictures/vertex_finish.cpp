@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The texture of the layer at a vertex, or null.
+/// The layer's texture that covers a vertex, or null.
 const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
   if (place.face < 0 || layer.of_face.empty()) return nullptr;
   const std::uint32_t picture = layer.of_face[static_cast<std::size_t>(place.face)];
@@ -33,9 +33,9 @@ Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
 
 }  // namespace
 
-Vector3d leaning_normal(const TextureSet& texture_set, const Topology& topology,
-                        const TextureCoordinates& coordinates, const TexturePlace& place,
-                        const Positions& positions, const Vector3d& normal) {
+Vector3d tilted_normal(const TextureSet& texture_set, const Topology& topology,
+                       const TextureCoordinates& coordinates, const TexturePlace& place,
+                       const Positions& positions, const Vector3d& normal) {
   const Texture* slopes = picture_at(texture_set.slopes, place);
   if (slopes == nullptr) return normal;
   // Derive the texture axes from the triangle at the face's first corner.

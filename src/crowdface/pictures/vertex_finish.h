@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Position, in the textures, of a vertex of a reduced mesh.
+/// The position of a reduced mesh's vertex in the textures of the full mesh.
 struct TexturePlace {
   Index face = -1;  ///< face of the full mesh at the vertex; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
@@ -19,9 +19,9 @@ struct TexturePlace {
 /// The vertex normal, tilted by the normal map of the texture set. The map is averaged around the
 /// vertex, because detail finer than the reduced mesh would appear as noise.
 /// \param positions  #V by 3 of the face
-Eigen::Vector3d leaning_normal(const TextureSet& texture_set, const Topology& topology,
-                               const TextureCoordinates& coordinates, const TexturePlace& place,
-                               const Positions& positions, const Eigen::Vector3d& normal);
+Eigen::Vector3d tilted_normal(const TextureSet& texture_set, const Topology& topology,
+                              const TextureCoordinates& coordinates, const TexturePlace& place,
+                              const Positions& positions, const Eigen::Vector3d& normal);
 
 /// The roughness map's value at a vertex, 0 … 1; nothing if there is no roughness map.
 std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePlace& place);

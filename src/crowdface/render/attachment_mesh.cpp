@@ -33,7 +33,7 @@ AttachmentSurface::AttachmentSurface(const Topology& topology, const TextureCoor
       }
       quads_.push_back(quad);
       uvs_.push_back(corner_uvs);
-      materials_of_quads_.push_back(of_face[static_cast<std::size_t>(f)]);
+      material_of_quad_.push_back(of_face[static_cast<std::size_t>(f)]);
     };
     if (end - begin == 4) {
       add({begin, begin + 1, begin + 2, begin + 3});
@@ -50,19 +50,19 @@ Eigen::Vector2f AttachmentSurface::uv_at(std::uint32_t quad, const Eigen::Vector
 }
 
 Light AttachmentSurface::colour(std::uint32_t quad, const Eigen::Vector4f& shares) const {
-  const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
+  const AttachmentMaterial& material = materials_[material_of_quad_[quad]];
   return material.texture ? colour_at(*material.texture, uv_at(quad, shares)) : material.colour;
 }
 
 float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& shares,
                                  std::uint8_t level) const {
-  const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
-  if (!material.opacity) return material.share;
-  return material.share * colour_at(material.opacity->levels[level], uv_at(quad, shares))[0];
+  const AttachmentMaterial& material = materials_[material_of_quad_[quad]];
+  if (!material.opacity) return material.opacity_factor;
+  return material.opacity_factor * colour_at(material.opacity->levels[level], uv_at(quad, shares))[0];
 }
 
 std::uint8_t AttachmentSurface::mip_level(std::uint32_t quad, float pixel_count) const {
-  const AttachmentMaterial& material = materials_[materials_of_quads_[quad]];
+  const AttachmentMaterial& material = materials_[material_of_quad_[quad]];
   if (!material.opacity) return 0;
   const std::vector<Texture>& levels = material.opacity->levels;
   const std::array<Eigen::Vector2f, 4>& uvs = uvs_[quad];

@@ -18,7 +18,7 @@ struct AttachmentMaterial {
   Light colour = Light::Constant(0.5F);         ///< linear; used without a texture
   std::shared_ptr<const Texture> texture = {};  ///< colours, or null
   std::shared_ptr<const MipMap> opacity = {};   ///< opacity in the first channel, or null: opaque
-  float share = 1;                              ///< factor on the opacity, 0 … 1
+  float opacity_factor = 1;                     ///< factor on the opacity, 0 … 1
 };
 
 /// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Front and back
@@ -27,17 +27,18 @@ class AttachmentSurface {
  public:
   /// \param uvs        #T by 2, may be empty.
   /// \param materials  at least one.
-  /// \param of_face    #F: index into `materials`.
+  /// \param material_of_face  #F: index into `materials`.
   AttachmentSurface(const Topology& topology, const TextureCoordinates& uvs,
                     std::vector<AttachmentMaterial> materials,
-                    const std::vector<std::uint32_t>& of_face);
+                    const std::vector<std::uint32_t>& material_of_face);
 
   const Topology& topology() const { return topology_; }
   const NormalFans& fans() const { return fans_; }
   const std::vector<Quad>& quads() const { return quads_; }
   const std::vector<AttachmentMaterial>& materials() const { return materials_; }
 
-  /// Colour at a point of a quad. \param shares  interpolation weights from bilinear_weights.
+  /// Linear colour at a point of a quad. \param shares  interpolation weights from
+  /// bilinear_weights.
   Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
   /// Opacity at a point of a quad. \param level  of the opacity's mip map; see mip_level.
   float opacity(std::uint32_t quad, const Eigen::Vector4f& shares, std::uint8_t level) const;
@@ -52,7 +53,7 @@ class AttachmentSurface {
   NormalFans fans_;
   std::vector<AttachmentMaterial> materials_;
   std::vector<Quad> quads_;
-  std::vector<std::uint32_t> materials_of_quads_;
+  std::vector<std::uint32_t> material_of_quad_;
   std::vector<std::array<Eigen::Vector2f, 4>> uvs_;  ///< #quads
 };
 

@@ -34,7 +34,7 @@ AttachmentStage::AttachmentStage(const RayDevice& device,
             surface.topology().vertex_count, " vertices");
     const auto first = static_cast<std::uint32_t>(points.size() / 3);
     parts_.push_back({&surface, static_cast<std::uint32_t>(quads_.size()), mesh.tint});
-    const std::vector<float> own = to_camera(*mesh.positions, camera);
+    const std::vector<float> own = to_camera_space(*mesh.positions, camera);
     const auto normals = camera_normals(surface.topology(), surface.fans(), own, 1);
     const float pixel_side = 2.0F / static_cast<float>(size_px);  // the image spans −1 … 1
     for (std::size_t q = 0; q < surface.quads().size(); ++q) {

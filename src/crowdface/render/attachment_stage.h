@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// All attachments of a face, in camera space.
+/// All attachments of a face, in camera space, for ray tracing.
 class AttachmentStage {
  public:
   /// \param attachments  at least one; their surfaces must outlive this object.
@@ -24,7 +24,7 @@ class AttachmentStage {
 
   const RayScene& scene() const { return *scene_; }
 
-  /// Surface data at a hit.
+  /// The normal and the colour of an attachment at a hit.
   struct HitSurface {
     Eigen::Vector3f normal;  ///< interpolated; any length, on either side
     Light colour;

@@ -51,9 +51,9 @@ Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
   return camera;
 }
 
-/// The smallest wedge of given slope that contains all added points. A point at offset x and depth
-/// z (towards the camera) is inside a wedge with slope s, centre c and distance d if and only if d
-/// ≥ z + |x − c|/s.
+/// The wedge of fixed slope with the smallest distance that contains all added points, seen from
+/// one side of the camera. A point at offset x and depth z (towards the camera) is inside a wedge
+/// with slope s, centre c and distance d if and only if d ≥ z + |x − c|/s.
 struct Wedge {
   double slope;
   double positive = -std::numeric_limits<double>::infinity();  ///< max of z + x/s
@@ -90,9 +90,9 @@ Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3
   return heights;
 }
 
-/// Returns the height of the throat: the highest slice below the tip of the nose at which the
-/// surface lies at least a quarter of the head's width behind the tip. A chin never lies that far
-/// behind.
+/// Returns the height of the throat: the highest horizontal slice below the tip of the nose in
+/// which the surface lies at least a quarter of the head's width behind the tip. A chin is never
+/// that far behind the tip.
 /// \return nothing if the mesh shows no throat, for example a mask or a head that ends at its chin.
 std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   constexpr std::size_t kSlices = 32, kLowestNose = 9;
@@ -107,7 +107,7 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
     return std::min(kSlices - 1, static_cast<std::size_t>((height - heights.low) * scale));
   };
   constexpr double kNone = -std::numeric_limits<double>::infinity();
-  // The foremost point of each horizontal slice.
+  // The coordinate along the front of the foremost point of each horizontal slice.
   std::array<double, kSlices> ahead;
   ahead.fill(kNone);
   for (Index i = 0; i < head.rows(); ++i) {
@@ -137,8 +137,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   return std::nullopt;
 }
 
-/// The lowest height that must be visible. Necks and shoulders may lie outside the image, chins may
-/// not.
+/// The height of the lowest point that must be visible: necks and shoulders may lie outside the
+/// image, but chins may not.
 double lowest_shown(std::span<const Positions* const> heads, const HeadFrame& frame,
                     const Heights& heights, double cut_below) {
   double lowest = heights.at(cut_below);

@@ -23,8 +23,8 @@ struct Camera {
   double half_tangent = 0.17632698070846498;        ///< tangent of half the field of view
 
   Eigen::Vector3d position() const { return target + distance * back; }
-  /// Half the side of the square that the image shows in the plane through the target (the point
-  /// that the camera looks at).
+  /// Half the side of the image, measured in the plane through `target`, the point that the camera
+  /// looks at.
   double half_extent() const { return distance * half_tangent; }
 };
 
@@ -37,24 +37,25 @@ struct HeadFrame {
 struct FramingOptions {
   double field_of_view_degrees = 20;
   double margin = 0.06;  ///< free border on each side, as a fraction of the image's side
-  /// Fraction of the height of all heads, from the lowest vertex, that may lie outside the image,
-  /// so that the face of a bust fills more of the image. Chins always stay visible.
+  /// Fraction of the heads' height that may be cut off at the bottom of the image, so that the face
+  /// of a bust fills more of the image. Chins always stay visible.
   double cut_below = 0;
   /// Additional points that must be visible, such as points of the hair. Points below the visible
   /// part of the heads are ignored.
   std::vector<Eigen::Vector3d> extra_points = {};
 };
 
-/// The camera at the smallest distance at which all vertices of all heads and `extra_points` are
-/// visible, except the part that `cut_below` allows to lie outside the image. One camera serves all
-/// faces of a set, so that their sizes are comparable.
+/// Returns the camera at the smallest distance at which all vertices of all heads and
+/// `extra_points` are visible, except the part that `cut_below` allows to cut off. Use one camera
+/// for all faces of a set, so that their sizes are comparable.
 /// \param heads  at least one; each #V by 3 in the unit of the files, with at least one vertex.
 /// \throws BrokenPrecondition if there is no vertex, or if up and front are the same axis;
 ///     InvalidInput if a coordinate is not finite.
 Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
                   const FramingOptions& options = {});
 
-/// One camera per view, all at the same distance, so that sizes are comparable between views too.
+/// Returns one camera per view, all at the same distance, so that sizes are comparable between
+/// views too.
 std::vector<Camera> fit_cameras(std::span<const Positions* const> heads, const HeadFrame& frame,
                                 std::span<const View> views, const FramingOptions& options = {});
 

@@ -11,14 +11,14 @@ namespace {
 
 using Vector = Eigen::Vector3f;
 
-/// The layer's texture on a quad, or kNone.
+/// The index of the layer's texture on a quad, or kNone.
 std::uint32_t texture_of(const Stage& stage, const TextureLayer& layer, std::uint32_t primitive) {
-  if (stage.uvs.empty() || layer.of_face.empty()) return TextureLayer::kNone;
-  const TexturedQuad& quad = stage.uvs[primitive];
+  if (stage.textured_quads.empty() || layer.of_face.empty()) return TextureLayer::kNone;
+  const TexturedQuad& quad = stage.textured_quads[primitive];
   return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.of_face[quad.face];
 }
 
-/// The colour texture on a quad, or kNone.
+/// The index of the colour texture on a quad, or kNone.
 std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
   return stage.texture_set == nullptr ? TextureLayer::kNone
                                       : texture_of(stage, *stage.texture_set, primitive);
@@ -27,7 +27,7 @@ std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
 /// Samples a layer's texture at a point of a quad.
 Light texel_at(const Stage& stage, const TextureLayer& layer, std::uint32_t texture,
                std::uint32_t primitive, const Eigen::Vector4f& weights) {
-  const TexturedQuad& quad = stage.uvs[primitive];
+  const TexturedQuad& quad = stage.textured_quads[primitive];
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
   return colour_at(*layer.textures[texture], uv);
@@ -45,8 +45,8 @@ Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vecto
   return eye_albedo(stage.eyes[eye], stage.gaze, point);
 }
 
-/// Makes a unit normal face the viewer. Interpolated normals may face away although the face is
-/// visible, for example at the edge of a coarse ear.
+/// Tilts or flips a unit normal so that it faces the viewer. Interpolated normals may face away
+/// although the face is visible, for example at the edge of a coarse ear.
 Vector towards(const Vector& viewer, const Vector& normal) {
   const float away = normal.dot(viewer);
   return away < 0 ? Vector((normal - away * viewer).normalized()) : normal;
@@ -56,7 +56,7 @@ Vector towards(const Vector& viewer, const Vector& normal) {
 Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal,
                const Light& slopes) {
   const Quad& quad = stage.quads[primitive];
-  const TexturedQuad& textured = stage.uvs[primitive];
+  const TexturedQuad& textured = stage.textured_quads[primitive];
   // Derive the texture axes from the triangle at the first corner, and use them for the whole quad.
   const std::size_t last = quad[2] == quad[3] ? 2 : 3;
   const Vector origin = stage.point(quad[0]);
@@ -97,7 +97,7 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   const Quad& quad = stage.quads[hit.primitive];
   const Eigen::Vector4f weights = bilinear_weights(quad, hit.u, hit.v);
   CameraHit result;
-  result.point = stage.viewer + hit.distance * direction;
+  result.point = stage.viewer_position + hit.distance * direction;
   result.surface.kind = stage.kinds[hit.primitive];
   Vector normal = Vector::Zero();
   Vector colour = Vector::Zero();
@@ -112,7 +112,7 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   const std::uint32_t texture = texture_of(stage, hit.primitive);
   if (texture != TextureSet::kNone && result.surface.kind == SurfaceKind::kSkin)
     result.skin_lightness = stage.skin_lightness[texture];
-  const Vector geometric = stage.winding * hit.normal;
+  const Vector geometric = stage.winding_sign * hit.normal;
   result.surface.inside = geometric.dot(direction) > 0;
   const float side = result.surface.inside ? -1.0F : 1.0F;
   result.surface.to_eye = -direction.normalized();
@@ -131,14 +131,14 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
     if (n.dot(side * geometric) <= 0) continue;
     lift -= weights[c] * std::min(0.0F, (result.point - stage.point(vertex)).dot(n)) * n;
   }
-  result.start = result.point + lift + stage.clearance * side * geometric.normalized();
+  result.ray_origin = result.point + lift + stage.clearance * side * geometric.normalized();
   return result;
 }
 
 CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
   const AttachmentStage::HitSurface place = stage.attachments->surface_at(hit);
   CameraHit result;
-  result.point = stage.viewer + hit.distance * direction;
+  result.point = stage.viewer_position + hit.distance * direction;
   result.surface.kind = SurfaceKind::kAttachment;
   result.surface.albedo = place.colour;
   const Vector geometric = (hit.normal.dot(direction) > 0 ? -1.0F : 1.0F) * hit.normal.normalized();
@@ -148,7 +148,7 @@ CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& di
   result.surface.normal =
       towards(result.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
   result.may_see_key = faces_key(result.surface.normal, result.surface.kind);
-  result.start = result.point + kRayClearance * geometric;
+  result.ray_origin = result.point + kRayClearance * geometric;
   return result;
 }
 

@@ -9,14 +9,15 @@
 
 namespace crowdface {
 
-/// Numbers of shadow rays towards one light: rays that reached the light, and all traced rays.
+/// Weighted numbers of shadow rays towards one light: rays that reached the light, and all traced
+/// rays.
 struct Visibility {
-  float visible = 0;  ///< rays that reached the light
-  float traced = 0;   ///< rays traced
+  float unblocked_rays = 0;  ///< rays that reached the light
+  float traced_rays = 0;     ///< rays traced
 
   void add(const Visibility& other, float weight) {
-    visible += weight * other.visible;
-    traced += weight * other.traced;
+    unblocked_rays += weight * other.unblocked_rays;
+    traced_rays += weight * other.traced_rays;
   }
 };
 
@@ -24,11 +25,11 @@ struct Visibility {
 struct CameraHit {
   Eigen::Vector3f point;
   /// origin of rays from this point to the lights, slightly above the surface
-  Eigen::Vector3f start;
+  Eigen::Vector3f ray_origin;
   ShadePoint surface;
   float skin_lightness = 0;  ///< skin_lightness() of its texture, or 0
   bool may_see_key = false;  ///< whether the key light can contribute at all
-  Visibility key, sky;
+  Visibility key_visibility, sky_visibility;
 };
 
 /// Computes the surface data at a hit on the face. \param direction  direction of the camera ray.

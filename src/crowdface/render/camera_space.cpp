@@ -17,7 +17,7 @@ namespace {
 
 constexpr Index kVertexBlock = 4096;
 
-/// Checks that positions are finite. \param first  vertex number of the first row, for the message
+/// Checks that positions are finite. \param first  vertex index of the first row, for the message
 void check_finite(const Eigen::Ref<const Positions>& some, Index first) {
   if (some.allFinite()) return;
   Index i = 0;
@@ -27,18 +27,18 @@ void check_finite(const Eigen::Ref<const Positions>& some, Index first) {
 
 }  // namespace
 
-Eigen::Vector3f to_camera(const Camera& camera, Axis axis) {
+Eigen::Vector3f to_camera_space(const Camera& camera, Axis axis) {
   const Eigen::Vector3d d = unit_vector(axis);
   return Eigen::Vector3d(d.dot(camera.right), d.dot(camera.up), d.dot(camera.back)).cast<float>();
 }
 
-std::vector<float> to_camera(const Positions& positions, const Camera& camera) {
+std::vector<float> to_camera_space(const Positions& positions, const Camera& camera) {
   std::vector<float> points;
-  to_camera(positions, camera, points);
+  to_camera_space(positions, camera, points);
   return points;
 }
 
-void to_camera(const Positions& positions, const Camera& camera, std::vector<float>& points) {
+void to_camera_space(const Positions& positions, const Camera& camera, std::vector<float>& points) {
   Eigen::Matrix3d axes;
   axes << camera.right.transpose(), camera.up.transpose(), camera.back.transpose();
   axes /= camera.half_extent();

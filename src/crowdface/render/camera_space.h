@@ -13,25 +13,25 @@
 namespace crowdface {
 
 // Camera space: x right, y up, z towards the camera, origin at the point that the camera looks at.
-// One unit is half the side of the image in the plane z = 0, so that tolerances do not depend on
-// the unit of the files.
+// One unit is half the side of the image, measured in the plane z = 0, so that tolerances do not
+// depend on the unit of the files.
 
 /// Transforms positions to camera space: x, y, z of each vertex. \throws InvalidInput if a position
 /// is not finite.
-std::vector<float> to_camera(const Positions& positions, const Camera& camera);
+std::vector<float> to_camera_space(const Positions& positions, const Camera& camera);
 /// Transforms positions to camera space and writes them to existing memory.
-void to_camera(const Positions& positions, const Camera& camera, std::vector<float>& points);
+void to_camera_space(const Positions& positions, const Camera& camera, std::vector<float>& points);
 
 /// Transforms an axis of the file to a unit vector in camera space.
-Eigen::Vector3f to_camera(const Camera& camera, Axis axis);
+Eigen::Vector3f to_camera_space(const Camera& camera, Axis axis);
 
-/// Returns #V unit vertex normals times `sign`, in single precision.
+/// Returns the vertex normals times `sign`: #V unit vectors in camera space.
 /// \param fans    faces around each vertex of the topology.
-/// \param points  positions from to_camera.
+/// \param points  positions from to_camera_space.
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign);
 
-/// Memory for computing normals, which can be reused from face to face.
+/// Computes vertex normals in memory that it reuses from face to face.
 struct CameraNormals {
   std::vector<Eigen::Vector3f> areas;    ///< #F area vectors: twice the area times the normal
   std::vector<Eigen::Vector3f> normals;  ///< #V

@@ -28,19 +28,19 @@ int lines_of(const std::string& label) {
   return 1 + static_cast<int>(std::count(label.begin(), label.end(), '\n'));
 }
 
-/// Draws the lines of a label; the first line has the brightest colour.
+/// Draws the lines of a label, the first line in the brightest colour.
 void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& layout, int left,
                 int top) {
   const int line_height = layout.label_height / layout.label_lines;
   LabelStyle style;
-  style.background = kBackground;
+  style.background_colour = kBackground;
   style.text_px = std::max(9, line_height * 13 / 20);
   for (std::size_t begin = 0; begin <= label.size(); top += line_height) {
     const std::size_t end = std::min(label.find('\n', begin), label.size());
     sheet.paste(
         label_strip(label.substr(begin, end - begin), layout.cell_width, line_height, style), left,
         top);
-    style.text = {160, 161, 164};
+    style.text_colour = {160, 161, 164};
     begin = end + 1;
   }
 }
@@ -48,7 +48,7 @@ void draw_label(const std::string& label, Rgb8Image& sheet, const SheetLayout& l
 void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions& options) {
   const int inner = layout.width() - 2 * layout.margin;
   LabelStyle style;
-  style.background = kBackground;
+  style.background_colour = kBackground;
   style.text_px = layout.header_height * 2 / 5;
   style.align = TextAlign::kLeft;
   const int title_width = options.note.empty() ? inner : inner * 2 / 3;
@@ -56,7 +56,7 @@ void draw_header(Rgb8Image& sheet, const SheetLayout& layout, const SheetOptions
               0);
   if (options.note.empty()) return;
   style.text_px = layout.header_height * 3 / 10;
-  style.text = {150, 151, 154};
+  style.text_colour = {150, 151, 154};
   style.align = TextAlign::kRight;
   sheet.paste(label_strip(options.note, inner - title_width, layout.header_height, style),
               layout.margin + title_width, 0);

@@ -31,7 +31,7 @@ struct SheetOptions {
   std::string note = {};  ///< top right, such as "sheet 2 of 5"
 };
 
-/// Positions and sizes on a sheet, in pixels.
+/// Positions and sizes of the parts of a sheet, in pixels.
 struct SheetLayout {
   int columns, rows;
   int cell_width, cell_height;

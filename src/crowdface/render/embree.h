@@ -13,7 +13,7 @@
 
 namespace crowdface::embree {
 
-/// Coherent: the rays of a packet have similar directions; Embree then traces them faster.
+/// kCoherent: the rays of a packet have similar directions, so that Embree can trace them faster.
 enum class Rays { kIncoherent, kCoherent };
 
 #if CROWDFACE_EMBREE == 4
@@ -27,7 +27,7 @@ inline RTCIntersectArguments intersect_arguments(Rays rays) {
 
 /// Finds the first hit of each ray of a packet.
 /// \param valid  -1 for lanes with a ray, 0 for the others; aligned to 64 bytes.
-/// \param query  On entry, holds the rays and empty hits; on return, the distances and hits.
+/// \param query  Rays with empty hits; the function writes the distances and hits.
 inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit8& query) {
   RTCIntersectArguments arguments = intersect_arguments(rays);
   rtcIntersect8(valid, scene, &query, &arguments);
@@ -37,7 +37,7 @@ inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit16& 
   rtcIntersect16(valid, scene, &query, &arguments);
 }
 
-/// Sets `tfar` of each ray that hits a surface to -infinity.
+/// Finds out which rays are blocked: sets `tfar` of each ray that hits a surface to -infinity.
 inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays, nullptr);
 }

@@ -11,7 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// A smooth step from 0 to 1 over the interval `edge` ± kIrisSoftness.
+/// Returns how far `x` lies beyond `edge`: a smooth step from 0 at edge − kIrisSoftness to 1 at
+/// edge + kIrisSoftness.
 float beyond(float edge, float x) {
   const float t = std::clamp((x - edge + kIrisSoftness) / (2 * kIrisSoftness), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
@@ -44,7 +45,7 @@ Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>&
 std::vector<PlacedEye> place_eyes(const Eyeballs& eyeballs, const std::vector<float>& points,
                                   const Eigen::Vector3f& gaze) {
   using Box = Eigen::AlignedBox3f;
-  const auto [across, along] = perpendicular(gaze);
+  const auto [across, along] = tangent_basis(gaze);
   std::vector<Box> boxes(eyeballs.count);  // axes: across, along, gaze
   for (std::size_t i = 0; i < eyeballs.of_vertex.size(); ++i) {
     if (eyeballs.of_vertex[i] == Eyeballs::kNone) continue;

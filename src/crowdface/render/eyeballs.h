@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// The eyeballs of a mesh: connected components of the faces of kind kEye. An eyeball without a
-/// texture would be plain white, so the renderer paints an iris on it, looking straight ahead.
+/// The eyeballs of a mesh: connected components of the faces of kind kEye. On eyeballs without a
+/// texture, the renderer paints an iris that looks straight ahead.
 struct Eyeballs {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   /// #V eyeball numbers or kNone; empty if there are no eyeballs
@@ -33,7 +33,7 @@ inline constexpr float kIrisSoftness = 0.025F;
 /// Position and size of an eyeball in one head.
 struct PlacedEye {
   Eigen::Vector3f centre;
-  /// Half the larger extent perpendicular to the gaze.
+  /// Half the larger of the two extents perpendicular to the gaze.
   float radius = 0;
 };
 

@@ -34,7 +34,7 @@ namespace {
 /// surface.
 constexpr float kReducedClearance = 2e-3F;
 
-/// Memory for rendering one face. Large, therefore reused for the next face.
+/// Memory for rendering one face. It can be large, so it is reused for the next face.
 struct Workspace {
   std::vector<float> points;
   CameraNormals normals;
@@ -43,8 +43,8 @@ struct Workspace {
   std::unique_ptr<RayScene> occluders;
 };
 
-/// Idle workspaces. One thread at a time uses a workspace. Every workspace builds its ray-tracing
-/// tree for the typical face, so that a face has the same pixels in every workspace.
+/// Stores idle workspaces. One thread at a time uses a workspace. Every workspace builds its
+/// ray-tracing tree for the typical face, so that a face has the same pixels in every workspace.
 class WorkspacePool {
  public:
   std::unique_ptr<Workspace> take() {
@@ -68,7 +68,7 @@ class WorkspacePool {
 struct Occluders {
   std::vector<std::uint32_t> vertices;  ///< vertices of the mesh; empty: all
   std::vector<Quad> quads;              ///< indices into `vertices`; empty: all quads of the mesh
-  /// Positions of the occluding vertices in the typical face. If empty, each face gets a new scene.
+  /// Positions of the occluding vertices in the typical face; empty: each face gets a new scene.
   std::vector<float> typical;
 };
 
@@ -154,7 +154,7 @@ void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
   }
 }
 
-/// Splits the texture coordinates of a face like add_fan.
+/// Splits the texture coordinates of a face into quads, as add_fan splits its vertices.
 void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, Index face,
                      std::vector<TexturedQuad>& quads) {
   if (uvs.rows() == 0 || topology.corner_uvs.empty()) return;
@@ -211,7 +211,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
                                   paint ? std::optional<Light>(from_srgb(*paint)) : std::nullopt);
   }
   if (typical == nullptr) return;
-  // The occluders do not depend on the camera, which only rotates and scales the points.
+  // Choose the occluders once: the camera only rotates and scales the points.
   prepared_->occluders = occluders_of(prepared_->quads, *typical);
 }
 FaceRenderer::~FaceRenderer() = default;
@@ -227,14 +227,15 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
               static_cast<Index>(texture_set->of_face.size()) == topology.face_count(),
           "render: textures of another number than faces");
   std::unique_ptr<Workspace> workspace = prepared_->workspaces.take();
-  to_camera(positions, camera, workspace->points);
-  const Eigen::Vector3f gaze = to_camera(camera, prepared_->options.front);
+  to_camera_space(positions, camera, workspace->points);
+  const Eigen::Vector3f gaze = to_camera_space(camera, prepared_->options.front);
   std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, workspace->points, gaze);
-  // All faces of a crowd have the winding of the typical face, which is determined once.
+  // With a typical face, all faces have its winding, which is determined once.
   const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
   workspace->normals.compute(topology, prepared_->fans, workspace->points, sign);
   const auto distance = static_cast<float>(1 / camera.half_tangent);
-  workspace->screen.put(workspace->points, prepared_->quads, distance, prepared_->options.size_px);
+  workspace->screen.project(workspace->points, prepared_->quads, distance,
+                            prepared_->options.size_px);
   prepared_->put_into_scene(*workspace);
   std::optional<AttachmentStage> attachment_stage;
   if (!attachments.empty()) {
@@ -265,11 +266,11 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     prepared_->options.occlusion,
                     Eigen::Vector3f(0, 0, distance)};
   const int size = prepared_->options.size_px;
-  const int tiles = (size + kSquare - 1) / kSquare;
+  const int tiles = (size + kSquareSide - 1) / kSquareSide;
   Rgb8Image image(size, size);
   parallel_for_each(std::ptrdiff_t{tiles} * tiles, [&](std::ptrdiff_t tile) {
-    render_tile(stage, prepared_->sampling, static_cast<int>(tile % tiles) * kSquare,
-                static_cast<int>(tile / tiles) * kSquare, image);
+    render_tile(stage, prepared_->sampling, static_cast<int>(tile % tiles) * kSquareSide,
+                static_cast<int>(tile / tiles) * kSquareSide, image);
   });
   prepared_->workspaces.give_back(std::move(workspace));
   return image;

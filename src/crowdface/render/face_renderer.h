@@ -20,9 +20,10 @@ struct RenderOptions {
   /// Antialiasing: pixels at edges get samples_per_side² samples at fixed positions; other pixels
   /// get fewer samples.
   int samples_per_side = 3;
-  /// Rays per pixel towards the key light. Neighbouring pixels pool the results of their rays.
+  /// Rays per pixel towards the key light. The results of the rays are averaged over neighbouring
+  /// pixels.
   int key_rays = 3;
-  /// Rays per pixel towards the sky, whose light has no sharp shadows.
+  /// Rays per pixel towards the sky. Fewer rays suffice, because the sky casts no sharp shadows.
   int sky_rays = 2;
   bool occlusion = true;  ///< whether the sky's light is occluded (ambient occlusion)
   Axis front = {2, 1};    ///< viewing direction of the eyes, for painted irises
@@ -35,17 +36,17 @@ struct RenderOptions {
 /// skipped.
 class FaceRenderer {
  public:
-  /// \param typical  #V by 3, an average face, or null. If given, the ray tracer's tree is built
-  ///                 once for this face and refitted to each rendered face, which saves most of the
-  ///                 time on large meshes, and all faces are assumed to have the same winding as
-  ///                 this face. Otherwise the tree is rebuilt for every face.
+  /// \param typical  #V by 3, an average face, or null. If given, the ray tracer builds its tree
+  ///                 once for this face and refits the tree to each rendered face, which saves most
+  ///                 of the time on large meshes. All faces must then have the same winding as this
+  ///                 face. If null, the tree is rebuilt for every face.
   /// \throws BrokenPrecondition if sizes or options are invalid.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
                         const Surfaces& surfaces = {}, const Positions* typical = nullptr);
   ~FaceRenderer();
 
   /// \param positions  #V by 3, in the unit of the camera. Without `typical`, normals are flipped
-  ///                   if the whole mesh is inside out, as a mirrored mesh is.
+  ///                   if the whole mesh is inside out, such as a mirrored mesh.
   /// \param colours    #V by 3, override all other colours and textures; or nullptr.
   /// \param texture_set  textures of the polygons that have one; or nullptr.
   /// \param attachments  attachments rendered with the face.

@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, 16>;
 using Numbers = hn::VFromD<Lanes>;
 
-/// A corner of a quad relative to sample positions.
+/// A corner of a quad, relative to several sample positions (one per SIMD lane).
 struct Corner {
   Numbers x, y;
 };
@@ -55,24 +55,24 @@ HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n
              whole, fronts);
 }
 
-/// Rasterizes a quad at the samples of one pixel.
+/// Depth-tests a quad at all samples of one pixel.
 HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad,
                              const ProjectedVertex* placed, float left, float top,
                              const SampledPixel& pixel, float* nearness, std::uint32_t* fronts) {
   const Lanes lanes;
   const ProjectedVertex* const vertices[] = {placed + quad[0], placed + quad[1], placed + quad[2],
                                              placed + quad[3]};
-  for (std::uint32_t i = 0; i < pixel.samples->count();
+  for (std::uint32_t i = 0; i < pixel.positions->count();
        i += static_cast<std::uint32_t>(hn::Lanes(lanes))) {
-    const Numbers x = hn::Add(hn::Set(lanes, left), hn::LoadU(lanes, pixel.samples->x() + i));
-    const Numbers y = hn::Add(hn::Set(lanes, top), hn::LoadU(lanes, pixel.samples->y() + i));
+    const Numbers x = hn::Add(hn::Set(lanes, left), hn::LoadU(lanes, pixel.positions->x() + i));
+    const Numbers y = hn::Add(hn::Set(lanes, top), hn::LoadU(lanes, pixel.positions->y() + i));
     Corner c[4];
     for (int k = 0; k < 4; ++k) {
       c[k] = {hn::Sub(hn::Set(lanes, vertices[k]->x), x),
               hn::Sub(hn::Set(lanes, vertices[k]->y), y)};
     }
-    float* const near = nearness + pixel.first + i;
-    std::uint32_t* const front = fronts + pixel.first + i;
+    float* const near = nearness + pixel.first_sample + i;
+    std::uint32_t* const front = fronts + pixel.first_sample + i;
     const Numbers across = turn(c[1], c[3]);
     put_triangle(across, turn(c[3], c[0]), turn(c[0], c[1]), vertices[0]->nearness,
                  vertices[1]->nearness, vertices[3]->nearness, 2 * on.quad, near, front);
@@ -95,8 +95,8 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
     }
     for (int y = begin->top; y <= begin->bottom; ++y) {
       for (int x = begin->left; x <= begin->right; ++x) {
-        const SampledPixel& pixel = pixels[y * kRimmed + x];
-        if (pixel.samples == nullptr) continue;
+        const SampledPixel& pixel = pixels[y * kRimmedSide + x];
+        if (pixel.positions == nullptr) continue;
         put_in_pixel(*begin, quads[begin->quad], placed, static_cast<float>(corner_x + x),
                      static_cast<float>(corner_y + y), pixel, nearness, fronts);
       }
@@ -135,7 +135,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     std::copy_n(low.data(), 2, ends + 4 * i);
     std::copy_n(high.data(), 2, ends + 4 * i + 2);
   }
-  const auto most = hn::Set(lanes, static_cast<float>(squares_per_row * kSquare + 2 * kRim - 1));
+  const auto most =
+      hn::Set(lanes, static_cast<float>(squares_per_row * kSquareSide + 2 * kRimWidth - 1));
   const auto zero = hn::Zero(lanes), half = hn::Set(lanes, 0.5F);
   const auto one = hn::Set(whole, 1), none = hn::Zero(whole),
              last = hn::Set(whole, squares_per_row - 1);
@@ -143,19 +144,20 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   const auto has_middle = [&](auto from, auto to) {
     return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
   };
-  // Rims overlap: a square's rim ends 2 · kRim pixels after the start of the next square's rim.
+  // Rims overlap: a square's rim ends 2 · kRimWidth pixels after the start of the next square's
+  // rim.
   const auto first_square = [&](auto from) {
-    return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRim)), none));
+    return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRimWidth)), none));
   };
   const auto last_square = [&](auto to) { return hn::Min(hn::ShiftRight<kSquareBits>(to), last); };
   for (std::size_t i = 0; i < Boxes::kCount; i += hn::Lanes(lanes)) {
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
     // Make boxes relative to the rim, enlarge them by the tolerance and clip them to the image.
-    left = hn::Add(left, hn::Set(lanes, kRim - kBlur));
-    top = hn::Add(top, hn::Set(lanes, kRim - kBlur));
-    right = hn::Add(right, hn::Set(lanes, kRim + kBlur));
-    bottom = hn::Add(bottom, hn::Set(lanes, kRim + kBlur));
+    left = hn::Add(left, hn::Set(lanes, kRimWidth - kBlur));
+    top = hn::Add(top, hn::Set(lanes, kRimWidth - kBlur));
+    right = hn::Add(right, hn::Set(lanes, kRimWidth + kBlur));
+    bottom = hn::Add(bottom, hn::Set(lanes, kRimWidth + kBlur));
     const auto outside = hn::Or(hn::Or(hn::Lt(right, zero), hn::Lt(bottom, zero)),
                                 hn::Or(hn::Gt(left, most), hn::Gt(top, most)));
     const auto unseen = hn::Or(outside, hn::IsInf(right));
@@ -191,7 +193,7 @@ void add_to_squares(const Quad* quads, std::size_t begin, std::size_t end,
   std::array<Quad, Boxes::kCount> some;
   const auto byte = [](auto number) { return static_cast<std::uint8_t>(number); };
   const auto within = [&](int pixel, int square) {
-    return byte(std::clamp(pixel - square * kSquare, 0, kRimmed - 1));
+    return byte(std::clamp(pixel - square * kSquareSide, 0, kRimmedSide - 1));
   };
   for (; begin < end; begin += Boxes::kCount) {
     const std::size_t count = std::min(Boxes::kCount, end - begin);
@@ -209,8 +211,8 @@ void add_to_squares(const Quad* quads, std::size_t begin, std::size_t end,
       }
       const int right = boxes.square[i] % squares_per_row,
                 bottom = boxes.square[i] / squares_per_row;
-      for (int y = std::max(boxes.top[i] - 2 * kRim, 0) / kSquare; y <= bottom; ++y) {
-        for (int x = std::max(boxes.left[i] - 2 * kRim, 0) / kSquare; x <= right; ++x) {
+      for (int y = std::max(boxes.top[i] - 2 * kRimWidth, 0) / kSquareSide; y <= bottom; ++y) {
+        for (int x = std::max(boxes.left[i] - 2 * kRimWidth, 0) / kSquareSide; x <= right; ++x) {
           squares[static_cast<std::size_t>(y * squares_per_row + x)][list].push_back(
               {quad, within(boxes.left[i], x), within(boxes.top[i], y), within(boxes.right[i], x),
                within(boxes.bottom[i], y)});
@@ -238,7 +240,7 @@ PixelSamples::PixelSamples(std::vector<Eigen::Vector2f> list) : list_(std::move(
 }
 
 DepthBuffer::DepthBuffer(std::size_t samples)
-    : nearness(samples + kMaxLanes, 0.0F), front(samples + kMaxLanes, kNothing) {}
+    : nearness(samples + kMaxLanes, 0.0F), front_quads(samples + kMaxLanes, kNothing) {}
 
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
                     std::span<const ProjectedVertex> placed, int squares_per_row,
@@ -252,7 +254,7 @@ void rasterize_quads(std::span<const QuadOnPixels> some, std::span<const Quad> q
                      std::span<const SampledPixel> pixels, DepthBuffer& fronts) {
   HWY_DYNAMIC_DISPATCH(rasterize_quads)
   (some.data(), some.data() + some.size(), quads.data(), placed.data(), corner[0], corner[1],
-   pixels.data(), fronts.nearness.data(), fronts.front.data());
+   pixels.data(), fronts.nearness.data(), fronts.front_quads.data());
 }
 
 }  // namespace crowdface

@@ -12,13 +12,13 @@
 
 namespace crowdface {
 
-/// The image is divided into squares of kSquare pixels a side. Each square is processed with a rim
-/// of kRim pixels, which overlaps the neighbouring squares.
+/// The image is divided into squares of kSquareSide pixels a side. Each square is processed with a
+/// rim of kRimWidth pixels, which overlaps the neighbouring squares.
 inline constexpr int kSquareBits = 6;
-inline constexpr int kSquare = 1 << kSquareBits;
-inline constexpr int kRim = 2;
+inline constexpr int kSquareSide = 1 << kSquareBits;
+inline constexpr int kRimWidth = 2;
 /// Side of a square with its rim.
-inline constexpr int kRimmed = kSquare + 2 * kRim;
+inline constexpr int kRimmedSide = kSquareSide + 2 * kRimWidth;
 
 /// Padding at the end of lists: the largest number of floats that a SIMD vector holds.
 inline constexpr std::size_t kMaxLanes = 16;
@@ -26,8 +26,8 @@ inline constexpr std::size_t kMaxLanes = 16;
 /// A vertex projected to the image.
 struct alignas(16) ProjectedVertex {
   float x, y;  ///< in pixels; x is infinite for vertices behind the camera
-  /// Reciprocal of the distance between camera and vertex. The unit of distance is the length of
-  /// the ray from the camera through this vertex to the plane z = 0.
+  /// Reciprocal of the distance between camera and vertex, measured in lengths of the ray from the
+  /// camera through this vertex to the plane z = 0.
   float nearness;
 };
 
@@ -38,8 +38,8 @@ struct QuadOnPixels {
   std::uint8_t left, top, right, bottom;
 };
 
-/// Two lists for each square of an image, row by row: quads that may cover the centre of a pixel,
-/// and the other quads.
+/// For each square of an image, row by row, two lists: quads that may cover the centre of a pixel,
+/// and all other quads that overlap the square.
 using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
 /// Adds quads to the lists of all squares that they may touch, including rims.
@@ -66,18 +66,18 @@ class PixelSamples {
   std::vector<float> x_, y_;
 };
 
-/// The samples of a pixel: their positions, and the index of the pixel's first sample among the
-/// samples of all pixels.
+/// The samples of a pixel: their positions in the pixel, and the index of the first sample among
+/// the samples of all pixels.
 struct SampledPixel {
-  const PixelSamples* samples = nullptr;  ///< null: no samples in this pixel
-  std::uint32_t first = 0;
+  const PixelSamples* positions = nullptr;  ///< null: no samples in this pixel
+  std::uint32_t first_sample = 0;
 };
 
 /// A depth buffer: the nearest quad at each sample. The lists are padded by kMaxLanes.
 struct DepthBuffer {
   static constexpr std::uint32_t kNothing = 0xffffffffU;
-  std::vector<float> nearness;       ///< 0: no quad
-  std::vector<std::uint32_t> front;  ///< 2 · quad, plus 1 for the second triangle of the quad
+  std::vector<float> nearness;             ///< 0: no quad
+  std::vector<std::uint32_t> front_quads;  ///< 2 · quad, plus 1 for the second triangle of the quad
 
   explicit DepthBuffer(std::size_t samples);
 };
@@ -88,7 +88,7 @@ inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1
 /// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier quad
 /// stays. The result has the same bits with every instruction set.
 /// \param corner  image pixel at the upper left corner of the square's rim
-/// \param pixels  kRimmed² pixels of the square and its rim, row by row
+/// \param pixels  kRimmedSide² pixels of the square and its rim, row by row
 void rasterize_quads(std::span<const QuadOnPixels> pixel_quads, std::span<const Quad> quads,
                      std::span<const ProjectedVertex> placed, std::array<int, 2> corner,
                      std::span<const SampledPixel> pixels, DepthBuffer& fronts);

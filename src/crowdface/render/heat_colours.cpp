@@ -54,7 +54,7 @@ std::vector<double> scale_ticks(double most) {
     if (most / step < 5 + 1e-9) break;
   }
   std::vector<double> ticks;
-  // Rounding to a millionth makes 3 · 0.2 exactly 0.6.
+  // Round to a millionth, so that 3 · 0.2 gives exactly 0.6.
   for (int i = 0; i * step <= most * (1 + 1e-9); ++i) {
     ticks.push_back(std::round(i * step * 1e6) / 1e6);
   }
@@ -75,7 +75,7 @@ Rgb8Image heat_scale(double max_mm, const std::string& title, int width_px, int 
     }
   }
   LabelStyle style;
-  style.background = background;
+  style.background_colour = background;
   style.text_px = std::max(10, height_px * 3 / 10);
   const std::vector<double> ticks = scale_ticks(max_mm);
   const int tick_width = bar_width / std::max(1, static_cast<int>(ticks.size()));

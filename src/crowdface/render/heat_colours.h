@@ -13,11 +13,12 @@ namespace crowdface {
 /// \param share  position on the scale, clamped to [0, 1]. \return  sRGB, each in [0, 1].
 Eigen::Vector3f heat_colour(double share);
 
-/// Colours for distances. \param mm  #V distances. \param max_mm  end of the scale.
-VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& mm, double max_mm);
+/// Colours for distances. \param distances_mm  #V distances. \param max_mm  end of the scale.
+VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& distances_mm, double max_mm);
 
-/// Four to six round numbers, starting with 0, to label a scale from 0 to `most`. \param most  > 0.
-std::vector<double> scale_ticks(double most);
+/// Four to six round numbers, starting with 0, to label a scale from 0 to `max_value`. Requires
+/// max_value > 0.
+std::vector<double> scale_ticks(double max_value);
 
 /// Draws a colour scale: a bar with numbers below and the title on the left.
 /// \throws MissingInput if the font is not installed.

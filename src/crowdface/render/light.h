@@ -13,12 +13,11 @@ using Light = Eigen::Array3f;
 
 /// Converts to 8-bit sRGB. Values above 0.6 are compressed so that highlights do not clip.
 std::array<std::uint8_t, 3> to_srgb8(const Light& light);
-/// The sRGB transfer curve without the compression of to_srgb8, for colours of surfaces; clamped to
-/// [0, 1].
+/// Converts surface colours to sRGB without the compression of to_srgb8; clamped to [0, 1].
 Eigen::Array3f to_srgb(const Light& colour);
 /// Inverse of to_srgb. \param srgb  each in [0, 1].
 Light from_srgb(const Eigen::Array3f& srgb);
-/// Table of from_srgb for all 8-bit values.
+/// Table of the linear light of all 8-bit sRGB values.
 const std::array<float, 256>& light_of_srgb8();
 
 }  // namespace crowdface

@@ -39,9 +39,8 @@ template <bool kInARow>
 void share(const PointLights& points, std::size_t count, const PixelLights& pixels,
            std::size_t pixel, float pixel_side, float* key_shares, float* sky_shares) {
   using Field = PointLights;
-  // The point's own rays get a small weight, so that the result comes from these rays alone if the
-  // point matches none of the 3 by 3 pixels. Otherwise the rays of the matching pixels outweigh
-  // them.
+  // The point's own rays get a small weight: they decide only if the point matches none of the 3 by
+  // 3 pixels.
   const Numbers own = number(0.01F);
   const Numbers zero = number(0), one = number(1);
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {
@@ -65,8 +64,8 @@ void share(const PointLights& points, std::size_t count, const PixelLights& pixe
         const auto along = [&](Numbers a, Numbers b, Numbers c) {
           return hn::Add(hn::Add(hn::Mul(u, a), hn::Mul(v, b)), hn::Mul(w, c));
         };
-        // Similarity of a pixel and the point in normal and position: 1 if both show the same
-        // surface, 0 if not.
+        // Similarity between the pixel and the point in normal and position: 1 for the same
+        // surface, down to 0 for different surfaces.
         const Numbers cosine =
             along(there(Field::kNormal), there(Field::kNormal + 1), there(Field::kNormal + 2));
         const Numbers facing =

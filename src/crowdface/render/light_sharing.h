@@ -25,16 +25,16 @@ struct PointLights {
 };
 
 /// The fields of PointLights for the pixels of a square and a rim of one pixel: means of positions
-/// and normals (a mean normal is shorter than 1 where normals differ), and sums of rays.
+/// and normals (a mean normal is shorter than 1 if the normals differ), and sums of rays.
 class PixelLights {
  public:
   static constexpr std::size_t kStride =
-      kSquare + 2 + 14;  ///< row length, padded to a multiple of 16
+      kSquareSide + 2 + 14;  ///< row length, padded to a multiple of 16
 
   PixelLights() { clear(); }
   /// Marks all pixels as empty: sets their normals to 0, so that share_lights ignores the pixels.
   void clear();
-  /// \param x, y  from −1 to kSquare, relative to the square's corner
+  /// \param x, y  from −1 to kSquareSide, relative to the square's corner
   static std::size_t index(int x, int y) {
     return static_cast<std::size_t>(y + 1) * kStride + static_cast<std::size_t>(x + 1);
   }
@@ -44,7 +44,7 @@ class PixelLights {
   }
 
  private:
-  static constexpr std::size_t kSize = (kSquare + 2) * kStride + 16;
+  static constexpr std::size_t kSize = (kSquareSide + 2) * kStride + 16;
   std::vector<float> numbers_;
 };
 

@@ -36,7 +36,7 @@ struct SixteenRays {
 template <class Packet, std::size_t kCount>
 void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& valid) {
   valid.fill(0);
-  // Without native support for this packet width, Embree reads all lanes: unused lanes must hold
+  // Without native support for this packet width, Embree reads all lanes. So fill unused lanes with
   // valid numbers and an empty interval.
   packet = {};
   std::fill_n(packet.tnear, kCount, std::numeric_limits<float>::infinity());
@@ -50,7 +50,7 @@ void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& va
     packet.dir_x[r] = ray.direction.x();
     packet.dir_y[r] = ray.direction.y();
     packet.dir_z[r] = ray.direction.z();
-    packet.tnear[r] = ray.nearest;
+    packet.tnear[r] = ray.min_distance;
     packet.tfar[r] = ray.max_distance;
     packet.time[r] = 0;
     packet.mask[r] = ~0U;

@@ -30,11 +30,11 @@ class RayDevice {
 struct Ray {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;
-  float nearest = 0;
+  float min_distance = 0;
   float max_distance = 1e30F;
-  /// Seed in 0 … 65535 for stochastic transparency: a surface with opacity α lets through the rays
-  /// whose seeds are in a fixed subset, the fraction 1−α of all seeds. The rays of a pixel have
-  /// evenly spread seeds.
+  /// Seed in 0 … 65535 for stochastic transparency: a surface with opacity α lets rays with certain
+  /// seeds pass, always the same ones, which are the fraction 1−α of all seeds. The rays of a pixel
+  /// have evenly spread seeds.
   std::uint32_t opacity_seed = 0;
 };
 
@@ -59,7 +59,7 @@ class RayScene {
   enum class Tree { kStatic, kMovable };
 
   /// \param points  x, y, z of each vertex; the scene keeps them.
-  /// \param quads   must outlive the scene; every entry < points.size() / 3.
+  /// \param quads   must outlive the scene; vertex indices below points.size() / 3.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
            Tree tree = Tree::kStatic);
   /// A scene of quads with partly transparent surfaces.
@@ -71,8 +71,9 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
 
   /// Moves the vertices and refits the tree. At 1.2 million vertices this takes a fifteenth of the
-  /// time of building the tree. Tracing stays as fast as before if the new points resemble the
-  /// first. The structure of the tree depends only on the first points, not on earlier calls.
+  /// time of building the tree. Tracing stays as fast as with the first points if the new points
+  /// resemble them. The structure of the tree depends only on the first points, not on earlier
+  /// calls.
   /// \param points  as many points as before. On return, holds the buffer of the previous points,
   ///   for reuse.
   void move_points(std::vector<float>& points);
@@ -80,7 +81,7 @@ class RayScene {
   /// The first hit of each ray, if any. Consecutive rays are traced together, which is fast if
   /// their directions are similar. Not available with kMovable.
   std::vector<std::optional<RayHit>> nearest_hits(std::span<const Ray> rays) const;
-  /// Whether each ray hits anything.
+  /// #rays: whether the ray hits any surface.
   std::vector<bool> occluded(std::span<const Ray> rays) const;
   Eigen::Vector3f point(std::uint32_t vertex) const;
 

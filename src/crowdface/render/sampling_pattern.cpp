@@ -53,13 +53,13 @@ std::vector<Eigen::Vector2f> sample_positions_in_pixel(int side) {
 }
 
 InterleavedDisc::InterleavedDisc(int rays) {
-  const int count = rays * kInterleave * kInterleave;
+  const int count = rays * kInterleavePeriod * kInterleavePeriod;
   for (int i = 0; i < count; ++i) points_.push_back(disc_point(i, count));
 }
 
 const Eigen::Vector2f& InterleavedDisc::point(int x, int y, int k) const {
-  const int pixel = y % kInterleave * kInterleave + x % kInterleave;
-  return points_[static_cast<std::size_t>(k * kInterleave * kInterleave + pixel)];
+  const int pixel = y % kInterleavePeriod * kInterleavePeriod + x % kInterleavePeriod;
+  return points_[static_cast<std::size_t>(k * kInterleavePeriod * kInterleavePeriod + pixel)];
 }
 
 }  // namespace crowdface

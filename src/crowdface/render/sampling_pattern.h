@@ -13,18 +13,19 @@ namespace crowdface {
 /// arrangement).
 std::vector<Eigen::Vector2f> sample_positions_in_pixel(int side);
 
-/// Period of the interleaved ray directions: the pixels of a kInterleave by kInterleave square use
-/// different directions, and the pattern repeats (Keller & Heidrich 2001, "Interleaved sampling").
-inline constexpr int kInterleave = 3;
+/// Period of the interleaved ray directions: the pixels of a kInterleavePeriod by kInterleavePeriod
+/// square use different directions, and the pattern repeats (Keller & Heidrich 2001, "Interleaved
+/// sampling").
+inline constexpr int kInterleavePeriod = 3;
 
 /// Ray directions as points of the unit disc, uniform by area. Each pixel has `rays` directions.
 /// Every block of 3 by 3 pixels has the same set of 9 · `rays` points.
 class InterleavedDisc {
  public:
   explicit InterleavedDisc(int rays);
-  /// Ray `k` of pixel (x, y). Depends on x and y only modulo kInterleave.
+  /// Ray `k` of pixel (x, y). Depends on x and y only modulo kInterleavePeriod.
   const Eigen::Vector2f& point(int x, int y, int k) const;
-  std::size_t rays() const { return points_.size() / (kInterleave * kInterleave); }
+  std::size_t rays() const { return points_.size() / (kInterleavePeriod * kInterleavePeriod); }
 
  private:
   std::vector<Eigen::Vector2f> points_;

@@ -21,36 +21,38 @@ float cross(const Eigen::Array2f& a, const Eigen::Array2f& b) {
 
 }  // namespace
 
-void ScreenQuads::put(const std::vector<float>& points, const std::vector<Quad>& quads,
-                      float distance, int size) {
+void ScreenQuads::project(const std::vector<float>& points, const std::vector<Quad>& quads,
+                          float distance, int size) {
   points_ = points.data();
   quads_ = quads;
   const float half_side = 0.5F * static_cast<float>(size);
-  placed_.resize(points.size() / 3);
-  parallel_for_each(placed_.size(), kVerticesPerTask, [&](std::size_t v) {
+  projected_.resize(points.size() / 3);
+  parallel_for_each(projected_.size(), kVerticesPerTask, [&](std::size_t v) {
     const float* p = points_ + 3 * v;
     const float nearness = distance / (distance - p[2]);
-    placed_[v] = {half_side * (1 + p[0] * nearness), half_side * (1 - p[1] * nearness), nearness};
-    if (p[2] >= distance) placed_[v].x = std::numeric_limits<float>::infinity();
+    projected_[v] = {half_side * (1 + p[0] * nearness), half_side * (1 - p[1] * nearness),
+                     nearness};
+    if (p[2] >= distance) projected_[v].x = std::numeric_limits<float>::infinity();
   });
-  squares_per_row_ = (size + kSquare - 1) / kSquare;
-  blocks_.resize((quads.size() + kQuadsPerBlock - 1) / kQuadsPerBlock);
-  parallel_for_each(blocks_.size(), [&](std::size_t b) {
-    SquareLists& squares = blocks_[b];
+  squares_per_row_ = (size + kSquareSide - 1) / kSquareSide;
+  square_lists_.resize((quads.size() + kQuadsPerBlock - 1) / kQuadsPerBlock);
+  parallel_for_each(square_lists_.size(), [&](std::size_t b) {
+    SquareLists& squares = square_lists_[b];
     squares.resize(static_cast<std::size_t>(squares_per_row_ * squares_per_row_));
     for (auto& lists : squares) {
       for (auto& list : lists) list.clear();
     }
     const std::size_t end = std::min(quads.size(), (b + 1) * kQuadsPerBlock);
-    add_to_squares(quads, b * kQuadsPerBlock, end, placed_, squares_per_row_, squares);
+    add_to_squares(quads, b * kQuadsPerBlock, end, projected_, squares_per_row_, squares);
   });
 }
 
 void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& pixels,
                                std::span<const PixelSamples* const> samples,
                                std::vector<std::optional<RayHit>>& hits) const {
-  const std::array<int, 2> corner = {square[0] * kSquare - kRim, square[1] * kSquare - kRim};
-  std::array<SampledPixel, kRimmed * kRimmed> looked{};
+  const std::array<int, 2> corner = {square[0] * kSquareSide - kRimWidth,
+                                     square[1] * kSquareSide - kRimWidth};
+  std::array<SampledPixel, kRimmedSide * kRimmedSide> looked{};
   std::uint32_t count = 0;
   bool middles = true;
   const auto for_each_looked = [&](const auto& body) {
@@ -61,15 +63,16 @@ void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& 
     }
   };
   for_each_looked([&](int x, int y, const PixelSamples& here) {
-    looked[static_cast<std::size_t>((y - corner[1]) * kRimmed + x - corner[0])] = {&here, count};
+    looked[static_cast<std::size_t>((y - corner[1]) * kRimmedSide + x - corner[0])] = {&here,
+                                                                                       count};
     count += here.count();
     middles = middles && here.list() == std::vector<Eigen::Vector2f>{{0.5F, 0.5F}};
   });
   DepthBuffer fronts(count);
-  for (const SquareLists& squares : blocks_) {
+  for (const SquareLists& squares : square_lists_) {
     const auto& lists = squares[static_cast<std::size_t>(square[1] * squares_per_row_ + square[0])];
     for (const auto& list : std::span(lists).first(middles ? 1 : 2)) {
-      rasterize_quads(list, quads_, placed_, corner, looked, fronts);
+      rasterize_quads(list, quads_, projected_, corner, looked, fronts);
     }
   }
   hits.assign(count, std::nullopt);
@@ -77,7 +80,8 @@ void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& 
   for_each_looked([&](int x, int y, const PixelSamples& here) {
     const Eigen::Vector2f pixel(static_cast<float>(x), static_cast<float>(y));
     for (const Eigen::Vector2f& place : here.list()) {
-      if (fronts.front[i] != DepthBuffer::kNothing) hits[i] = hit(fronts.front[i], pixel + place);
+      if (fronts.front_quads[i] != DepthBuffer::kNothing)
+        hits[i] = hit(fronts.front_quads[i], pixel + place);
       ++i;
     }
   });
@@ -88,7 +92,8 @@ RayHit ScreenQuads::hit(std::uint32_t front, const Eigen::Array2f& at) const {
   const Quad& quad = quads_[number];
   const bool second = front % 2 == 1;
   const auto& [i, j, k] = kQuadHalves[front % 2];
-  const ProjectedVertex &a = placed_[quad[i]], &b = placed_[quad[j]], &c = placed_[quad[k]];
+  const ProjectedVertex &a = projected_[quad[i]], &b = projected_[quad[j]],
+                        &c = projected_[quad[k]];
   const auto from = [&](const ProjectedVertex& corner) -> Eigen::Array2f {
     return Eigen::Array2f(corner.x, corner.y) - at;
   };

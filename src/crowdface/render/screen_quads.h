@@ -28,18 +28,18 @@ struct PixelRectangle {
 
 /// A rasterizer for quads, seen by a camera at (0, 0, distance) that looks along −z at the square
 /// [−1, 1]² of the plane z = 0. `put` projects the quads; then any thread may query squares of the
-/// image. Finds the same hits as a RayScene of quads. Where quads are smaller than pixels, this is
-/// faster than refitting a tree.
+/// image. Finds the same hits as a RayScene of quads. Faster than refitting a tree if quads are
+/// smaller than pixels.
 class ScreenQuads {
  public:
   /// Replaces and projects the quads. Quads that extend behind the camera are skipped.
   /// \param points  x, y, z of each vertex. Like `quads`, they must outlive the queries.
   /// \param size    side of the image, in pixels
-  void put(const std::vector<float>& points, const std::vector<Quad>& quads, float distance,
-           int size);
+  void project(const std::vector<float>& points, const std::vector<Quad>& quads, float distance,
+               int size);
 
-  /// Finds the first hit at each sample position of some pixels. The unit of RayHit::distance is
-  /// the length of the ray from the camera to the plane z = 0.
+  /// Finds the first hit of the camera ray through each sample position of some pixels. The unit of
+  /// RayHit::distance is the length of the ray from the camera to the plane z = 0.
   /// \param square  column and row of the square
   /// \param pixels  the pixels: inside the square and its rim
   /// \param samples  sample positions of each of these pixels, or null for no samples
@@ -53,9 +53,9 @@ class ScreenQuads {
 
   const float* points_ = nullptr;
   std::span<const Quad> quads_;
-  int squares_per_row_ = 0;              ///< number of squares in a row
-  std::vector<ProjectedVertex> placed_;  ///< #V
-  std::vector<SquareLists> blocks_;      ///< one entry per block of consecutive quads
+  int squares_per_row_ = 0;                 ///< number of squares in a row
+  std::vector<ProjectedVertex> projected_;  ///< #V
+  std::vector<SquareLists> square_lists_;   ///< one entry per block of consecutive quads
 };
 
 }  // namespace crowdface

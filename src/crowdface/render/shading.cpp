@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Lanes = hn::CappedTag<float, ShadeBatch::kBlock>;
+using Lanes = hn::CappedTag<float, ShadeBatch::kBlockSize>;
 using Numbers = hn::VFromD<Lanes>;
 
 HWY_INLINE Numbers number(float value) {
@@ -46,9 +46,9 @@ HWY_INLINE Numbers wrapped(Numbers cosine, Numbers wrap) {
   return hn::Mul(number(0.5F), hn::Div(hn::Add(square(lit), lit), whole));
 }
 
-/// Visible fraction of the sky, increased by light that bounces inside a crevice and takes on the
-/// colour of the surface (fit by Jimenez et al. 2016, "Practical realtime strategies for accurate
-/// indirect occlusion").
+/// Visible fraction of the sky per colour channel, increased by light that bounces inside a crevice
+/// and takes on the surface's colour (fit by Jimenez et al. 2016, "Practical realtime strategies
+/// for accurate indirect occlusion").
 HWY_INLINE Numbers with_bounces(Numbers visible, Numbers albedo) {
   const auto line = [&](float slope, float at_zero) {
     return hn::Add(hn::Mul(number(slope), albedo), number(at_zero));
@@ -95,7 +95,7 @@ struct Gloss {
 /// Shades one SIMD vector of points. \param points, lights  inside a block, at the same point
 HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* lights) {
   const auto field = [&](int f) {
-    return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlock);
+    return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlockSize);
   };
   const auto vectors = [&](int f) { return Vectors{field(f), field(f + 1), field(f + 2)}; };
   const Vectors normal = vectors(ShadeBatch::kNormal), to_eye = vectors(ShadeBatch::kToEye);
@@ -132,15 +132,16 @@ HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* ligh
     light = hn::Add(light, coloured(lamps.rim_right, right_gloss));
     light = hn::Add(light, coloured(lamps.rim_left, left_gloss));
     hn::StoreU(hn::Mul(light, shown), Lanes(),
-               lights + static_cast<std::size_t>(c) * ShadeBatch::kBlock);
+               lights + static_cast<std::size_t>(c) * ShadeBatch::kBlockSize);
   }
 }
 
 void shade_blocks(const float* points, std::size_t blocks, const Studio& lamps, float* lights) {
-  constexpr std::size_t kBlock = ShadeBatch::kBlock;
+  constexpr std::size_t kBlockSize = ShadeBatch::kBlockSize;
   for (std::size_t b = 0; b < blocks; ++b) {
-    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(Lanes())) {
-      shade_some(points + b * ShadeBatch::kFields * kBlock + i, lamps, lights + b * 3 * kBlock + i);
+    for (std::size_t i = 0; i < kBlockSize; i += hn::Lanes(Lanes())) {
+      shade_some(points + b * ShadeBatch::kFields * kBlockSize + i, lamps,
+                 lights + b * 3 * kBlockSize + i);
     }
   }
 }
@@ -156,8 +157,8 @@ namespace {
 /// dots.
 constexpr float kMinRoughness = 0.14F;
 
-/// Specular factor for an albedo. Albedos darker than any skin are painted hair, which has weaker
-/// highlights.
+/// Factor on the highlights of a surface with this albedo. Albedos darker than any skin are painted
+/// hair, which has weaker highlights.
 float dark_specular(const Light& albedo) {
   constexpr float kDarkestSkin = 0.055F;
   return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
@@ -168,11 +169,12 @@ float dark_specular(const Light& albedo) {
 HWY_EXPORT(shade_blocks);
 
 void ShadeBatch::add(const ShadePoint& point, float specular) {
-  const std::size_t block = count_ / kBlock * kFields * kBlock;
-  if (points_.size() < block + kFields * kBlock) points_.resize(block + kFields * kBlock, 0.5F);
-  float* const at = points_.data() + block + count_++ % kBlock;
+  const std::size_t block = count_ / kBlockSize * kFields * kBlockSize;
+  if (points_.size() < block + kFields * kBlockSize)
+    points_.resize(block + kFields * kBlockSize, 0.5F);
+  float* const at = points_.data() + block + count_++ % kBlockSize;
   const auto put = [&](int field, float value) {
-    at[static_cast<std::size_t>(field) * kBlock] = value;
+    at[static_cast<std::size_t>(field) * kBlockSize] = value;
   };
   const Material& material = material_of(point.kind);
   for (int c = 0; c < 3; ++c) {
@@ -185,16 +187,16 @@ void ShadeBatch::add(const ShadePoint& point, float specular) {
       point.roughness >= 0 ? std::clamp(point.roughness, kMinRoughness, 1.0F) : material.roughness);
   const bool darkens = point.kind == SurfaceKind::kSkin || point.kind == SurfaceKind::kAttachment;
   put(kReflectance, material.reflectance * (darkens ? dark_specular(point.albedo) : 1));
-  put(kKey, point.key);
-  put(kSky, point.sky);
+  put(kKey, point.key_visibility);
+  put(kSky, point.sky_visibility);
   // Attachments are mostly hair, whose strands point in all directions and weaken highlights.
   put(kSpecularTable, point.kind == SurfaceKind::kAttachment ? 0.45F * specular : specular);
   put(kShown, point.inside ? 0.3F : 1.0F);
 }
 
 void ShadeBatch::shade() {
-  const std::size_t blocks = (count_ + kBlock - 1) / kBlock;
-  lights_.resize(std::max(lights_.size(), blocks * 3 * kBlock));
+  const std::size_t blocks = (count_ + kBlockSize - 1) / kBlockSize;
+  lights_.resize(std::max(lights_.size(), blocks * 3 * kBlockSize));
   HWY_DYNAMIC_DISPATCH(shade_blocks)(points_.data(), blocks, studio(), lights_.data());
 }
 
@@ -202,7 +204,7 @@ Light shade(const ShadePoint& point, float specular) {
   ShadeBatch alone;
   alone.add(point, specular);
   alone.shade();
-  return alone.light(0);
+  return alone.radiance(0);
 }
 
 }  // namespace crowdface

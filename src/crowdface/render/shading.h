@@ -16,14 +16,15 @@ struct ShadePoint {
   Eigen::Vector3f to_eye;  ///< unit vector
   Light albedo;
   SurfaceKind kind = SurfaceKind::kSkin;
-  bool inside = false;   ///< whether the back of the surface is visible, as in nostrils
-  float sky = 1;         ///< visible fraction of the sky
-  float key = 1;         ///< visible fraction of the key light
-  float roughness = -1;  ///< 0 … 1; negative: the roughness of the material
+  bool inside = false;       ///< whether the back of the surface is visible, as in nostrils
+  float sky_visibility = 1;  ///< visible fraction of the sky
+  float key_visibility = 1;  ///< visible fraction of the key light
+  float roughness = -1;      ///< 0 … 1; negative: the roughness of the material
 };
 
-/// Radiance from a point in the studio. Diffuse light is wrapped: skin scatters light past the edge
-/// of shadows, and red light farthest. Highlights use a microfacet model (Walter et al. 2007).
+/// Radiance that a surface point in the studio reflects towards the camera. Diffuse light reaches
+/// past the edge of shadows (wrapped diffuse), because skin scatters light; red light reaches
+/// farthest. Highlights use a microfacet model (Walter et al. 2007).
 /// \param specular  factor on the specular reflection.
 Light shade(const ShadePoint& point, float specular = 1);
 
@@ -36,12 +37,13 @@ class ShadeBatch {
   void shade();
 
   /// Radiance of point `i`, in order of `add`. Call `shade` first.
-  Light light(std::size_t i) const {
-    const float* at = lights_.data() + i / kBlock * 3 * kBlock + i % kBlock;
-    return {at[0], at[kBlock], at[2 * kBlock]};
+  Light radiance(std::size_t i) const {
+    const float* at = lights_.data() + i / kBlockSize * 3 * kBlockSize + i % kBlockSize;
+    return {at[0], at[kBlockSize], at[2 * kBlockSize]};
   }
 
-  /// Fields of a point. Memory holds the blocks in order, each with kBlock values of every field.
+  /// Fields of a point. Memory holds the blocks in order, each with kBlockSize values of every
+  /// field.
   enum Field {
     kNormal,
     kToEye = kNormal + 3,
@@ -55,7 +57,7 @@ class ShadeBatch {
     kShown,  ///< factor on the total radiance
     kFields
   };
-  static constexpr std::size_t kBlock = 16;
+  static constexpr std::size_t kBlockSize = 16;
 
  private:
   std::size_t count_ = 0;

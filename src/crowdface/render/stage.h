@@ -34,12 +34,12 @@ struct Stage {
   /// distance between a surface and the origins of rays that start there
   float clearance;
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
-  float winding;                                ///< +1, or −1 if the winding is inside out
+  float winding_sign;                           ///< +1, or −1 if the winding is inside out
   const VertexColours* colours;                 ///< #V, override all other colours; or nullptr
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;            ///< #quads
   const std::vector<std::optional<Light>>& paints;  ///< #quads linear colours, or empty
-  const std::vector<TexturedQuad>& uvs;             ///< #quads, or empty
+  const std::vector<TexturedQuad>& textured_quads;  ///< #quads, or empty
   const TextureSet* texture_set;                    ///< textures, or nullptr
   std::vector<float> skin_lightness;                ///< lightness for each texture of `texture_set`
   const Eyeballs& eyeballs;
@@ -47,15 +47,15 @@ struct Stage {
   Eigen::Vector3f gaze;
   const AttachmentStage* attachments;  ///< attachments, or nullptr
   bool occlusion;                      ///< whether the sky's light is occluded
-  Eigen::Vector3f viewer;              ///< position of the camera
+  Eigen::Vector3f viewer_position;     ///< position of the camera
 
   Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {
     return Eigen::Map<const Eigen::Vector3f>(points.data() + std::size_t{3} * vertex);
   }
 };
 
-/// Distance between a surface and the origins of rays that start there, if the surface itself may
-/// occlude these rays. In camera space (half the side of the image is 1).
+/// Offset of ray origins from the surface that also occludes these rays. In camera space (half the
+/// side of the image is 1).
 inline constexpr float kRayClearance = 2e-4F;
 
 }  // namespace crowdface

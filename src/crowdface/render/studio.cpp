@@ -57,7 +57,7 @@ bool faces_key(const Eigen::Vector3f& normal, SurfaceKind kind) {
   return normal.dot(studio().key.direction) > -material_of(kind).wrap.maxCoeff();
 }
 
-Light background(float y) {
+Light background_colour(float y) {
   return Light(0.23F, 0.235F, 0.245F) * (1 - 0.48F * y);
 }
 

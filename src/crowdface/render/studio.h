@@ -34,7 +34,7 @@ const Studio& studio();
 /// Default albedo of surfaces of this kind, for surfaces without a colour of their own.
 Light albedo_of(SurfaceKind kind);
 
-/// Whether a surface with this normal reflects any light of the key lamp.
+/// Whether the key light can illuminate a surface with this normal.
 bool faces_key(const Eigen::Vector3f& normal, SurfaceKind kind);
 
 /// Unit vector towards the centre of the key light.
@@ -43,6 +43,6 @@ Eigen::Vector3f key_direction();
 inline constexpr float kKeyRadius = 0.16F;
 
 /// Background colour, lighter at the top. \param y  from 0 (top) to 1.
-Light background(float y);
+Light background_colour(float y);
 
 }  // namespace crowdface

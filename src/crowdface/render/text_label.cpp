@@ -27,7 +27,7 @@ constexpr const char* kFontFile = "DejaVuSans.ttf";
 /// Folders with fonts: first the system's folders, then the user's folders.
 std::vector<fs::path> font_folders() {
   std::vector<fs::path> folders = {"/usr/share/fonts", "/usr/local/share/fonts"};
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets a variable
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread sets environment variables
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) {
     folders.push_back(fs::path(home) / ".local/share/fonts");
     folders.push_back(fs::path(home) / ".fonts");
@@ -74,7 +74,7 @@ class Font {
 
   void set_size(int text_px) { check(FT_Set_Pixel_Sizes(face_, 0, static_cast<FT_UInt>(text_px))); }
   bool has(char32_t character) const { return FT_Get_Char_Index(face_, character) != 0; }
-  /// The rendered letter, valid until the next call.
+  /// Renders a letter; the result is valid until the next call.
   FT_GlyphSlot letter(char32_t character) {
     check(FT_Load_Char(face_, character, FT_LOAD_RENDER));
     return face_->glyph;
@@ -121,7 +121,7 @@ struct Extent {
   int width() const { return end - begin; }
 };
 
-/// Calls use(letter, x) for each letter; x is the left edge of its bitmap.
+/// Calls use(letter, x) for each letter, where x is the left edge of the letter's bitmap.
 template <class Use>
 void set_line(const std::u32string& line, int text_px, const Use& use) {
   font().set_size(text_px);
@@ -193,7 +193,7 @@ void draw_letter(Rgb8Image& image, const FT_Bitmap& bitmap, int left, int top,
                              static_cast<std::size_t>(x))];
       for (int c = 0; c < 3; ++c) {
         const int mixed =
-            (255 - cover) * pixel[c] + cover * style.text[static_cast<std::size_t>(c)];
+            (255 - cover) * pixel[c] + cover * style.text_colour[static_cast<std::size_t>(c)];
         pixel[c] = static_cast<std::uint8_t>((mixed + 127) / 255);
       }
     }
@@ -215,7 +215,7 @@ void draw(Rgb8Image& image, const FittedLine& fitted, const LabelStyle& style, i
 }  // namespace
 
 Rgb8Image label_strip(std::string_view text, int width_px, int height_px, const LabelStyle& style) {
-  Rgb8Image image(width_px, height_px, style.background);
+  Rgb8Image image(width_px, height_px, style.background_colour);
   const int padding = std::min(4, width_px / 8);
   if (text.empty() || width_px < 8 || height_px < 6) return image;
   const FittedLine fitted = fit(characters_of(text), width_px - 2 * padding, height_px, style);

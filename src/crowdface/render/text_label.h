@@ -16,8 +16,8 @@ struct LabelStyle {
   /// Smallest height. If the text is still too long, "..." replaces its middle.
   int min_text_px = 9;
   TextAlign align = TextAlign::kCentre;
-  std::array<std::uint8_t, 3> text = {214, 214, 216};
-  std::array<std::uint8_t, 3> background = {34, 35, 37};
+  std::array<std::uint8_t, 3> text_colour = {214, 214, 216};
+  std::array<std::uint8_t, 3> background_colour = {34, 35, 37};
 };
 
 /// An image with one line of text, which always fits.

@@ -26,8 +26,8 @@ struct Texture {
 Texture shrunk_texture(int width, int height, int max_px,
                        const std::function<void(int y, std::span<Light> texels)>& row);
 
-/// Extends colours into unpainted texels, so that interpolation near the border does not mix in
-/// texels that were never painted. In each step, an unpainted texel gets the mean of its painted
+/// Extends colours into unpainted texels, so that interpolation at the border of the painted area
+/// does not mix in unpainted texels. In each step, an unpainted texel gets the mean of its painted
 /// neighbours.
 /// \param painted  #texels
 /// \param steps    number of steps: how far colours spread, in texels
@@ -57,7 +57,7 @@ struct TextureLayer {
 /// Colour textures, normal maps and roughness maps of one head. Faces with kNone have the default
 /// colour of their surface kind.
 struct TextureSet : TextureLayer {
-  /// Slopes of the surface to the right and upwards, from tangent-space normal maps.
+  /// Slopes of the surface along u and v, from tangent-space normal maps.
   TextureLayer slopes = {};
   TextureLayer roughness = {};  ///< in the first channel
 };

@@ -33,12 +33,12 @@ constexpr float kSameAlbedo = 0.03F;
 
 /// Maps a point of the unit disc to an offset perpendicular to `axis`.
 Vector disc_offset(const Vector& axis, const Eigen::Vector2f& disc) {
-  const auto [s, t] = perpendicular(axis);
+  const auto [s, t] = tangent_basis(axis);
   return disc.x() * s + disc.y() * t;
 }
 
-/// How the samples of a pixel differ among themselves and from the samples of neighbouring pixels.
-/// kNone: not at all; kRelief: only in the normal; kEdge: in surface or colour.
+/// The strongest difference among the samples of a pixel and its neighbours. kNone: none; kRelief:
+/// only in normals; kEdge: in surface or colour.
 enum class PixelVariation : std::uint8_t { kNone, kRelief, kEdge };
 
 /// Storage for PointLights of a row of points: one list per field.
@@ -68,10 +68,10 @@ void put(const CameraHit& hit, std::size_t at, Lists& lists) {
     lists.list(PointLights::kPoint + c)[at] = hit.point[c];
     lists.list(PointLights::kNormal + c)[at] = hit.surface.normal[c];
   }
-  lists.list(PointLights::kKeyVisible)[at] = hit.key.visible;
-  lists.list(PointLights::kKeyTraced)[at] = hit.key.traced;
-  lists.list(PointLights::kSkyVisible)[at] = hit.sky.visible;
-  lists.list(PointLights::kSkyTraced)[at] = hit.sky.traced;
+  lists.list(PointLights::kKeyVisible)[at] = hit.key_visibility.unblocked_rays;
+  lists.list(PointLights::kKeyTraced)[at] = hit.key_visibility.traced_rays;
+  lists.list(PointLights::kSkyVisible)[at] = hit.sky_visibility.unblocked_rays;
+  lists.list(PointLights::kSkyTraced)[at] = hit.sky_visibility.traced_rays;
 }
 
 /// Mean of positions, normals (shorter than 1 where they differ) and albedos; sums of rays.
@@ -81,8 +81,8 @@ CameraHit mean_of(std::span<const CameraHit> camera_hits) {
     mean.point += other.point;
     mean.surface.normal += other.surface.normal;
     mean.surface.albedo += other.surface.albedo;
-    mean.key.add(other.key, 1);
-    mean.sky.add(other.sky, 1);
+    mean.key_visibility.add(other.key_visibility, 1);
+    mean.sky_visibility.add(other.sky_visibility, 1);
   }
   const auto count = static_cast<float>(camera_hits.size());
   mean.point /= count;
@@ -125,38 +125,40 @@ class Tile {
         size_(size),
         left_(left),
         top_(top),
-        right_(std::min(left + kSquare, size)),
-        bottom_(std::min(top + kSquare, size)),
+        right_(std::min(left + kSquareSide, size)),
+        bottom_(std::min(top + kSquareSide, size)),
         rim_left_(std::max(left - 1, 0)),
         rim_top_(std::max(top - 1, 0)),
         rim_right_(std::min(right_ + 1, size)),
         rim_bottom_(std::min(bottom_ + 1, size)),
-        outer_{std::max(left - kRim, 0), std::max(top - kRim, 0), std::min(right_ + kRim, size),
-               std::min(bottom_ + kRim, size)},
+        outer_{std::max(left - kRimWidth, 0), std::max(top - kRimWidth, 0),
+               std::min(right_ + kRimWidth, size), std::min(bottom_ + kRimWidth, size)},
         pixels_(outer_.count()),
         memory_(tile_memory()) {
     camera_hits_.clear();
   }
 
   void render(Rgb8Image& image) {
-    // Few samples in every pixel.
-    const PixelSamples& first = stage_.attachments != nullptr ? sampling_.coarse : sampling_.centre;
+    // Trace few samples in every pixel.
+    const PixelSamples& first =
+        stage_.attachments != nullptr ? sampling_.coarse_samples : sampling_.centre_sample;
     trace_camera_rays([&](const Pixel&) { return &first; });
-    // More samples where neighbouring pixels differ.
-    if (sampling_.fine.count() > 1) {
+    // Trace more samples in pixels that differ from their neighbours.
+    if (sampling_.fine_samples.count() > 1) {
       for (int y = rim_top_; y < rim_bottom_; ++y) {
         for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).change = change_at(x, y);
       }
       trace_camera_rays([&](const Pixel& pixel) -> const PixelSamples* {
-        if (pixel.change == PixelVariation::kEdge) return &sampling_.fine;
-        const bool asks = pixel.change == PixelVariation::kRelief && &first != &sampling_.coarse;
-        return asks ? &sampling_.coarse : nullptr;
+        if (pixel.change == PixelVariation::kEdge) return &sampling_.fine_samples;
+        const bool asks =
+            pixel.change == PixelVariation::kRelief && &first != &sampling_.coarse_samples;
+        return asks ? &sampling_.coarse_samples : nullptr;
       });
     }
-    // Shadow rays.
+    // Trace shadow rays.
     trace_key_rays();
     if (stage_.occlusion) trace_sky_rays();
-    // Average the rays over neighbouring pixels, and shade.
+    // Average the results of the rays over neighbouring pixels, and shade.
     summarize();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
   }
@@ -196,13 +198,14 @@ class Tile {
       std::uint32_t number = 0;
       for (const Eigen::Vector2f& place : places.back()->list()) {
         const Eigen::Vector2f at = on_image(x, y, place);
-        rays.push_back({stage_.viewer, Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer});
+        rays.push_back({stage_.viewer_position,
+                        Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer_position});
         rays.back().opacity_seed = (2 * number++ + 1) * 32768U / places.back()->count();
       }
     });
     std::vector<std::optional<RayHit>>& hits = memory_.hits;
-    stage_.screen.nearest_hits({left_ / kSquare, top_ / kSquare}, outer_, places, hits);
-    // Attachments in front of the face.
+    stage_.screen.nearest_hits({left_ / kSquareSide, top_ / kSquareSide}, outer_, places, hits);
+    // Find attachments in front of the face.
     std::vector<std::optional<RayHit>> attachments;
     if (stage_.attachments != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {
@@ -225,7 +228,7 @@ class Tile {
         } else if (hits[ray]) {
           camera_hits_.push_back(camera_hit(stage_, *hits[ray], rays[ray].direction));
         } else {
-          pixel.backdrop += background(on_image(x, y, place).y());
+          pixel.backdrop += background_colour(on_image(x, y, place).y());
           ++pixel.missed;
         }
         ++ray;
@@ -279,14 +282,14 @@ class Tile {
         40503;  // spreads the numbers of consecutive rays evenly
     const std::size_t rays = directions.rays();
     std::uint32_t number = 0;
-    for (int shift_y = 0; shift_y < kInterleave; ++shift_y) {
-      for (int shift_x = 0; shift_x < kInterleave; ++shift_x) {
+    for (int shift_y = 0; shift_y < kInterleavePeriod; ++shift_y) {
+      for (int shift_x = 0; shift_x < kInterleavePeriod; ++shift_x) {
         for (std::size_t k = 0; k < rays; ++k) {
           const Eigen::Vector2f& disc =
               directions.point(rim_left_ + shift_x, rim_top_ + shift_y, static_cast<int>(k));
           const auto opacity_seed = static_cast<std::uint32_t>(number++ * kGoldenRatio16) & 0xffffU;
-          for (int y = rim_top_ + shift_y; y < rim_bottom_; y += kInterleave) {
-            for (int x = rim_left_ + shift_x; x < rim_right_; x += kInterleave) {
+          for (int y = rim_top_ + shift_y; y < rim_bottom_; y += kInterleavePeriod) {
+            for (int x = rim_left_ + shift_x; x < rim_right_; x += kInterleavePeriod) {
               const Pixel& at = pixel(x, y);
               const std::span<CameraHit> camera_hits = hits_of(at);
               if (camera_hits.empty()) continue;
@@ -329,10 +332,10 @@ class Tile {
 
   void trace_key_rays() {
     const Vector key = key_direction();
-    trace_shadow_rays(sampling_.key, &CameraHit::key,
+    trace_shadow_rays(sampling_.key_directions, &CameraHit::key_visibility,
                       [&](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
                         if (!hit.may_see_key) return std::nullopt;
-                        const Vector start = hit.start + kThickness * hit.surface.normal;
+                        const Vector start = hit.ray_origin + kThickness * hit.surface.normal;
                         return Ray{start, key + kKeyRadius * disc_offset(key, disc)};
                       });
   }
@@ -340,18 +343,18 @@ class Tile {
   /// Traces cosine-weighted rays towards the sky.
   void trace_sky_rays() {
     const std::vector<bool> blocked = trace_shadow_rays(
-        sampling_.sky, &CameraHit::sky,
+        sampling_.sky_directions, &CameraHit::sky_visibility,
         [](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
           const Vector& normal = hit.surface.normal;
           const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
-          return Ray{hit.start, disc_offset(normal, disc) + height * normal, 0, kSkyReach};
+          return Ray{hit.ray_origin, disc_offset(normal, disc) + height * normal, 0, kSkyReach};
         });
     add_light_through(memory_.rays, memory_.asking, blocked);
   }
 
-  /// Transmission through attachments, for example through a thin lock of hair whose visible side
-  /// is dark: if a sky ray is blocked on the visible side, part of the light of the mirrored ray,
-  /// on the other side of the surface, is added.
+  /// Transmission through attachments, for example through thin hair that is lit from behind. If a
+  /// sky ray is blocked, traces the mirrored ray on the other side of the surface and adds part of
+  /// its light.
   void add_light_through(const std::vector<Ray>& rays, const std::vector<CameraHit*>& asking,
                          const std::vector<bool>& blocked) {
     std::vector<Ray> behind;
@@ -359,15 +362,15 @@ class Tile {
     for (std::size_t r = 0; r < rays.size(); ++r) {
       const CameraHit& hit = *asking[r];
       if (!blocked[r] || hit.surface.kind != SurfaceKind::kAttachment) continue;
-      const Vector across = (hit.start - hit.point).normalized();
+      const Vector across = (hit.ray_origin - hit.point).normalized();
       behind.push_back(rays[r]);
-      behind.back().origin = 2 * hit.point - hit.start;
+      behind.back().origin = 2 * hit.point - hit.ray_origin;
       behind.back().direction -= 2 * rays[r].direction.dot(across) * across;
       thin.push_back(asking[r]);
     }
     const std::vector<bool> dark = are_blocked(behind);
     for (std::size_t r = 0; r < behind.size(); ++r) {
-      if (!dark[r]) thin[r]->sky.visible += kThrough;
+      if (!dark[r]) thin[r]->sky_visibility.unblocked_rays += kThrough;
     }
   }
 
@@ -413,9 +416,10 @@ class Tile {
 
   void add_to_batch(const CameraHit& hit, const Shares& shares, std::size_t i) {
     ShadePoint surface = hit.surface;
-    surface.key = shares.key[i];
-    surface.sky = shares.sky[i];
-    if (surface.kind == SurfaceKind::kAttachment) surface.sky = std::max(surface.sky, kScattered);
+    surface.key_visibility = shares.key[i];
+    surface.sky_visibility = shares.sky[i];
+    if (surface.kind == SurfaceKind::kAttachment)
+      surface.sky_visibility = std::max(surface.sky_visibility, kScattered);
     memory_.batch.add(surface, skin_specular(surface.albedo, hit.skin_lightness));
   }
 
@@ -457,9 +461,9 @@ class Tile {
       const Pixel& at = pixel(x, y);
       Light light = at.backdrop;  // sum, divided below by the number of samples
       if (shows_one(at)) {
-        light = memory_.batch.light(next++);
+        light = memory_.batch.radiance(next++);
       } else {
-        for (std::uint32_t m = at.first; m < at.end; ++m) light += memory_.batch.light(next++);
+        for (std::uint32_t m = at.first; m < at.end; ++m) light += memory_.batch.radiance(next++);
         light /= static_cast<float>(at.end - at.first + at.missed);
       }
       const auto bytes = to_srgb8(light);

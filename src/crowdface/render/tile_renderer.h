@@ -13,19 +13,19 @@ namespace crowdface {
 /// Sample positions in pixels, and ray directions towards the lights.
 struct Sampling {
   /// One sample in the centre of the pixel.
-  PixelSamples centre;
+  PixelSamples centre_sample;
   /// Samples for pixels with relief; also for all other pixels if there are attachments, which may
   /// be transparent.
-  PixelSamples coarse;
-  PixelSamples fine;         ///< samples for pixels with edges
-  InterleavedDisc key, sky;  ///< rays of a pixel towards each light
+  PixelSamples coarse_samples;
+  PixelSamples fine_samples;                       ///< samples for pixels with edges
+  InterleavedDisc key_directions, sky_directions;  ///< rays of a pixel towards each light
 
   Sampling(int samples_per_side, int key_rays, int sky_rays)
-      : centre(sample_positions_in_pixel(1)),
-        coarse(sample_positions_in_pixel(std::min(2, samples_per_side))),
-        fine(sample_positions_in_pixel(samples_per_side)),
-        key(key_rays),
-        sky(sky_rays) {}
+      : centre_sample(sample_positions_in_pixel(1)),
+        coarse_samples(sample_positions_in_pixel(std::min(2, samples_per_side))),
+        fine_samples(sample_positions_in_pixel(samples_per_side)),
+        key_directions(key_rays),
+        sky_directions(sky_rays) {}
 };
 
 /// Renders one square of an image, independently of the other squares. Each pixel traces a few

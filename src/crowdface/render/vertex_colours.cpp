@@ -73,7 +73,7 @@ std::optional<EyeCoordinates> eye_coordinates(const Topology& topology, const Su
   const Eyeballs eyeballs = find_eyeballs(topology, surfaces.kinds);
   if (eyeballs.count == 0) return std::nullopt;
   const Eigen::Vector3f gaze = unit_vector(front).cast<float>();
-  const auto [across, along] = perpendicular(gaze);
+  const auto [across, along] = tangent_basis(gaze);
   const std::vector<PlacedEye> eyes =
       place_eyes(eyeballs, {positions.data(), positions.data() + positions.size()}, gaze);
   EyeCoordinates coordinates(positions.rows(), 3);

@@ -18,20 +18,20 @@ using VertexColours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// Colour k of a palette of distinct colours; the palette repeats cyclically.
 Eigen::Vector3f palette_colour(Eigen::Index k);
 
-/// One colour per region, blended where regions overlap.
+/// Vertex colours that show regions: one colour per region, blended by the region weights.
 /// \param alpha    #V by #R weights; rows sum to one.
 /// \param colours  #R by 3
 VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha,
                              const VertexColours& colours);
 
-/// The colours that FaceRenderer gives surfaces without textures, with painted irises.
+/// The vertex colours that FaceRenderer gives surfaces without textures, including painted irises.
 /// \param front  viewing direction of the face.
 VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
                               const Positions& positions, Axis front);
 
 /// #V by 3: position of each eyeball vertex relative to the eyeball's centre, in units of its
-/// radius. Two coordinates are perpendicular to the gaze, the third is along the gaze. The
-/// coordinates are linear functions of the position, so that an iris painted from interpolated
+/// radius. The first two coordinates are perpendicular to the gaze, the third is along the gaze.
+/// The coordinates are linear functions of the position, so that an iris painted from interpolated
 /// coordinates is round even on a coarse mesh.
 using EyeCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 inline constexpr float kNoEye = -2;  ///< third coordinate of vertices that belong to no eyeball
@@ -41,7 +41,7 @@ inline constexpr float kNoEye = -2;  ///< third coordinate of vertices that belo
 std::optional<EyeCoordinates> eye_coordinates(const Topology& topology, const Surfaces& surfaces,
                                               const Positions& positions, Axis front);
 
-/// Colours that show one region's mask: `colour` where the mask is 1, pale clay where it is 0.
+/// Vertex colours that show a region's mask: `colour` for weight 1, pale clay for weight 0.
 /// \param mask  #V, clamped to [0, 1].
 VertexColours mask_colours(const Eigen::Ref<const Eigen::VectorXd>& mask,
                            const Eigen::Vector3f& colour);

@@ -3,7 +3,7 @@
 
 namespace crowdface {
 
-/// Viewing direction, turned from the front by 0, 35, 90 or 180 degrees.
+/// Viewing direction: the front view rotated about the vertical axis by 0, 35, 90 or 180 degrees.
 enum class View { kFront, kThreeQuarter, kProfile, kBack };
 
 }  // namespace crowdface

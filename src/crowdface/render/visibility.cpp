@@ -59,7 +59,7 @@ std::vector<float> vertex_visibility(const Topology& topology,
     std::vector<Ray> rays;
     for (std::size_t v = begin; v < end; ++v) {
       const Vector& normal = normals[vertices[v]];
-      const auto [s, t] = perpendicular(normal);
+      const auto [s, t] = tangent_basis(normal);
       const Vector start = scene.point(vertices[v]) + kClearance * normal;
       for (int k = 0; k < kRays; ++k) {
         const Eigen::Vector2f& place = disc.point(0, 0, k);

@@ -14,8 +14,8 @@ namespace crowdface {
 namespace {
 
 void take_from_file(const Config& config, const Positions& mean, HeadLandmarks& landmarks) {
-  const LandmarkFile file = read_landmarks(config.landmarks, LandmarksOf::kTemplate);
-  for (const auto& [name, place] : file.of_template) {
+  const LandmarkFile file = read_landmarks(config.landmarks, LandmarkMesh::kTemplate);
+  for (const auto& [name, place] : file.template_places) {
     const auto known = std::ranges::find(trait_landmarks(), name, &TraitLandmark::name);
     if (known == trait_landmarks().end()) {
       throw UsageError(concat(config.landmarks.string(), ": no measurement needs a landmark ",

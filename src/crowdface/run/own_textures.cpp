@@ -35,11 +35,11 @@ std::string file_name(const std::string& id, const PictureName& picture, Texture
 
 std::string encode_exr_of(const BlendedPicture& picture) {
   std::vector<float> pixels;
-  if (picture.words.empty()) {
+  if (picture.values16.empty()) {
     const std::array<float, 256>& light = light_of_srgb8();
     for (const std::uint8_t value : picture.srgb) pixels.push_back(light[value]);
   } else {
-    for (const std::uint16_t word : picture.words) {
+    for (const std::uint16_t word : picture.values16) {
       pixels.push_back(picture.low + picture.step * static_cast<float>(word));
     }
   }
@@ -48,12 +48,12 @@ std::string encode_exr_of(const BlendedPicture& picture) {
 
 std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
   if (!as_bytes) {
-    return encode_png16(picture.width, picture.height, picture.channels, picture.words);
+    return encode_png16(picture.width, picture.height, picture.channels, picture.values16);
   }
   constexpr int kWordsPerByte = 257;
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(picture.words.size());
-  for (const int word : picture.words) {
+  bytes.reserve(picture.values16.size());
+  for (const int word : picture.values16) {
     bytes.push_back(static_cast<std::uint8_t>((word + kWordsPerByte / 2) / kWordsPerByte));
   }
   return encode_png(picture.width, picture.height, picture.channels, bytes);
@@ -62,7 +62,7 @@ std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
 std::string encode_picture(const BlendedPicture& picture, const PictureName& name,
                            TextureFormat format) {
   if (format == TextureFormat::kExr) return encode_exr_of(picture);
-  if (!picture.words.empty()) return encode_words(picture, name.of_bytes);
+  if (!picture.values16.empty()) return encode_words(picture, name.of_bytes);
   return format == TextureFormat::kJpeg
              ? encode_jpeg(picture.width, picture.height, picture.srgb)
              : encode_png(picture.width, picture.height, 3, picture.srgb);

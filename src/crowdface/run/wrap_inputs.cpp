@@ -67,7 +67,7 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
     heads.emplace_back(head.positions * inputs.mm);
   }
   problems.throw_if_any();
-  inputs.model = make_model(heads);
+  inputs.model = make_shape_model(heads);
   inputs.model_heads = heads.size();
   positions = inputs.model->mean;
 }
@@ -181,12 +181,12 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   }
   if (!options.landmarks.empty() && options.landmarks != kNoLandmarks) {
     inputs.landmarks = read_landmarks(
-        options.landmarks, options.batch.empty() ? LandmarksOf::kScan : LandmarksOf::kTemplate);
+        options.landmarks, options.batch.empty() ? LandmarkMesh::kScan : LandmarkMesh::kTemplate);
     digest.add(hash_file(options.landmarks).digest);
   }
   if (!options.template_landmarks.empty()) {
-    inputs.landmarks.of_template =
-        read_landmarks(options.template_landmarks, LandmarksOf::kTemplate).of_template;
+    inputs.landmarks.template_places =
+        read_landmarks(options.template_landmarks, LandmarkMesh::kTemplate).template_places;
     digest.add(hash_file(options.template_landmarks).digest);
   }
   for (const std::string& text : {options.units, options.scan_units, options.up, options.front,

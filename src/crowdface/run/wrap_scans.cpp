@@ -67,7 +67,7 @@ std::vector<Task> tasks_without_textures(const WrapOptions& options) {
 std::vector<Task> tasks_of(const WrapOptions& options, const LandmarkFile& given,
                            const WrapTextures* textures) {
   std::vector<Task> tasks = tasks_without_textures(options);
-  const bool has_given = options.batch.empty() && !given.of_scan.empty();
+  const bool has_given = options.batch.empty() && !given.scan_places.empty();
   if (options.landmarks == kNoLandmarks || has_given) {
     for (Task& task : tasks) task.own_landmarks.clear();
   }
@@ -122,8 +122,8 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
   LandmarkFile file = shared.landmarks;
   if (task.own_landmarks.empty()) return file;
   const LandmarkFile own = read_landmarks(task.own_landmarks);
-  for (const auto& [name, place] : own.of_template) file.of_template[name] = place;
-  for (const auto& [name, place] : own.of_scan) file.of_scan[name] = place;
+  for (const auto& [name, place] : own.template_places) file.template_places[name] = place;
+  for (const auto& [name, place] : own.scan_places) file.scan_places[name] = place;
   return file;
 }
 
@@ -135,9 +135,10 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
   std::vector<WrapLandmark> landmarks = match_landmarks(file, shared.file.positions, scan);
-  if (landmarks.empty() && !file.of_scan.empty()) {
-    log_warning(concat(task.scan.string(), ": none of its ", file.of_scan.size(), " landmarks (",
-                       file.of_scan.begin()->first, ", …) has the name of a template landmark: ",
+  if (landmarks.empty() && !file.scan_places.empty()) {
+    log_warning(concat(task.scan.string(), ": none of its ", file.scan_places.size(),
+                       " landmarks (", file.scan_places.begin()->first,
+                       ", …) has the name of a template landmark: ",
                        "name template landmarks with --template-landmarks, or under template in "
                        "the YAML file"));
   }
@@ -200,9 +201,9 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
     picked.push_back({one.name, one.vertex, one.place, std::nullopt});
   }
   if (picked.size() < kMin) return result;
-  const auto pose = pose_of_picked(picked, shared.shape.positions);
+  const auto pose = fit_pose_to_picked(picked, shared.shape.positions);
   if (!pose) return result;
-  for (const auto& [name, residual] : pose->residuals) result[name] = residual.mm;
+  for (const auto& [name, residual] : pose->residuals) result[name] = residual.distance_mm;
   return result;
 }
 
@@ -212,10 +213,10 @@ std::map<std::string, double> left_out(const WrapInputs& shared,
 std::string likely_causes(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
   constexpr double kPart = 0.3;  // fraction of a head's surface that may be missing
-  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_shape);
   if (picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
   std::string part =
-      missing_share(scan) < kPart
+      unclosed_fraction(scan) < kPart
           ? ""
           : "; the scan seems to be only a part of a head, whose place is not found without "
             "landmarks: pick four or more";
@@ -281,15 +282,15 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   head.write(task.head);
   facts.mesh = head.digest().hex();
   if (options.estimate) {
-    facts.unseen_mm = unseen_landmarks(shared.shape, shared.model ? &*shared.model : nullptr, scan,
-                                       landmarks, hint);
+    facts.leave_out_wrap_mm = leave_out_distances(
+        shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
   }
   write_file(task.report,
              format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
   for (const std::string& warning : warnings) {
     log_warning(concat(task.scan.string(), ": ", warning));
   }
-  const WrapDistances distances = distances_of(shared.shape, result);
+  const WrapDistances distances = measure_distances(shared.shape, result);
   log_info(concat(task.scan.string(), ": ", task.head.string(), ", ",
                   format_fixed(distances.median, 2),
                   " mm from the scan (95 %: ", format_fixed(distances.percentile_95, 2), "), ",

@@ -42,7 +42,7 @@ std::vector<fs::path> TextureFiles::all() const {
 
 WrapTextures::WrapTextures(const WrapOptions& options, const WrapInputs& inputs)
     : inputs_(inputs),
-      options_{.delight = options.delight},
+      options_{.remove_shading = options.delight},
       target_(inputs.file, inputs.shape, inputs.texture_size) {
   for (const std::string& warning : target_.warnings()) log_warning(warning);
 }
@@ -50,7 +50,7 @@ WrapTextures::WrapTextures(const WrapOptions& options, const WrapInputs& inputs)
 TextureFiles WrapTextures::files_of(const fs::path& head, const fs::path& reports) const {
   const std::string name = head.stem().string();
   TextureFiles files{head.parent_path() / (name + ".mtl"), {}, {}};
-  for (const PictureName& picture : target_.names()) {
+  for (const PictureName& picture : target_.picture_names()) {
     const std::string tile = std::to_string(picture.tile);
     files.maps.push_back(head.parent_path() / map_name(name, "colour", picture, tile));
     files.masks.push_back(reports / map_name(name, "filled", picture, tile));
@@ -63,7 +63,7 @@ std::string WrapTextures::materials_text(const TextureFiles& files) const {
   OwnMaterials::Replacements textures;
   for (const auto& [material, picture] : target_.pictures_by_material()) {
     textures[TextureKind::kColour][material.empty() ? kSkinMaterial : material] =
-        map_name(name, "colour", target_.names()[picture], kTileWord);
+        map_name(name, "colour", target_.picture_names()[picture], kTileWord);
   }
   return OwnMaterials(inputs_.file.material_path(), inputs_.file.material_libraries).text(textures);
 }
@@ -92,15 +92,15 @@ void WrapTextures::copy_other_textures(const fs::path& folder) const {
 
 double WrapTextures::write(const WrapResult& result, const Scan& scan, const ScanColours& colours,
                            const TextureFiles& files) const {
-  const Scan skin = skin_only(scan);
+  const Scan skin = keep_skin(scan);
   const ScanSurface surface(
       {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.sources});
   const ScanBake bake(target_, result.positions, surface, colours, options_);
   double filled = 0;
   for (std::size_t p = 0; p < files.maps.size(); ++p) {
-    const BakedPicture picture = bake.picture(p);
+    const BakedPicture picture = bake.bake_picture(p);
     write_file(files.maps[p], encode_png(picture.width, picture.height, 3, picture.srgb));
-    write_file(files.masks[p], encode_png(picture.width, picture.height, 1, picture.filled));
+    write_file(files.masks[p], encode_png(picture.width, picture.height, 1, picture.filled_mask));
     filled += picture.filled_share / static_cast<double>(files.maps.size());
   }
   copy_other_textures(files.materials.parent_path());

@@ -16,13 +16,13 @@
 namespace crowdface {
 namespace {
 
-/// Triangles at most kSheetRings edges apart count as one sheet. Two triangles of a sheet have
-/// similar normals if the cosine between the normals is at least kAlike.
+/// Triangles at most kSheetRings edges apart count as one sheet. kAlike: smallest cosine between
+/// two normals of a sheet that is not folded.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.998F;
 
-/// Upper limit of both search distances, in mean leaf sizes. On a dense mesh, leaves are small;
-/// larger distances would give too many pairs of leaves.
+/// Upper limit of both search distances, in mean diagonals of the leaves' boxes. On a dense mesh,
+/// leaves are small; larger distances would give too many pairs of leaves.
 constexpr double kMaxLeaves = 3;
 
 /// Bit mask (see LeafPair) with one bit for each pair of two different triangles of the same leaf.
@@ -67,7 +67,7 @@ class Rings {
  private:
   const std::vector<Triangle>& triangles_;
   VertexFaces around_;
-  /// #triangles: the start of the last search that reached each triangle
+  /// #triangles: the triangle from which the last search that reached this triangle started
   std::vector<std::uint32_t> seen_;
   std::vector<std::uint32_t> reached_;
 };
@@ -89,8 +89,8 @@ double mean_leaf_size(const TriangleTree& tree, const SingleRows& points) {
 
 }  // namespace
 
-CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach,
-                               double facing)
+CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh,
+                               double max_distance, double max_facing_distance)
     : triangles_(std::move(triangles)) {
   for (const Triangle& t : triangles_) vertices_.insert(vertices_.end(), t.begin(), t.end());
   std::ranges::sort(vertices_);
@@ -100,30 +100,30 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
     for (std::uint32_t& v : triangle) v = index_in_list(vertices_, v);
   }
   const Positions points = mesh(vertices_, kAllColumns);
-  tree_ = TriangleTree(numbered, points, reach);
-  find_leaf_pairs(numbered, points, reach, facing);
+  tree_ = TriangleTree(numbered, points, max_distance);
+  find_leaf_pairs(numbered, points, max_distance, max_facing_distance);
 }
 
 void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, const Positions& points,
-                                     double reach, double facing) {
+                                     double max_distance, double max_facing_distance) {
   const SingleRows single = points.cast<float>();
   const double most = kMaxLeaves * mean_leaf_size(tree_, single);
-  reach = std::min(reach, most);
-  facing = std::min(facing, most);
-  const TriangleScene scene(numbered, tree_, points, facing / 2);
+  max_distance = std::min(max_distance, most);
+  max_facing_distance = std::min(max_facing_distance, most);
+  const TriangleScene scene(numbered, tree_, points, max_facing_distance / 2);
   std::vector<LeafBoxes> close, far;
   std::vector<LeafNormals> normals;
   for (const LeafCorners& corners : tree_.corners) {
-    close.emplace_back(corners, single, reach / 2);
-    far.emplace_back(corners, single, facing / 2);
+    close.emplace_back(corners, single, max_distance / 2);
+    far.emplace_back(corners, single, max_facing_distance / 2);
     normals.emplace_back(corners, single);
   }
   // position of each triangle in the order of the leaves
   std::vector<std::uint32_t> place(numbered.size(), kNoIndex);
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(numbered, points.rows());
-  // #leaves: for each leaf, two bit masks of the pairs of its triangles with triangles of leaf
-  // `one`: pairs few edges apart, and pairs with a common vertex
+  // #leaves: two bit masks of pairs of a triangle of leaf `one` and a triangle of this leaf: pairs
+  // few edges apart, and pairs with a common vertex
   std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());
   for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
     const std::vector<std::uint32_t> others = scene.leaves_near(one);
@@ -142,7 +142,7 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
     }
     for (const std::uint32_t other : others) {
       const auto& [few_edges, joined] = of_sheet[other];
-      // Choose the candidates of each pair of leaves.
+      // Find the candidate pairs of triangles in each pair of leaves.
       const std::uint64_t once = one == other ? kEachPairOnce : ~std::uint64_t{0};
       std::uint64_t facing_it = overlap_mask(far[one], far[other]);
       if (facing_it != 0) facing_it &= ~similar_normal_mask(normals[one], normals[other], 0);
@@ -155,12 +155,12 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
 }
 
 void CrossingSearch::measure_leaf(std::size_t l, Boxes& boxes) const {
-  boxes.triangles[l] = LeafBoxes(tree_.corners[l], boxes.points, 0);
-  boxes.leaves[l] = boxes.triangles[l].whole();
-  boxes.normals[l] = LeafNormals(tree_.corners[l], boxes.points);
+  boxes.triangle_boxes[l] = LeafBoxes(tree_.corners[l], boxes.points, 0);
+  boxes.leaf_boxes[l] = boxes.triangle_boxes[l].whole();
+  boxes.leaf_normals[l] = LeafNormals(tree_.corners[l], boxes.points);
 }
 
-CrossingSearch::Boxes CrossingSearch::boxes_of(const Positions& mesh) const {
+CrossingSearch::Boxes CrossingSearch::make_boxes(const Positions& mesh) const {
   const std::size_t leaves = tree_.leaf_count();
   Boxes boxes{mesh(vertices_, kAllColumns).cast<float>(), std::vector<LeafBoxes>(leaves),
               std::vector<LeafNormals>(leaves), std::vector<Box>(leaves),
@@ -177,34 +177,35 @@ void CrossingSearch::update(const Positions& mesh, const std::vector<bool>& chan
     moved[i] = 1;
     boxes.points.row(static_cast<Index>(i)) = mesh.row(vertices_[i]).cast<float>();
   }
-  for (std::size_t l = 0; l < boxes.leaves.size(); ++l) {
+  for (std::size_t l = 0; l < boxes.leaf_boxes.size(); ++l) {
     std::uint8_t any = 0;
     for (const auto& corner : tree_.corners[l].vertex) {
       for (const std::int32_t v : corner) any |= moved[static_cast<std::size_t>(v)];
     }
-    boxes.is_new[l] = any;
+    boxes.is_changed[l] = any;
     if (any != 0) measure_leaf(l, boxes);
   }
 }
 
 std::vector<CrossingSearch::Pair> CrossingSearch::crossing_pairs(
     const Positions& mesh, const Boxes& boxes,
-    const std::function<bool(std::uint32_t)>& excused) const {
+    const std::function<bool(std::uint32_t)>& is_excused) const {
   std::vector<Pair> pairs;
   for (const LeafPair& pair : leaf_pairs_) {
-    if ((boxes.is_new[pair.first] | boxes.is_new[pair.second]) == 0) continue;
-    if (!overlap(boxes.leaves[pair.first], boxes.leaves[pair.second])) continue;
-    std::uint64_t left = (pair.always_tested | pair.tested_if_folded) &
-                         overlap_mask(boxes.triangles[pair.first], boxes.triangles[pair.second]);
+    if ((boxes.is_changed[pair.first] | boxes.is_changed[pair.second]) == 0) continue;
+    if (!overlap(boxes.leaf_boxes[pair.first], boxes.leaf_boxes[pair.second])) continue;
+    std::uint64_t left =
+        (pair.always_tested | pair.tested_if_folded) &
+        overlap_mask(boxes.triangle_boxes[pair.first], boxes.triangle_boxes[pair.second]);
     if ((left & pair.tested_if_folded) != 0) {
-      left &= pair.always_tested |
-              ~similar_normal_mask(boxes.normals[pair.first], boxes.normals[pair.second], kAlike);
+      left &= pair.always_tested | ~similar_normal_mask(boxes.leaf_normals[pair.first],
+                                                        boxes.leaf_normals[pair.second], kAlike);
     }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
       const std::uint32_t t = tree_.leaf(pair.first)[bit / LeafBoxes::kCount];
       const std::uint32_t u = tree_.leaf(pair.second)[bit % LeafBoxes::kCount];
-      if (excused(t) && excused(u)) continue;
+      if (is_excused(t) && is_excused(u)) continue;
       if (!triangles_intersect(mesh, triangles_[t], triangles_[u])) continue;
       pairs.push_back({std::min(t, u), std::max(t, u)});
     }

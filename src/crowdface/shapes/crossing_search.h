@@ -10,10 +10,10 @@
 
 namespace crowdface {
 
-/// Finds intersecting triangles in many meshes of one topology. Each leaf stores eight triangles
-/// that are close together. The constructor determines, on one mesh, which pairs of leaves and
-/// which of their triangles can intersect at all. Each search compares only the bounding boxes of
-/// these candidates before the exact test.
+/// Finds intersecting triangles in many meshes of one topology. A tree over the triangles has
+/// leaves of eight neighbouring triangles. From one mesh, the constructor determines the
+/// candidates: the pairs of triangles that can intersect at all. Each search compares the bounding
+/// boxes of the candidates before the exact test.
 class CrossingSearch {
  public:
   using Pair = std::array<std::uint32_t, 2>;  ///< indices of two triangles, ascending
@@ -21,25 +21,27 @@ class CrossingSearch {
   CrossingSearch() = default;
   /// \param triangles  The triangles to search.
   /// \param mesh       #V by 3: the mesh on which the constructor finds candidate pairs.
-  /// \param reach      Largest distance of two candidates on `mesh`.
-  /// \param facing     Largest distance of two candidates that face each other; at least `reach`.
+  /// \param max_distance  Largest distance of two candidates on `mesh`.
+  /// \param max_facing_distance  The same for candidates that face each other; at least
+  ///                   `max_distance`.
   ///
-  /// Triangles that are only a few edges apart on one sheet are tested only if their normals
-  /// differ, that is, if the sheet is folded.
-  CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double reach,
-                 double facing);
+  /// Two triangles that are connected by a few edges are tested only if their normals differ, that
+  /// is, if the surface between them is folded.
+  CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double max_distance,
+                 double max_facing_distance);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
   /// Bounding boxes of one mesh, which `update` keeps up to date between searches.
   struct Boxes {
-    SingleRows points;                 ///< #vertices of the triangles by 3
-    std::vector<LeafBoxes> triangles;  ///< #leaves
-    std::vector<LeafNormals> normals;  ///< #leaves
-    std::vector<Box> leaves;
-    std::vector<std::uint8_t> is_new;  ///< #leaves: whether the leaf changed since the last search
+    SingleRows points;                      ///< #vertices of the triangles by 3
+    std::vector<LeafBoxes> triangle_boxes;  ///< #leaves
+    std::vector<LeafNormals> leaf_normals;  ///< #leaves
+    std::vector<Box> leaf_boxes;
+    std::vector<std::uint8_t>
+        is_changed;  ///< #leaves: whether the leaf changed since the last search
   };
-  Boxes boxes_of(const Positions& mesh) const;
+  Boxes make_boxes(const Positions& mesh) const;
   /// Updates the boxes after vertices moved.
   ///
   /// \param changed  #V: whether a vertex moved since the last update.
@@ -47,22 +49,21 @@ class CrossingSearch {
 
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
-  /// \param excused  Returns whether a triangle is excused. A pair is ignored if both of its
-  ///                 triangles are excused.
+  /// \param is_excused  A pair is ignored if this function returns true for both of its triangles.
   std::vector<Pair> crossing_pairs(const Positions& mesh, const Boxes& boxes,
-                                   const std::function<bool(std::uint32_t)>& excused) const;
+                                   const std::function<bool(std::uint32_t)>& is_excused) const;
 
  private:
-  /// Candidates in a pair of leaves, or in one leaf that is paired with itself. Bit 8·i + j stands
-  /// for triangle i of the first leaf and triangle j of the second leaf.
+  /// Bit masks of the candidates in a pair of leaves, or in one leaf that is paired with itself.
+  /// Bit 8·i + j stands for triangle i of the first leaf and triangle j of the second leaf.
   struct LeafPair {
     std::uint32_t first, second;
     std::uint64_t always_tested;
     /// pairs of triangles on one sheet, few edges apart: tested only if their normals differ
     std::uint64_t tested_if_folded;
   };
-  void find_leaf_pairs(const std::vector<Triangle>& numbered, const Positions& points, double reach,
-                       double facing);
+  void find_leaf_pairs(const std::vector<Triangle>& triangles, const Positions& points,
+                       double max_distance, double max_facing_distance);
   void measure_leaf(std::size_t leaf, Boxes& boxes) const;
 
   std::vector<Triangle> triangles_;

@@ -18,14 +18,14 @@ namespace {
 constexpr double kSpacing = 0.06;   // spacing of the nodes
 constexpr double kInfluence = 0.1;  // radius of a node's influence
 constexpr double kPatch = 0.1;      // radius of the patch that determines a node's map
-/// Weight of the similarity transform of the whole skin in the fit of a node, as a fraction of the
-/// patch's scatter.
+/// Weight of the whole skin's similarity transform in the fit of a node's map, as a fraction of the
+/// sum of squares of the patch's positions.
 constexpr double kRegularisation = 0.02;
 /// Largest numbers of vertices: kMaxSkin for the whole skin, kMaxCandidates for candidates of
 /// nodes, kMaxPatch for a patch.
 constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
 
-/// Farthest-point sampling: repeatedly adds the vertex that is farthest from the chosen vertices,
+/// Farthest-point sampling. Repeatedly adds the vertex that is farthest from the chosen vertices,
 /// until every vertex is within `spacing` of a chosen vertex.
 std::vector<std::uint32_t> spread_over(const Positions& positions,
                                        std::span<const std::uint32_t> vertices, double spacing) {
@@ -72,38 +72,38 @@ FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> 
     nodes_[p] = node_at(neutral, evenly_spaced_items(patch, kMaxPatch), kPatch * extent, chosen[p]);
   });
   for (const std::uint32_t v : used) {
-    std::vector<Share> shares;
-    Share nearest{0, std::numeric_limits<double>::max()};
+    std::vector<NodeWeight> shares;
+    NodeWeight nearest{0, std::numeric_limits<double>::max()};
     double sum = 0;
     for (std::uint32_t p = 0; p < nodes_.size(); ++p) {
-      const double distance = (row3(neutral, v) - nodes_[p].middle).norm();
+      const double distance = (row3(neutral, v) - nodes_[p].centre).norm();
       if (distance < nearest.weight) nearest = {p, distance};
       const double weight = biweight(std::min(1.0, distance / (kInfluence * extent)));
       if (weight > 0) shares.push_back({p, weight});
       sum += weight;
     }
     if (shares.empty()) shares.push_back({nearest.node, sum = 1});
-    for (Share& share : shares) share.weight /= sum;
-    shares_.add_group(shares);
+    for (NodeWeight& share : shares) share.weight /= sum;
+    node_weights_.add_group(shares);
   }
 }
 
 FrameField::Node FrameField::node_at(const Positions& neutral, std::span<const std::uint32_t> patch,
-                                     double reach, std::uint32_t vertex) {
+                                     double radius, std::uint32_t vertex) {
   Node node{row3(neutral, vertex), vertex, {}, {}};
   std::vector<double> weights;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double sum = 0;
   for (const std::uint32_t v : patch) {
-    const Eigen::Vector3d from = row3(neutral, v) - node.middle;
-    weights.push_back(biweight(std::min(1.0, from.norm() / reach)));
+    const Eigen::Vector3d from = row3(neutral, v) - node.centre;
+    weights.push_back(biweight(std::min(1.0, from.norm() / radius)));
     mean += weights.back() * from;
     sum += weights.back();
   }
   mean /= sum;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < patch.size(); ++i) {
-    const Eigen::Vector3d from = row3(neutral, patch[i]) - node.middle - mean;
+    const Eigen::Vector3d from = row3(neutral, patch[i]) - node.centre - mean;
     const Eigen::Vector3d weighted = weights[i] * from;
     spread += weighted * from.transpose();
   }
@@ -111,14 +111,14 @@ FrameField::Node FrameField::node_at(const Positions& neutral, std::span<const s
   // patch's scatter.
   const double whole = kRegularisation * (spread(0, 0) + spread(1, 1) + spread(2, 2));
   if (!(whole > 0)) {
-    node.whole_factor = Eigen::Matrix3d::Identity();
+    node.motion_factor = Eigen::Matrix3d::Identity();
     return node;
   }
   for (Index i = 0; i < 3; ++i) spread(i, i) += whole;
   const Eigen::Matrix3d inverse = inverse3(spread);
-  node.whole_factor = whole * inverse;
+  node.motion_factor = whole * inverse;
   for (std::size_t i = 0; i < patch.size(); ++i) {
-    const Eigen::Vector3d from = row3(neutral, patch[i]) - node.middle - mean;
+    const Eigen::Vector3d from = row3(neutral, patch[i]) - node.centre - mean;
     node.samples.push_back({patch[i], weights[i] * apply3(inverse, from)});
   }
   return node;
@@ -130,7 +130,8 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
     const Node& node = nodes_[p];
     Eigen::Matrix3d& map = frames.node_maps[p];
-    for (Index c = 0; c < 3; ++c) map.col(c) = frames.whole.turn(node.whole_factor.col(c));
+    for (Index c = 0; c < 3; ++c)
+      map.col(c) = frames.face_motion.apply_to_direction(node.motion_factor.col(c));
     // Positions relative to one vertex, so that rounding does not depend on where the face is.
     const Eigen::Vector3d origin = row3(face, node.vertex);
     for (const Sample& sample : node.samples) {
@@ -143,7 +144,8 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
 
 Eigen::Matrix3d FrameField::map_at(std::size_t i, const Frames& frames) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
-  for (const Share& share : shares_.of(i)) map += share.weight * frames.node_maps[share.node];
+  for (const NodeWeight& share : node_weights_.of(i))
+    map += share.weight * frames.node_maps[share.node];
   return map;
 }
 

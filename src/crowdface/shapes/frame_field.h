@@ -23,17 +23,17 @@ class FrameField {
   /// \param neutral  Template at rest, #V by 3; must outlive this object.
   /// \param skin     Vertices of the skin, ascending; at least three.
   /// \param extent   Diagonal of the skin's bounding box.
-  /// \param used     Vertices that need a map, ascending.
+  /// \param vertices  Vertices that need a map, ascending.
   FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
-             std::span<const std::uint32_t> used);
+             std::span<const std::uint32_t> vertices);
 
   struct Frames {
-    RigidMotion whole;                       ///< motion from the template to the face
+    RigidMotion face_motion;                 ///< motion from the template to the face
     std::vector<Eigen::Matrix3d> node_maps;  ///< #nodes: linear map at each node
   };
   Frames frames(const Positions& face) const;
-  /// Returns the map at the vertex `used[i]`. If the face is the template rotated, translated and
-  /// scaled, the map is this rotation and scale, up to rounding.
+  /// Returns the linear map at the vertex `vertices[i]`. If the face is the template rotated,
+  /// translated and scaled, the map is this rotation and scale, up to rounding.
   Eigen::Matrix3d map_at(std::size_t i, const Frames& frames) const;
 
  private:
@@ -42,27 +42,27 @@ class FrameField {
     Eigen::Vector3d weight;
   };
   struct Node {
-    Eigen::Vector3d middle;
+    Eigen::Vector3d centre;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// matrix by which the rotation and scale of the whole skin enter the node's map; determines
-    /// the map in directions in which the samples do not extend
-    Eigen::Matrix3d whole_factor;
+    /// 3 by 3 factor of the whole skin's rotation and scale in the node's map; determines the map
+    /// in directions in which the samples do not extend
+    Eigen::Matrix3d motion_factor;
   };
-  struct Share {
+  struct NodeWeight {
     std::uint32_t node;
     double weight;  ///< weights of a vertex sum to one
   };
 
-  static Node node_at(const Positions& neutral, std::span<const std::uint32_t> patch, double reach,
+  static Node node_at(const Positions& neutral, std::span<const std::uint32_t> patch, double radius,
                       std::uint32_t vertex);
 
   const Positions* neutral_ = nullptr;
   std::vector<std::uint32_t> sampled_skin_;
   std::vector<double> unit_weights_;  ///< #sampled_skin_: all 1
   std::vector<Node> nodes_;
-  /// #used: the nodes between which each vertex interpolates, with weights
-  CompressedRows<Share> shares_;
+  /// #vertices: the nodes between which each vertex interpolates, with weights
+  CompressedRows<NodeWeight> node_weights_;
 };
 
 /// Inverts a regular 3 by 3 matrix by cofactors.

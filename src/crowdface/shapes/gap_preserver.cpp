@@ -18,7 +18,7 @@ constexpr double kMaxChange = 1e-3;
 GapPreserver::GapPreserver(const HeadSet& faces, const Adjacency& adjacency,
                            std::span<const std::uint32_t> skin)
     : contacts_(faces, adjacency, skin),
-      max_change_(kMaxChange * extent_of(faces.heads.front().positions, skin)) {}
+      max_gap_change_(kMaxChange * extent_of(faces.heads.front().positions, skin)) {}
 
 bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const {
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
@@ -31,7 +31,7 @@ bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const
   return false;
 }
 
-std::vector<std::uint32_t> GapPreserver::vertices() const {
+std::vector<std::uint32_t> GapPreserver::contact_vertices() const {
   std::vector<std::uint32_t> vertices;
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
     vertices.push_back(contacts_.place(p).low.front().a);
@@ -41,16 +41,17 @@ std::vector<std::uint32_t> GapPreserver::vertices() const {
 
 double GapPreserver::max_overlap(const Positions& positions) const {
   double deepest = 0;
-  for (const double gap : gaps(positions)) deepest = std::max(deepest, -gap);
+  for (const double gap : measure_gaps(positions)) deepest = std::max(deepest, -gap);
   return deepest;
 }
 
-void GapPreserver::adjust(std::span<const double> rest, std::span<const double> widening,
-                          GapSelection how, Positions& shape) const {
-  std::vector<SkinContacts::Range> ranges(rest.size(), {-HUGE_VAL, HUGE_VAL});
-  for (std::size_t p = 0; p < rest.size(); ++p) {
-    if (how == GapSelection::kNearlySame && std::abs(widening[p]) > max_change_) continue;
-    ranges[p] = {rest[p] + widening[p], rest[p] + widening[p]};
+void GapPreserver::adjust(std::span<const double> rest_gaps, std::span<const double> gap_changes,
+                          GapSelection selection, Positions& shape) const {
+  std::vector<SkinContacts::Range> ranges(rest_gaps.size(), {-HUGE_VAL, HUGE_VAL});
+  for (std::size_t p = 0; p < rest_gaps.size(); ++p) {
+    if (selection == GapSelection::kNearlySame && std::abs(gap_changes[p]) > max_gap_change_)
+      continue;
+    ranges[p] = {rest_gaps[p] + gap_changes[p], rest_gaps[p] + gap_changes[p]};
   }
   contacts_.fit_gaps(ranges, shape);
 }

@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// Preserves the gap between the lips in shapes that keep the lips closed or equally far apart. The
-/// two lips are far from each other along the skin. So the linear maps of FrameField differ between
-/// the lips, and alone they would change the gap.
+/// linear maps of FrameField alone would change the gap, because they differ between the lips,
+/// which are far from each other along the skin.
 class GapPreserver {
  public:
   /// \param skin  Vertices of the skin, ascending.
@@ -21,32 +21,33 @@ class GapPreserver {
   /// Returns whether a shape that moves these vertices (ascending) moves skin that nearly touches
   /// other skin.
   bool is_affected_by(std::span<const std::uint32_t> vertices) const;
-  /// Returns one vertex at each place where gaps are measured.
-  std::vector<std::uint32_t> vertices() const;
+  /// Returns a vertex for each gap that is measured.
+  std::vector<std::uint32_t> contact_vertices() const;
 
   /// Returns the vertices that `adjust` may move.
   std::vector<std::uint32_t> movable_vertices() const { return contacts_.movable_vertices(); }
 
-  /// Returns the gaps at all places. \param positions  #V by 3.
-  std::vector<double> gaps(const Positions& positions) const { return contacts_.gaps(positions); }
-  /// Returns the largest depth by which skin overlaps other skin, over all places; 0 if no skin
-  /// overlaps.
+  /// Returns all gaps, in the unit of the positions. \param positions  #V by 3.
+  std::vector<double> measure_gaps(const Positions& positions) const {
+    return contacts_.gaps(positions);
+  }
+  /// Returns the largest depth of overlap (the largest negative gap); 0 if no skin overlaps.
   double max_overlap(const Positions& positions) const;
 
   /// Which gaps to adjust: only the gaps that the shape hardly changes, or all gaps.
   enum class GapSelection { kNearlySame, kAll };
-  /// Adjusts a shape so that gaps become `rest + widening`.
+  /// Adjusts a shape so that gaps become `rest_gaps + gap_changes`.
   ///
-  /// \param rest      #places: gaps of the face at rest.
-  /// \param widening  #places: wanted change of each gap.
-  /// \param how       Which gaps to adjust.
-  /// \param shape     The face in the shape, #V by 3; adjusted.
-  void adjust(std::span<const double> rest, std::span<const double> widening, GapSelection how,
-              Positions& shape) const;
+  /// \param rest_gaps    #gaps: gaps of the face at rest.
+  /// \param gap_changes  #gaps: target change of each gap.
+  /// \param selection    Which gaps to adjust.
+  /// \param shape        The face in the shape, #V by 3; adjusted.
+  void adjust(std::span<const double> rest_gaps, std::span<const double> gap_changes,
+              GapSelection selection, Positions& shape) const;
 
  private:
   SkinContacts contacts_;
-  double max_change_ = 0;  ///< largest change of a gap that kNearlySame adjusts
+  double max_gap_change_ = 0;  ///< largest change of a gap that kNearlySame adjusts
 };
 
 }  // namespace crowdface

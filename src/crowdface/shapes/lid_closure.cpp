@@ -16,25 +16,25 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the eyeball's radius, about 12 mm. Distances from the eyeball's centre:
-// skin closer than kWholeShare follows the lid fully; skin farther than kNoShare does not move.
+// skin closer than kWholeShare moves fully with the lid; skin farther than kNoShare does not move.
 constexpr double kWholeShare = 1.8, kNoShare = 3;
-// Distances from the eyeball's surface: skin closer than kWholeHold is kept off the eyeball fully,
-// skin farther than kNoHold is not.
+// Distances from the eyeball's surface: skin closer than kWholeHold is kept outside the eyeball;
+// this correction fades out until kNoHold.
 constexpr double kWholeHold = 0.27, kNoHold = 0.6;
-constexpr std::size_t kPlaces = 52;  // number of places along the opening
-constexpr double kProfile = 0.35;    // radius of the profile around each place
-constexpr double kBlur = .12;        // width of the kernel that blends places along the opening
-// Smallest decrease of the gap at a place at which the shape counts as closing the lids there.
+constexpr std::size_t kSections = 52;  // number of sections along the opening
+constexpr double kProfile = 0.35;      // radius of the profile around each section
+constexpr double kBlur = .12;          // width of the kernel that blends sections
+// A shape closes the lids at a section if it narrows the gap by at least this length.
 constexpr double kMinClosed = 0.05;
-/// Largest fraction of the gap at rest that may remain where the shape closes the template's lids.
+/// A shape closes the lids only if at most this fraction of the template's gap at rest remains.
 constexpr double kMaxRemaining = 0.4;
-// clearance between lid and eyeball that is kept where template and face at rest have it
+// Clearance between lid and eyeball that is kept if both the template and the face at rest have it.
 constexpr double kMargin = 0.004;
-/// Largest depth of skin in the eyeball, unless the skin is deeper at rest.
+/// Largest allowed depth of skin in the eyeball. Skin that is deeper at rest may stay that deep.
 constexpr double kDeepest = 0.0125;
 constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
-/// Where gaps must be corrected, lids are closed a little farther than on the template, by at most
-/// this, so that the skin between the measured places closes too.
+/// Corrected lids close farther than on the template by at most this length, so that the skin
+/// between two sections closes too.
 constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
@@ -58,8 +58,9 @@ Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool uppe
 
 }  // namespace
 
-void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side) {
-  for (const std::uint32_t v : eye.skin) {
+void mark_lid_sides(const TemplateEye& eye, const Positions& neutral,
+                    std::vector<signed char>& side) {
+  for (const std::uint32_t v : eye.skin_vertices) {
     double nearest = std::numeric_limits<double>::max();
     for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
       const std::uint32_t rim = eye.lids.vertices[eye.lids.rim[r]];
@@ -73,13 +74,14 @@ void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<sig
 
 BallMap::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
   const BallMap::Gap found = ball->gap_at(motion.undo(point) - ball->centre());
-  return {motion.scale * found.gap, motion.turn(found.normal) / motion.scale};
+  return {motion.scale * found.gap, motion.apply_to_direction(found.normal) / motion.scale};
 }
 
 FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
                  const Positions& mesh) {
   FaceEye there{&ball, motion};
-  for (const std::uint32_t v : eye.skin) there.rest_gaps.push_back(there.gap_at(row3(mesh, v)).gap);
+  for (const std::uint32_t v : eye.skin_vertices)
+    there.rest_gaps.push_back(there.gap_at(row3(mesh, v)).gap);
   return there;
 }
 
@@ -87,59 +89,61 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
                        const Displacements& shape, const HeadAxes& axes)
     : axes_(axes), radius_(eye.ball.radius()) {
   if (eye.lids.rim.empty()) return;
-  add_places(eye, adjacency, neutral, shape, axes);
+  add_sections(eye, adjacency, neutral, shape, axes);
   const FaceEye at_rest{&eye.ball, {}};
   const Eigen::Vector3d along = axes.side();
-  for (std::uint32_t i = 0; i < eye.skin.size(); ++i) {
-    const std::uint32_t v = eye.skin[i], row = index_in_list(shape.vertices, v);
+  for (std::uint32_t i = 0; i < eye.skin_vertices.size(); ++i) {
+    const std::uint32_t v = eye.skin_vertices[i], row = index_in_list(shape.vertices, v);
     if (row == kNoIndex) continue;
     const Eigen::Vector3d before = row3(neutral, v), after = before + row3(shape.moves, row);
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
     LidVertex lid{row, v, i, 0, 0};
-    lid.hold = smooth_step(kNoHold * radius_, kWholeHold * radius_,
-                           std::min(std::abs(gap_before), std::abs(gap_after)));
-    if (!places_.empty())
-      lid.share = smooth_step(kNoShare * radius_, kWholeShare * radius_, from.norm());
-    if (lid.share > 0 || lid.hold > 0) lids_.push_back(lid);
+    lid.eyeball_weight = smooth_step(kNoHold * radius_, kWholeHold * radius_,
+                                     std::min(std::abs(gap_before), std::abs(gap_after)));
+    if (!sections_.empty())
+      lid.closing_weight = smooth_step(kNoShare * radius_, kWholeShare * radius_, from.norm());
+    if (lid.closing_weight > 0 || lid.eyeball_weight > 0) lid_vertices_.push_back(lid);
   }
-  put_profiles_first();
-  for (const LidVertex& lid : lids_) {
+  sort_profiles_first();
+  for (const LidVertex& lid : lid_vertices_) {
     const double at = (row3(neutral, lid.vertex) + row3(shape.moves, lid.row)).dot(along);
     const std::size_t first = gain_effects_.size();
     double sum = 0;
-    for (const LidPlace& place : places_) {
-      const double x = (at - place.along) / (kBlur * radius_);
+    for (const LidSection& section : sections_) {
+      const double x = (at - section.along) / (kBlur * radius_);
       gain_effects_.push_back(1 / ((x * x + 1) * (x * x + 1)));
       sum += gain_effects_.back();
     }
-    for (std::size_t p = first; p < gain_effects_.size(); ++p) gain_effects_[p] *= lid.share / sum;
+    for (std::size_t p = first; p < gain_effects_.size(); ++p)
+      gain_effects_[p] *= lid.closing_weight / sum;
   }
 }
 
 /// Moves the lid vertices that belong to profiles to the front of the list, because the search for
 /// gains moves only these vertices.
-void LidClosure::put_profiles_first() {
+void LidClosure::sort_profiles_first() {
   std::set<std::uint32_t> rows;
-  for (const LidPlace& place : places_) {
-    for (const auto* points : {&place.low, &place.high}) {
-      for (const Point& point : *points) rows.insert({point.row_a, point.row_b});
+  for (const LidSection& section : sections_) {
+    for (const auto* points : {&section.lower_profile, &section.upper_profile}) {
+      for (const ProfilePoint& point : *points) rows.insert({point.row_a, point.row_b});
     }
   }
-  const auto rest = std::stable_partition(
-      lids_.begin(), lids_.end(), [&](const LidVertex& lid) { return rows.contains(lid.row); });
-  in_profiles_ = static_cast<std::size_t>(rest - lids_.begin());
+  const auto rest =
+      std::stable_partition(lid_vertices_.begin(), lid_vertices_.end(),
+                            [&](const LidVertex& lid) { return rows.contains(lid.row); });
+  profile_vertex_count_ = static_cast<std::size_t>(rest - lid_vertices_.begin());
 }
 
-void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
-                            const Positions& neutral, const Displacements& shape,
-                            const HeadAxes& axes) {
-  // Put places along the opening, between the corners of the eye.
+void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency,
+                              const Positions& neutral, const Displacements& shape,
+                              const HeadAxes& axes) {
+  // Distribute sections along the opening, between the corners of the eye.
   Positions closed = neutral;
   shape.add_to(closed);
   const Eigen::Vector3d along = axes.side();
   std::vector<signed char> sides(static_cast<std::size_t>(neutral.rows()), 0);
-  lid_sides(eye, neutral, sides);
+  mark_lid_sides(eye, neutral, sides);
   const std::vector<double> side(sides.begin(), sides.end());
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const std::uint32_t r : eye.lids.rim) {
@@ -147,54 +151,58 @@ void LidClosure::add_places(const TemplateEye& eye, const Adjacency& adjacency,
     low = std::min(low, at);
     high = std::max(high, at);
   }
-  for (std::size_t k = 0; k < kPlaces; ++k) {
-    const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kPlaces;
+  for (std::size_t k = 0; k < kSections; ++k) {
+    const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kSections;
     const Eigen::Vector3d middle =
         (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
-    // Cut both lids across the opening, on the template in the shape. Keep the place if the shape
+    // Cut both lids across the opening, on the template in the shape. Keep the section if the shape
     // closes the lids enough.
     ContactPlace cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
-    cut_profiles(adjacency, closed, eye.skin, side, kProfile * radius_, cut);
+    cut_profiles(adjacency, closed, eye.skin_vertices, side, kProfile * radius_, cut);
     if (cut.low.empty() || cut.high.empty()) continue;
     const double before = cut.gap(neutral), after = cut.gap(closed);
     if (before - after < kMinClosed * radius_ || after > kMaxRemaining * before) continue;
-    LidPlace place{{}, {}, at, before - after};
-    const auto add = [&](const std::vector<EdgePoint>& points, std::vector<Point>& to) {
+    LidSection section{{}, {}, at, before - after};
+    const auto add = [&](const std::vector<EdgePoint>& points, std::vector<ProfilePoint>& to) {
       for (const EdgePoint& point : points) {
         to.push_back({point, index_in_list(shape.vertices, point.a),
                       index_in_list(shape.vertices, point.b)});
       }
     };
-    add(cut.low, place.low);
-    add(cut.high, place.high);
-    places_.push_back(std::move(place));
+    add(cut.low, section.lower_profile);
+    add(cut.high, section.upper_profile);
+    sections_.push_back(std::move(section));
   }
 }
 
-std::vector<std::uint32_t> LidClosure::rows() const {
+std::vector<std::uint32_t> LidClosure::adjustable_rows() const {
   std::vector<std::uint32_t> rows;
-  for (const LidVertex& lid : lids_) rows.push_back(lid.row);
+  for (const LidVertex& lid : lid_vertices_) rows.push_back(lid.row);
   return rows;
 }
 
-LidClosure::EyeAxes LidClosure::axes_on(const RigidMotion& whole) const {
-  return {whole.turn(axes_.side()) / whole.scale, whole.turn(axes_.up) / whole.scale};
+LidClosure::EyeAxes LidClosure::eye_axes(const RigidMotion& face_motion) const {
+  return {face_motion.apply_to_direction(axes_.side()) / face_motion.scale,
+          face_motion.apply_to_direction(axes_.up) / face_motion.scale};
 }
 
-LidClosure::Goals LidClosure::goals(const Positions& mesh, const FaceEye& eye,
-                                    const RigidMotion& whole, const Positions& moves) const {
+LidClosure::Goals LidClosure::measure_goals(const Positions& mesh, const FaceEye& eye,
+                                            const RigidMotion& face_motion,
+                                            const Positions& moves) const {
   Goals goals;
-  if (!places_.empty()) goals.gaps = gaps(axes_on(whole), mesh, moves);
-  for (Gap& gap : goals.gaps) gap = {gap.paired / whole.scale, gap.vertical / whole.scale};
-  for (const LidVertex& lid : lids_) {
+  if (!sections_.empty()) goals.gaps = measure_gaps(eye_axes(face_motion), mesh, moves);
+  for (Gap& gap : goals.gaps)
+    gap = {gap.paired_gap / face_motion.scale, gap.vertical_gap / face_motion.scale};
+  for (const LidVertex& lid : lid_vertices_) {
     const double after = eye.gap_at(row3(mesh, lid.vertex) + row3(moves, lid.row)).gap;
-    goals.ball_distances.push_back(after / whole.scale);
-    goals.distance_changes.push_back((after - eye.rest_gaps[lid.number]) / whole.scale);
+    goals.ball_distances.push_back(after / face_motion.scale);
+    goals.distance_changes.push_back((after - eye.rest_gaps[lid.skin_index]) / face_motion.scale);
   }
   return goals;
 }
 
-LidClosure::Goals LidClosure::mean(std::span<const Goals> goals, std::span<const SetShare> shares) {
+LidClosure::Goals LidClosure::mean_goals(std::span<const Goals> goals,
+                                         std::span<const SetShare> shares) {
   Goals mean;
   mean.gaps.assign(goals.front().gaps.size(), {0, 0});
   mean.ball_distances.assign(goals.front().ball_distances.size(), 0);
@@ -202,8 +210,8 @@ LidClosure::Goals LidClosure::mean(std::span<const Goals> goals, std::span<const
   for (const SetShare& of_set : shares) {
     const Goals& one = goals[of_set.set];
     for (std::size_t p = 0; p < mean.gaps.size(); ++p) {
-      mean.gaps[p].paired += of_set.share * one.gaps[p].paired;
-      mean.gaps[p].vertical += of_set.share * one.gaps[p].vertical;
+      mean.gaps[p].paired_gap += of_set.share * one.gaps[p].paired_gap;
+      mean.gaps[p].vertical_gap += of_set.share * one.gaps[p].vertical_gap;
     }
     for (std::size_t i = 0; i < mean.ball_distances.size(); ++i) {
       mean.ball_distances[i] += of_set.share * one.ball_distances[i];
@@ -213,11 +221,11 @@ LidClosure::Goals LidClosure::mean(std::span<const Goals> goals, std::span<const
   return mean;
 }
 
-LidClosure::RimPoint LidClosure::rim_point(const std::vector<Point>& points, double sign,
+LidClosure::RimPoint LidClosure::rim_point(const std::vector<ProfilePoint>& points, double sign,
                                            const EyeAxes& axes, const Positions& face,
                                            const Positions& moves) {
   RimPoint rim{0, -std::numeric_limits<double>::max()};
-  for (const Point& point : points) {
+  for (const ProfilePoint& point : points) {
     Eigen::Vector3d at = (1 - point.edge.share) * row3(face, point.edge.a) +
                          point.edge.share * row3(face, point.edge.b);
     if (point.row_a != kNoIndex) at += (1 - point.edge.share) * row3(moves, point.row_a);
@@ -228,16 +236,17 @@ LidClosure::RimPoint LidClosure::rim_point(const std::vector<Point>& points, dou
   return {rim.along, sign * rim.height};
 }
 
-std::vector<LidClosure::Gap> LidClosure::gaps(const EyeAxes& axes, const Positions& face,
-                                              const Positions& moves) const {
+std::vector<LidClosure::Gap> LidClosure::measure_gaps(const EyeAxes& axes, const Positions& face,
+                                                      const Positions& moves) const {
   std::vector<RimPoint> low;
-  for (const LidPlace& place : places_) low.push_back(rim_point(place.low, 1, axes, face, moves));
+  for (const LidSection& section : sections_)
+    low.push_back(rim_point(section.lower_profile, 1, axes, face, moves));
   std::vector<RimPoint> sorted = low;
   std::sort(sorted.begin(), sorted.end(),
             [](const RimPoint& a, const RimPoint& b) { return a.along < b.along; });
   std::vector<Gap> gaps;
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    const RimPoint high = rim_point(places_[p].high, -1, axes, face, moves);
+  for (std::size_t p = 0; p < sections_.size(); ++p) {
+    const RimPoint high = rim_point(sections_[p].upper_profile, -1, axes, face, moves);
     const auto next =
         std::lower_bound(sorted.begin(), sorted.end(), high.along,
                          [](const RimPoint& rim, double at) { return rim.along < at; });
@@ -252,17 +261,18 @@ std::vector<LidClosure::Gap> LidClosure::gaps(const EyeAxes& axes, const Positio
   return gaps;
 }
 
-void LidClosure::close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
-                       std::span<const double> gains, Positions& moves) const {
+void LidClosure::move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
+                           std::span<const double> gains, Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
-    const LidVertex& lid = lids_[i];
+    const LidVertex& lid = lid_vertices_[i];
     const Eigen::Vector3d move = row3(carried, lid.row);
     const double gain = fixed_dot(gain_effects(i), gains);
     moves.row(lid.row) = (move + gain * move.dot(up) * up).transpose();
   }
 }
 
-double LidClosure::min_gap(std::size_t lid, double rest, double scale, const Goals& goals) const {
+double LidClosure::min_ball_distance(std::size_t lid, double rest, double scale,
+                                     const Goals& goals) const {
   const double of_shape = std::max(scale * goals.ball_distances[lid], -kDeepest * scale * radius_);
   return std::min({rest, of_shape, kMargin * scale * radius_});
 }
@@ -270,91 +280,95 @@ double LidClosure::min_gap(std::size_t lid, double rest, double scale, const Goa
 void LidClosure::keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye,
                                double scale, const Goals& goals, Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
-    const LidVertex& lid = lids_[i];
-    if (lid.hold == 0) continue;
+    const LidVertex& lid = lid_vertices_[i];
+    if (lid.eyeball_weight == 0) continue;
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
-    const double rest = eye.rest_gaps[lid.number];
-    const double wanted =
-        std::max(rest + scale * goals.distance_changes[i], min_gap(i, rest, scale, goals));
-    moves.row(lid.row) += (lid.hold * (wanted - now.gap) * now.normal).transpose();
+    const double rest = eye.rest_gaps[lid.skin_index];
+    const double wanted = std::max(rest + scale * goals.distance_changes[i],
+                                   min_ball_distance(i, rest, scale, goals));
+    moves.row(lid.row) += (lid.eyeball_weight * (wanted - now.gap) * now.normal).transpose();
   }
 }
 
-bool LidClosure::keep_out(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
-                          const Goals& goals, Positions& moves) const {
-  const double tolerance = kSomeDeeper * whole.scale * radius_;
+bool LidClosure::move_out_of_eyeball(const Positions& face, const FaceEye& eye,
+                                     const RigidMotion& face_motion, const Goals& goals,
+                                     Positions& moves) const {
+  const double tolerance = kSomeDeeper * face_motion.scale * radius_;
   bool is_out = true;
-  for (std::size_t i = 0; i < lids_.size(); ++i) {
-    const LidVertex& lid = lids_[i];
-    if (lid.hold == 0) continue;
-    const double least = min_gap(i, eye.rest_gaps[lid.number], whole.scale, goals);
+  for (std::size_t i = 0; i < lid_vertices_.size(); ++i) {
+    const LidVertex& lid = lid_vertices_[i];
+    if (lid.eyeball_weight == 0) continue;
+    const double least =
+        min_ball_distance(i, eye.rest_gaps[lid.skin_index], face_motion.scale, goals);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    // The missing distance counts in proportion to `hold`, as the correction does.
-    is_out = is_out && lid.hold * (least - now.gap) < tolerance;
-    moves.row(lid.row) += (lid.hold * (least - now.gap) * now.normal).transpose();
+    // Weight the missing distance like the correction.
+    is_out = is_out && lid.eyeball_weight * (least - now.gap) < tolerance;
+    moves.row(lid.row) += (lid.eyeball_weight * (least - now.gap) * now.normal).transpose();
   }
   return is_out;
 }
 
-double LidClosure::opening(const Positions& face, const RigidMotion& whole, const Goals& goals,
-                           const Positions& moves) const {
-  const std::vector<Gap> now = gaps(axes_on(whole), face, moves);
+double LidClosure::largest_open_gap(const Positions& face, const RigidMotion& face_motion,
+                                    const Goals& goals, const Positions& moves) const {
+  const std::vector<Gap> now = measure_gaps(eye_axes(face_motion), face, moves);
   double open = 0;
   for (std::size_t p = 0; p < now.size(); ++p) {
-    const double allowed = std::max(goals.gaps[p].vertical / radius_, kClosed);
-    open = std::max(open, now[p].vertical / (whole.scale * radius_) - allowed);
+    const double allowed = std::max(goals.gaps[p].vertical_gap / radius_, kClosed);
+    open = std::max(open, now[p].vertical_gap / (face_motion.scale * radius_) - allowed);
   }
   return open;
 }
 
-void LidClosure::close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
-                             Positions& moves) const {
-  const EyeAxes axes = axes_on(whole);
-  std::vector<double> gains = missing_gaps(gaps(axes, face, moves), goals, whole.scale);
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    gains[p] = std::max(gains[p], 0.0) / (whole.scale * places_[p].closed);
+void LidClosure::close_again(const Positions& face, const RigidMotion& face_motion,
+                             const Goals& goals, Positions& moves) const {
+  const EyeAxes axes = eye_axes(face_motion);
+  std::vector<double> gains =
+      gap_excesses(measure_gaps(axes, face, moves), goals, face_motion.scale);
+  for (std::size_t p = 0; p < sections_.size(); ++p) {
+    gains[p] = std::max(gains[p], 0.0) / (face_motion.scale * sections_[p].template_closing);
   }
   const Positions carried = moves;
-  close(lids_.size(), axes.up, carried, gains, moves);
+  move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);
 }
 
-std::vector<double> LidClosure::missing_gaps(const std::vector<Gap>& now, const Goals& goals,
+std::vector<double> LidClosure::gap_excesses(const std::vector<Gap>& now, const Goals& goals,
                                              double scale) {
   std::vector<double> missing;
   for (std::size_t p = 0; p < now.size(); ++p) {
     const Gap& wanted = goals.gaps[p];
-    missing.push_back(std::max(now[p].paired - scale * wanted.paired,
-                               now[p].vertical - scale * std::max(wanted.vertical, 0.0)));
+    missing.push_back(std::max(now[p].paired_gap - scale * wanted.paired_gap,
+                               now[p].vertical_gap - scale * std::max(wanted.vertical_gap, 0.0)));
   }
   return missing;
 }
 
-void LidClosure::fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
-                     const Goals& goals, Positions& moves) const {
-  const EyeAxes axes = axes_on(whole);
-  if (places_.empty()) {
-    return keep_off_ball(lids_.size(), face, eye, whole.scale, goals, moves);
+void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const RigidMotion& face_motion,
+                          const Goals& goals, Positions& moves) const {
+  const EyeAxes axes = eye_axes(face_motion);
+  if (sections_.empty()) {
+    return keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, goals, moves);
   }
   const Positions carried = moves;
-  std::vector<double> gains(places_.size(), 0.0);
+  std::vector<double> gains(sections_.size(), 0.0);
   double sure = 0;
   // Chord method (Newton with a fixed slope) for the gains. A gain of one narrows the gap at a
-  // place by as much as the shape does on the template.
+  // section by as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
-    if (step > 0) close(in_profiles_, axes.up, carried, gains, moves);
-    keep_off_ball(in_profiles_, face, eye, whole.scale, goals, moves);
-    const std::vector<double> missing = missing_gaps(gaps(axes, face, moves), goals, whole.scale);
+    if (step > 0) move_lids(profile_vertex_count_, axes.up, carried, gains, moves);
+    keep_off_ball(profile_vertex_count_, face, eye, face_motion.scale, goals, moves);
+    const std::vector<double> missing =
+        gap_excesses(measure_gaps(axes, face, moves), goals, face_motion.scale);
     if (step == 0) {
       for (const double gap : missing) sure = std::max(sure, std::abs(gap) / 2);
-      sure = std::min(sure, kMaxExtraClosing * whole.scale * radius_);
+      sure = std::min(sure, kMaxExtraClosing * face_motion.scale * radius_);
     }
-    for (std::size_t p = 0; p < places_.size(); ++p) {
-      gains[p] += (missing[p] + sure) / (whole.scale * places_[p].closed);
+    for (std::size_t p = 0; p < sections_.size(); ++p) {
+      gains[p] += (missing[p] + sure) / (face_motion.scale * sections_[p].template_closing);
     }
   }
-  close(lids_.size(), axes.up, carried, gains, moves);
-  keep_off_ball(lids_.size(), face, eye, whole.scale, goals, moves);
+  move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);
+  keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, goals, moves);
 }
 
 }  // namespace crowdface

@@ -18,7 +18,7 @@ namespace crowdface {
 struct TemplateEye {
   BallMap ball;
   Lids lids;
-  std::vector<std::uint32_t> skin;  ///< vertices around the eye, ascending
+  std::vector<std::uint32_t> skin_vertices;  ///< vertices around the eye, ascending
 };
 
 /// An eyeball of a face: the radius map of a head's eyeball, the motion that carries this eyeball
@@ -36,11 +36,12 @@ struct FaceEye {
 FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
                  const Positions& mesh);
 
-/// Assigns the skin around an eye to the lid with the nearest rim vertex: 1 for the upper lid, −1
-/// for the lower lid. Leaves other entries unchanged.
+/// Marks the skin around an eye by the lid with the nearest rim vertex: 1 for the upper lid, −1 for
+/// the lower lid. Does not change the entries of other vertices.
 ///
-/// \param side  #V.
-void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<signed char>& side);
+/// \param lid_sides  #V; modified.
+void mark_lid_sides(const TemplateEye& eye, const Positions& neutral,
+                    std::vector<signed char>& lid_sides);
 
 /// Adjusts how a shape moves the lids of one eye, so that a blink closes eyes of any size. With the
 /// local linear maps alone, lids would stay open or overlap by millimetres: the opening is not part
@@ -49,23 +50,23 @@ void lid_sides(const TemplateEye& eye, const Positions& neutral, std::vector<sig
 /// template. The class also keeps the lids outside the eyeball, as on the template.
 class LidClosure {
  public:
-  /// \param shape  Shape of the template. Some of its vertices may be skin around the eye.
+  /// \param shape  A shape of the template; its vertices may include skin around the eye.
   LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
              const Displacements& shape, const HeadAxes& axes);
 
   /// Returns whether the shape leaves this eye's lids unmoved.
-  bool empty() const { return lids_.empty(); }
+  bool empty() const { return lid_vertices_.empty(); }
 
-  /// Gap between the rims of both lids at one place; negative where the upper lid is below the
-  /// lower lid.
+  /// Gap between the rims of both lids at one section; negative if the upper lid is below the lower
+  /// lid.
   struct Gap {
-    double paired;    ///< gap between points that lie above each other on the template
-    double vertical;  ///< vertical distance from the point of the upper rim to the lower rim
+    double paired_gap;    ///< gap between points that lie above each other on the template
+    double vertical_gap;  ///< vertical distance from the point of the upper rim to the lower rim
   };
   /// The gaps and distances that a face's lids should have: measured on a mesh with a known shape,
   /// and divided by the mesh's scale relative to the template.
   struct Goals {
-    std::vector<Gap> gaps;  ///< #places
+    std::vector<Gap> gaps;  ///< #sections
     /// #lids: each lid vertex's distance from the eyeball in the shape, and the difference between
     /// this distance and the distance at rest
     std::vector<double> ball_distances, distance_changes;
@@ -73,49 +74,50 @@ class LidClosure {
   /// Measures the goals on a mesh.
   ///
   /// \param mesh   #V by 3, at rest.
-  /// \param whole  Motion from the template to the mesh.
+  /// \param face_motion  Motion from the template to the mesh.
   /// \param moves  The mesh's displacements, with the rows of the shape.
-  Goals goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& whole,
-              const Positions& moves) const;
+  Goals measure_goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& face_motion,
+                      const Positions& moves) const;
   /// Returns the weighted mean of the goals of several sets of shapes.
-  static Goals mean(std::span<const Goals> goals, std::span<const SetShare> shares);
+  static Goals mean_goals(std::span<const Goals> goals, std::span<const SetShare> shares);
   /// Returns whether the shape closes the lids.
-  bool closes() const { return !places_.empty(); }
-  /// Returns the rows of the shape's displacements that `fit` may change.
-  std::vector<std::uint32_t> rows() const;
+  bool closes_lids() const { return !sections_.empty(); }
+  /// Returns the rows of the shape's displacements that `fit_lids` may change.
+  std::vector<std::uint32_t> adjustable_rows() const;
 
-  /// Returns the largest gap, over all places, between lids that the shape should close, in radii
-  /// of the eyeball. Gaps that are small enough to count as closed give 0.
-  double opening(const Positions& face, const RigidMotion& whole, const Goals& goals,
-                 const Positions& moves) const;
+  /// Returns the largest gap between lids that the shape should close, in radii of the eyeball; 0
+  /// if all gaps are small enough to count as closed.
+  double largest_open_gap(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
+                          const Positions& moves) const;
   /// Closes lids that other corrections have opened again, by scaling the vertical movement.
-  void close_again(const Positions& face, const RigidMotion& whole, const Goals& goals,
+  void close_again(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
                    Positions& moves) const;
 
   /// Adjusts a shape until it meets the goals.
   ///
   /// \param face   #V by 3, at rest.
-  /// \param whole  Motion from the template to the face.
+  /// \param face_motion  Motion from the template to the face.
   /// \param moves  Displacements of the face, with the rows of the shape; adjusted.
-  void fit(const Positions& face, const FaceEye& eye, const RigidMotion& whole, const Goals& goals,
-           Positions& moves) const;
+  void fit_lids(const Positions& face, const FaceEye& eye, const RigidMotion& face_motion,
+                const Goals& goals, Positions& moves) const;
   /// Moves lid vertices out of the eyeball.
   ///
-  /// \return  false if any vertex was noticeably too deep.
-  bool keep_out(const Positions& face, const FaceEye& eye, const RigidMotion& whole,
-                const Goals& goals, Positions& moves) const;
+  /// \return  false if any vertex was noticeably too deep before.
+  bool move_out_of_eyeball(const Positions& face, const FaceEye& eye,
+                           const RigidMotion& face_motion, const Goals& goals,
+                           Positions& moves) const;
 
  private:
   /// A point of a lid's profile, on an edge of the mesh. Each row is the row of an end of the edge
   /// in the shape, or kNoIndex if this end does not move.
-  struct Point {
+  struct ProfilePoint {
     EdgePoint edge;
     std::uint32_t row_a, row_b;
   };
-  struct LidPlace {
-    std::vector<Point> low, high;
-    double along;   ///< position along the lid opening
-    double closed;  ///< length by which the shape narrows the gap on the template
+  struct LidSection {
+    std::vector<ProfilePoint> lower_profile, upper_profile;
+    double along;             ///< position along the lid opening
+    double template_closing;  ///< length by which the shape narrows the gap on the template
   };
   /// Unit vectors of a face's eye: along the opening, and from the lower lid to the upper lid.
   struct EyeAxes {
@@ -127,40 +129,42 @@ class LidClosure {
   };
   struct LidVertex {
     std::uint32_t row, vertex;
-    std::uint32_t number;  ///< index among the skin around the eye
+    std::uint32_t skin_index;  ///< index among the skin around the eye
     /// how strongly closing moves this vertex: 1 near the eye, less farther away
-    double share;
-    double hold;  ///< how strongly the vertex is kept off the eyeball: 1 near its surface
+    double closing_weight;
+    double eyeball_weight;  ///< how strongly the vertex is kept off the eyeball: 1 near its surface
   };
 
-  void add_places(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
-                  const Displacements& shape, const HeadAxes& axes);
-  void put_profiles_first();
+  void add_sections(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
+                    const Displacements& shape, const HeadAxes& axes);
+  void sort_profiles_first();
   std::span<const double> gain_effects(std::size_t lid) const {
-    return {gain_effects_.data() + lid * places_.size(), places_.size()};
+    return {gain_effects_.data() + lid * sections_.size(), sections_.size()};
   }
   /// Applies gains to the vertical movement of the first `count` lid vertices.
-  void close(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
-             std::span<const double> gains, Positions& moves) const;
+  void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
+                 std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the
   /// smallest of its distance at rest, its distance in the shape, and a small margin.
-  double min_gap(std::size_t lid, double rest, double scale, const Goals& goals) const;
+  double min_ball_distance(std::size_t lid, double rest_distance, double scale,
+                           const Goals& goals) const;
   void keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
                      const Goals& goals, Positions& moves) const;
-  EyeAxes axes_on(const RigidMotion& whole) const;
-  static RimPoint rim_point(const std::vector<Point>& points, double sign, const EyeAxes& axes,
-                            const Positions& face, const Positions& moves);
-  /// Returns, for each place, the current gap minus the wanted gap.
-  static std::vector<double> missing_gaps(const std::vector<Gap>& now, const Goals& goals,
+  EyeAxes eye_axes(const RigidMotion& face_motion) const;
+  static RimPoint rim_point(const std::vector<ProfilePoint>& points, double sign,
+                            const EyeAxes& axes, const Positions& face, const Positions& moves);
+  /// Returns #sections: the current gap minus the goal.
+  static std::vector<double> gap_excesses(const std::vector<Gap>& now, const Goals& goals,
                                           double scale);
-  std::vector<Gap> gaps(const EyeAxes& axes, const Positions& face, const Positions& moves) const;
+  std::vector<Gap> measure_gaps(const EyeAxes& axes, const Positions& face,
+                                const Positions& moves) const;
 
   HeadAxes axes_;
   double radius_ = 0;
-  std::vector<LidPlace> places_;
-  std::vector<LidVertex> lids_;
-  std::size_t in_profiles_ = 0;  ///< number of lid vertices in profiles; they come first in `lids_`
-  /// #lids by #places: weight with which each place's gain moves each lid vertex
+  std::vector<LidSection> sections_;
+  std::vector<LidVertex> lid_vertices_;
+  std::size_t profile_vertex_count_ = 0;  ///< number of lid vertices in profiles; they come first
+  /// #lids by #sections: weight with which each section's gain moves each lid vertex
   std::vector<double> gain_effects_;
 };
 

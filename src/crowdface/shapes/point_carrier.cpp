@@ -76,8 +76,8 @@ Socket PointCarrier::socket_of(const Eigen::Vector3d& point, const Positions& me
       return whole(part.vertices);
     }
   }
-  // A point follows all skin within 1.5 times the distance of the nearest skin, so that a deep
-  // point follows the skin on all sides.
+  // A point follows all skin within 1.5 times its distance to the nearest skin. So a point deep
+  // inside the head follows the skin on all sides.
   constexpr double kFurther = 1.5;
   constexpr std::size_t kMin = 60;
   std::vector<std::pair<double, std::uint32_t>> by_distance;

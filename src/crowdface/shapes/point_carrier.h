@@ -15,13 +15,12 @@
 
 namespace crowdface {
 
-/// Named points beside a mesh, such as joints, centres of eyes and positions of ear rings. Every
-/// generated face gets these points too.
+/// Named points that come with a mesh, such as joints, centres of eyes and positions of ear rings.
+/// Every generated face gets these points too.
 struct PointSet {
   std::vector<std::string> names;
-  /// `positions`: #names by 3 each. `meshes`: the mesh that each set of points belongs to, #V by 3.
-  /// One entry for all faces, or one entry for each head, which applies to the faces built on this
-  /// head.
+  /// `positions`: #names by 3 each. `meshes`: the mesh of each set of points, #V by 3. Both have
+  /// one entry for all faces, or one entry per head for the faces that are built on this head.
   std::vector<Positions> positions, meshes;
 
   bool empty() const { return names.empty(); }
@@ -29,9 +28,9 @@ struct PointSet {
 
 /// Transfers named points to faces. A point on a vertex or a triangle of its mesh stays exactly
 /// there. A point inside an eyeball, or nearer to another rigid part than to the skin, moves with
-/// this part. Any other point moves by the best rotation, translation and scale of the skin nearest
-/// to it. If the face is the points' own mesh, rotated, translated and scaled, the points undergo
-/// the same motion up to rounding.
+/// this part. Any other point moves with the similarity transform that best fits the motion of the
+/// skin near it. If the face is the points' own mesh, rotated, translated and scaled, the points
+/// undergo the same motion up to rounding.
 class PointCarrier {
  public:
   /// \param points     Must outlive this object.
@@ -52,7 +51,7 @@ class PointCarrier {
     Triangle corners;
     std::array<double, 3> shares;  ///< barycentric coordinates
   };
-  /// What a point follows: a point on a triangle, or the motion of some vertices.
+  /// How a point moves: with a position on a triangle, or with the motion of some vertices.
   using Anchor = std::variant<TrianglePoint, Socket>;
 
   static std::optional<TrianglePoint> point_on_surface(const Eigen::Vector3d& point,

@@ -19,15 +19,15 @@ namespace {
 
 /// Largest number of vertices of an eyeball or jaw that determine its motion.
 constexpr std::size_t kMaxFitted = 500;
-/// Distance from an eyeball's centre, in radii, within which skin belongs to the eye.
+/// Skin belongs to an eye if its distance from the eyeball's centre is at most this many radii.
 constexpr double kEyeSkin = 3;
 /// Smallest overlap of the lips in a corrective shape (see companions_of), as a fraction of the
 /// skin's extent; about 5 mm.
 constexpr double kFarThrough = 0.012;
 
-std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& set) {
+std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& shape_set) {
   std::vector<std::uint32_t> used;
-  for (const Shape& shape : set.shapes) {
+  for (const Shape& shape : shape_set.shapes) {
     std::vector<std::uint32_t> both;
     std::set_union(used.begin(), used.end(), shape.moves.vertices.begin(),
                    shape.moves.vertices.end(), std::back_inserter(both));
@@ -36,7 +36,8 @@ std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& set) {
   return used;
 }
 
-/// Returns a head's displacements in the rows of the mean shape; zero where only other heads move.
+/// Returns a head's displacements in the rows of the mean shape; zero for vertices that do not move
+/// on this head.
 Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& shape) {
   Positions rows = Positions::Zero(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
@@ -48,14 +49,14 @@ Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& sh
 
 }  // namespace
 
-std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
+std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
                                                       const GapPreserver& contacts, double extent) {
   const auto through_in = [&](std::initializer_list<std::size_t> shapes) {
-    Positions mesh = set.neutral;
-    for (const std::size_t s : shapes) set.shapes[s].moves.add_to(mesh);
+    Positions mesh = shape_set.neutral;
+    for (const std::size_t s : shapes) shape_set.shapes[s].moves.add_to(mesh);
     return contacts.max_overlap(mesh);
   };
-  const std::size_t count = set.shapes.size();
+  const std::size_t count = shape_set.shapes.size();
   std::vector<double> through(count);
   parallel_for_each(count, [&](std::size_t s) { through[s] = through_in({s}); });
   std::vector<std::optional<std::size_t>> companions(count);
@@ -77,13 +78,13 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
                                const PartList& parts, const HeadAxes& head_axes,
                                const ShapeSet& shape_set, const RegionWeights& regions)
     : faces(all_faces),
-      set(shape_set),
+      shape_set(shape_set),
       axes(head_axes),
       vertex_faces(faces.topology),
       skin(skin_of(parts, vertex_faces)),
-      moved_vertices(all_moved_vertices(set)),
+      moved_vertices(all_moved_vertices(shape_set)),
       contacts(faces, adjacency, skin),
-      extent(extent_of(set.neutral, skin)),
+      extent(extent_of(shape_set.neutral, skin)),
       crossings(faces.topology, skin, extent, axes) {
   const Positions mean = mean_head(faces);
   for (const Part& part : parts.parts) {
@@ -91,64 +92,65 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
     add_part(part, parts, mean);
     if (part.eyeball) add_eye(part, parts.shapes[part.ball], mean);
   }
-  find_inner(parts);
-  field = FrameField(set.neutral, skin, extent, moved_vertices);
-  if (!set.of_head.empty()) look_up_regions(regions);
-  shapes.resize(set.shapes.size());
-  const auto companions = companions_of(set, contacts, extent);
+  find_inner_vertices(parts);
+  frame_field = FrameField(shape_set.neutral, skin, extent, moved_vertices);
+  if (!shape_set.head_shapes.empty()) look_up_regions(regions);
+  shapes.resize(shape_set.shapes.size());
+  const auto companions = companions_of(shape_set, contacts, extent);
   parallel_for_each(shapes.size(), [&](std::size_t s) {
     shapes[s].companion = companions[s];
-    bind(set.shapes[s].moves, adjacency, shapes[s]);
+    prepare_shape(shape_set.shapes[s].moves, adjacency, shapes[s]);
   });
   std::vector<const CrossingSearch*> searches;
   for (const PreparedShape& shape : shapes) searches.push_back(&shape.watched.search);
-  watched = crossings.watch_all(set.neutral, searches);
+  rest_search = crossings.watch_all(shape_set.neutral, searches);
   add_sets();
 }
 
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
   RigidPart bound{
       part.vertices, evenly_spaced_items(part.vertices, kMaxFitted), {}, Eigen::Vector3d::Zero()};
-  bound.unit_weights.assign(bound.fitted.size(), 1.0);
+  bound.unit_weights.assign(bound.fitted_vertices.size(), 1.0);
   if (part.eyeball) {
     const RigidMotion motion =
-        fit_rigid_motion(mean, set.neutral, bound.fitted, bound.unit_weights);
-    bound.middle = motion.apply(parts.shapes[part.ball].centre);
+        fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.unit_weights);
+    bound.centre = motion.apply(parts.shapes[part.ball].centre);
   } else {
-    bound.middle = centre_of(set.neutral, part.vertices);
+    bound.centre = centre_of(shape_set.neutral, part.vertices);
   }
-  rigid.push_back(std::move(bound));
+  rigid_parts.push_back(std::move(bound));
 }
 
 void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const Positions& mean) {
-  const RigidPart& bound = rigid.back();
+  const RigidPart& bound = rigid_parts.back();
   const auto map_in = [&](const Positions& head) {
-    const RigidMotion motion = fit_rigid_motion(mean, head, bound.fitted, bound.unit_weights);
+    const RigidMotion motion =
+        fit_rigid_motion(mean, head, bound.fitted_vertices, bound.unit_weights);
     return BallMap(faces.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
                    motion.scale * ball.radius, axes);
   };
-  ActingEye eye{rigid.size() - 1, {map_in(set.neutral), {}, {}}, {}};
+  ActingEye eye{rigid_parts.size() - 1, {map_in(shape_set.neutral), {}, {}}, {}};
   eye.balls.resize(faces.heads.size());
   parallel_for_each(faces.heads.size(),
                     [&](std::size_t h) { eye.balls[h] = map_in(faces.heads[h].positions); });
-  const BallMap& here = eye.of_template.ball;
-  eye.of_template.lids = find_lids(set.neutral, PointGrid(set.neutral, part.vertices),
-                                   here.centre(), here.radius(), axes, skin);
+  const BallMap& here = eye.template_eye.ball;
+  eye.template_eye.lids = find_lids(shape_set.neutral, PointGrid(shape_set.neutral, part.vertices),
+                                    here.centre(), here.radius(), axes, skin);
   for (const std::uint32_t v : skin) {
-    if ((row3(set.neutral, v) - here.centre()).norm() < kEyeSkin * here.radius()) {
-      eye.of_template.skin.push_back(v);
+    if ((row3(shape_set.neutral, v) - here.centre()).norm() < kEyeSkin * here.radius()) {
+      eye.template_eye.skin_vertices.push_back(v);
     }
   }
   eyes.push_back(std::move(eye));
 }
 
-void PreparedShapes::find_inner(const PartList& parts) {
+void PreparedShapes::find_inner_vertices(const PartList& parts) {
   for (const Part& part : parts.parts) {
     if (part.eyeball) continue;
     std::ranges::copy_if(part.vertices, std::back_inserter(inner_vertices), [&](std::uint32_t v) {
       return std::ranges::none_of(eyes, [&](const ActingEye& eye) {
-        const BallMap& ball = eye.of_template.ball;
-        return (row3(set.neutral, v) - ball.centre()).norm() < kEyeSkin * ball.radius();
+        const BallMap& ball = eye.template_eye.ball;
+        return (row3(shape_set.neutral, v) - ball.centre()).norm() < kEyeSkin * ball.radius();
       });
     });
   }
@@ -157,35 +159,36 @@ void PreparedShapes::find_inner(const PartList& parts) {
 /// Looks up the region weights of skin and parts. Masks do not cover lashes and eyeballs, so these
 /// get the weights of the nearest skin.
 void PreparedShapes::look_up_regions(const RegionWeights& regions) {
-  const PointGrid grid(set.neutral, skin);
+  const PointGrid grid(shape_set.neutral, skin);
   const auto nearest = [&](std::uint32_t v) {
-    return std::ranges::binary_search(skin, v) ? v : grid.nearest(row3(set.neutral, v)).vertex;
+    return std::ranges::binary_search(skin, v) ? v
+                                               : grid.nearest(row3(shape_set.neutral, v)).vertex;
   };
   alpha.resize(static_cast<Index>(moved_vertices.size()), regions.alpha.cols());
   parallel_for_each(moved_vertices.size(), [&](std::size_t i) {
     alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(moved_vertices[i]));
   });
-  contact_alpha = regions.alpha(contacts.vertices(), kAllColumns);
-  for (const RigidPart& part : rigid) {
+  contact_alpha = regions.alpha(contacts.contact_vertices(), kAllColumns);
+  for (const RigidPart& part : rigid_parts) {
     std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
-    for (const std::uint32_t v : part.fitted) {
+    for (const std::uint32_t v : part.fitted_vertices) {
       const std::uint32_t at = nearest(v);
       for (std::size_t k = 0; k < mean.size(); ++k) {
-        mean[k] +=
-            regions.alpha(at, static_cast<Index>(k)) / static_cast<double>(part.fitted.size());
+        mean[k] += regions.alpha(at, static_cast<Index>(k)) /
+                   static_cast<double>(part.fitted_vertices.size());
       }
     }
-    rigid_alpha.push_back(std::move(mean));
+    rigid_part_weights.push_back(std::move(mean));
   }
 }
 
-void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency,
-                          PreparedShape& state) const {
+void PreparedShapes::prepare_shape(const Displacements& moves, const Adjacency& adjacency,
+                                   PreparedShape& state) const {
   for (const std::uint32_t v : moves.vertices)
     state.vertex_indices.push_back(index_in_list(moved_vertices, v));
-  for (std::size_t p = 0; p < rigid.size(); ++p) {
+  for (std::size_t p = 0; p < rigid_parts.size(); ++p) {
     PartMove part{p, {}, {}, {}};
-    for (const std::uint32_t v : rigid[p].vertices) {
+    for (const std::uint32_t v : rigid_parts[p].vertices) {
       const std::uint32_t row = index_in_list(moves.vertices, v);
       if (row == kNoIndex) continue;
       part.rows.push_back(row);
@@ -193,13 +196,13 @@ void PreparedShapes::bind(const Displacements& moves, const Adjacency& adjacency
     }
     if (!part.rows.empty()) state.parts.push_back(std::move(part));
   }
-  bind_lids(moves, adjacency, state);
+  prepare_lids(moves, adjacency, state);
   state.moves_contacts = contacts.is_affected_by(moves.vertices);
   state.watched = watch(moves, state);
-  Positions shaped = set.neutral;
-  if (state.companion) set.shapes[*state.companion].moves.add_to(shaped);
+  Positions shaped = shape_set.neutral;
+  if (state.companion) shape_set.shapes[*state.companion].moves.add_to(shaped);
   moves.add_to(shaped);
-  state.over_parts =
+  state.skin_over_parts =
       SkinOverParts(shaped, crossings.mesh(), inner_vertices, moves.vertices, axes, extent);
 }
 
@@ -207,46 +210,47 @@ SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
                                              const PreparedShape& state) const {
   std::vector<signed char> side;
   for (std::size_t e = 0; e < eyes.size(); ++e) {
-    if (!state.lids[e].lids.closes()) continue;
-    side.resize(static_cast<std::size_t>(set.neutral.rows()), 0);
-    lid_sides(eyes[e].of_template, set.neutral, side);
+    if (!state.lids[e].lids.closes_lids()) continue;
+    side.resize(static_cast<std::size_t>(shape_set.neutral.rows()), 0);
+    mark_lid_sides(eyes[e].template_eye, shape_set.neutral, side);
   }
-  if (!state.companion) return crossings.watch(set.neutral, moves, std::move(side));
-  Positions rest = set.neutral;
-  set.shapes[*state.companion].moves.add_to(rest);
+  if (!state.companion) return crossings.watch(shape_set.neutral, moves, std::move(side));
+  Positions rest = shape_set.neutral;
+  shape_set.shapes[*state.companion].moves.add_to(rest);
   SkinCrossings::Watched found = crossings.watch(rest, moves, std::move(side));
   found.joins_distant_skin = true;
   return found;
 }
 
-void PreparedShapes::bind_lids(const Displacements& moves, const Adjacency& adjacency,
-                               PreparedShape& state) const {
+void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& adjacency,
+                                  PreparedShape& state) const {
   std::vector<bool> fitted(moves.vertices.size(), false);
   for (const ActingEye& eye : eyes) {
-    LidClosure lids(eye.of_template, adjacency, set.neutral, moves, axes);
-    for (const std::uint32_t row : lids.rows()) fitted[row] = true;
+    LidClosure lids(eye.template_eye, adjacency, shape_set.neutral, moves, axes);
+    for (const std::uint32_t row : lids.adjustable_rows()) fitted[row] = true;
     state.lids.push_back({std::move(lids), {}});
   }
-  std::vector<bool> is_free(static_cast<std::size_t>(set.neutral.rows()), true);
+  std::vector<bool> is_free(static_cast<std::size_t>(shape_set.neutral.rows()), true);
   for (const std::uint32_t v : skin) is_free[v] = false;
-  for (const RigidPart& part : rigid) {
+  for (const RigidPart& part : rigid_parts) {
     for (const std::uint32_t v : part.vertices) is_free[v] = false;
   }
   std::vector<std::uint32_t> lid_skin;
   for (const ActingEye& eye : eyes) {
-    lid_skin.insert(lid_skin.end(), eye.of_template.skin.begin(), eye.of_template.skin.end());
+    lid_skin.insert(lid_skin.end(), eye.template_eye.skin_vertices.begin(),
+                    eye.template_eye.skin_vertices.end());
   }
   if (lid_skin.empty()) return;
-  const PointGrid grid(set.neutral, lid_skin);
-  const double reach = eyes.front().of_template.ball.radius();
+  const PointGrid grid(shape_set.neutral, lid_skin);
+  const double reach = eyes.front().template_eye.ball.radius();
   for (std::uint32_t row = 0; row < moves.vertices.size(); ++row) {
     const std::uint32_t v = moves.vertices[row];
     if (!is_free[v]) continue;
-    const Eigen::Vector3d point = row3(set.neutral, v);
+    const Eigen::Vector3d point = row3(shape_set.neutral, v);
     const auto nearest = grid.nearest(point, reach);
     if (nearest.vertex == kNoIndex) continue;
     const SurfacePoint place =
-        nearest_around(faces.topology, vertex_faces, set.neutral, nearest.vertex, point);
+        nearest_around(faces.topology, vertex_faces, shape_set.neutral, nearest.vertex, point);
     LidFollower follower{row, {}, place.shares};
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -258,16 +262,17 @@ void PreparedShapes::bind_lids(const Displacements& moves, const Adjacency& adja
   }
 }
 
-PreparedShapes::Carrier PreparedShapes::carrier_for(const Positions& face) const {
-  Carrier carrier{face, field.frames(face), std::vector<Eigen::Matrix3d>(moved_vertices.size()),
-                  contacts.gaps(face), crossings.crossing_at_rest(face, watched)};
+PreparedShapes::FaceFrames PreparedShapes::make_face_frames(const Positions& face) const {
+  FaceFrames face_frames{
+      face, frame_field.frames(face), std::vector<Eigen::Matrix3d>(moved_vertices.size()),
+      contacts.measure_gaps(face), crossings.crossing_at_rest(face, rest_search)};
   for (std::size_t i = 0; i < moved_vertices.size(); ++i)
-    carrier.maps[i] = field.map_at(i, carrier.frames);
-  return carrier;
+    face_frames.maps[i] = frame_field.map_at(i, face_frames.frames);
+  return face_frames;
 }
 
-Eigen::Matrix3d PreparedShapes::map_of(const PartMove& part, const PreparedShape& state,
-                                       std::span<const Eigen::Matrix3d> maps) const {
+Eigen::Matrix3d PreparedShapes::mean_map(const PartMove& part, const PreparedShape& state,
+                                         std::span<const Eigen::Matrix3d> maps) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
   for (const std::uint32_t row : part.rows) map += maps[state.vertex_indices[row]];
   return map / static_cast<double>(part.rows.size());
@@ -276,62 +281,64 @@ Eigen::Matrix3d PreparedShapes::map_of(const PartMove& part, const PreparedShape
 /// Measures each set's movement of parts and lids, and normalises the heads' own shapes by removing
 /// the local rotation and stretch of each head.
 void PreparedShapes::add_sets() {
-  const std::size_t heads = set.of_head.size();
+  const std::size_t heads = shape_set.head_shapes.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
-    const Carrier carrier = carrier_for(heads > 0 ? faces.heads[h].positions : set.neutral);
+    const FaceFrames face_frames =
+        make_face_frames(heads > 0 ? faces.heads[h].positions : shape_set.neutral);
     std::vector<FaceEye> at_eyes;
     for (const auto& [part, eye, balls] : eyes) {
-      at_eyes.push_back(face_eye(eye, heads > 0 ? balls[h] : eye.ball, {}, carrier.mesh));
+      at_eyes.push_back(face_eye(eye, heads > 0 ? balls[h] : eye.ball, {}, face_frames.mesh));
     }
     parallel_for_each(shapes.size(), [&](std::size_t s) {
       const Displacements own = shape_of_set(h, s);
-      Positions rest = carrier.mesh;
+      Positions rest = face_frames.mesh;
       if (const auto& other = shapes[s].companion) shape_of_set(h, *other).add_to(rest);
-      add_set(carrier, rest, own, at_eyes, shapes[s]);
-      if (heads > 0) shapes[s].of_head.push_back(normalised(carrier, shapes[s], own.moves));
+      add_set(face_frames, rest, own, at_eyes, shapes[s]);
+      if (heads > 0) shapes[s].head_moves.push_back(normalised(face_frames, shapes[s], own.moves));
     });
   }
 }
 
 Displacements PreparedShapes::shape_of_set(std::size_t number, std::size_t shape) const {
-  const Displacements& all = set.shapes[shape].moves;
-  if (set.of_head.empty()) return all;
-  return {all.vertices, rows_in(all.vertices, set.of_head[number][shape])};
+  const Displacements& all = shape_set.shapes[shape].moves;
+  if (shape_set.head_shapes.empty()) return all;
+  return {all.vertices, rows_in(all.vertices, shape_set.head_shapes[number][shape])};
 }
 
-void PreparedShapes::add_set(const Carrier& carrier, const Positions& rest,
+void PreparedShapes::add_set(const FaceFrames& face_frames, const Positions& rest,
                              const Displacements& shape, std::span<const FaceEye> at_eyes,
                              PreparedShape& state) const {
   const Positions& moves = shape.moves;
-  const RigidMotion& whole = carrier.frames.whole;
+  const RigidMotion& face_motion = face_frames.frames.face_motion;
   for (PartMove& part : state.parts) {
-    const RigidPart& bound = rigid[part.part];
-    const Eigen::Matrix3d map = map_of(part, state, carrier.maps);
-    const PlacedPart placed(bound, set.neutral, carrier.mesh, whole, map);
+    const RigidPart& bound = rigid_parts[part.part];
+    const Eigen::Matrix3d map = mean_map(part, state, face_frames.maps);
+    const PlacedPart placed(bound, shape_set.neutral, face_frames.mesh, face_motion, map);
     part.turns.push_back(find_turn(bound, placed, part.vertices, part.rows, moves));
   }
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     LidMove& move = state.lids[e];
     if (move.lids.empty()) continue;
-    move.goals.push_back(move.lids.goals(carrier.mesh, at_eyes[e], whole, moves));
+    move.goals.push_back(move.lids.measure_goals(face_frames.mesh, at_eyes[e], face_motion, moves));
   }
   Positions moved = rest;
   shape.add_to(moved);
-  if (!set.of_head.empty() && !state.watched.search.triangles().empty()) {
-    crossings.excuse(moved, state.watched);
+  if (!shape_set.head_shapes.empty() && !state.watched.search.triangles().empty()) {
+    crossings.mark_excused(moved, state.watched);
   }
   if (!state.moves_contacts) return;
-  std::vector<double>& widening = state.widening.emplace_back(contacts.gaps(moved));
-  for (std::size_t p = 0; p < widening.size(); ++p) {
-    widening[p] = (widening[p] - carrier.gaps[p]) / whole.scale;
+  std::vector<double>& gap_changes = state.gap_changes.emplace_back(contacts.measure_gaps(moved));
+  for (std::size_t p = 0; p < gap_changes.size(); ++p) {
+    gap_changes[p] = (gap_changes[p] - face_frames.gaps[p]) / face_motion.scale;
   }
 }
 
-SingleRows PreparedShapes::normalised(const Carrier& carrier, const PreparedShape& state,
+SingleRows PreparedShapes::normalised(const FaceFrames& face_frames, const PreparedShape& state,
                                       const Positions& moves) const {
   SingleRows rows(moves.rows(), 3);
   for (Index i = 0; i < moves.rows(); ++i) {
-    const Eigen::Matrix3d& map = carrier.maps[state.vertex_indices[static_cast<std::size_t>(i)]];
+    const Eigen::Matrix3d& map =
+        face_frames.maps[state.vertex_indices[static_cast<std::size_t>(i)]];
     rows.row(i) = apply3(inverse3(map), row3(moves, i)).cast<float>().transpose();
   }
   return rows;

@@ -25,7 +25,7 @@ namespace crowdface {
 /// An eye of the template, and the same eyeball in each head.
 struct ActingEye {
   std::size_t part;  ///< index into the rigid parts
-  TemplateEye of_template;
+  TemplateEye template_eye;
   std::vector<BallMap> balls;  ///< #heads
 };
 
@@ -45,20 +45,20 @@ struct LidMove {
 /// A vertex of a bound part, such as a lash, that follows the correction of a lid.
 struct LidFollower {
   std::uint32_t row;
-  /// rows of the corners of the skin triangle to which the vertex is bound; kNoIndex for a corner
-  /// that is not corrected
+  /// rows, in the shape, of the corners of the skin triangle to which the vertex is bound; kNoIndex
+  /// for a corner that is not corrected
   std::array<std::uint32_t, 3> rows;
   std::array<double, 3> shares;  ///< barycentric coordinates in this triangle
 };
 
 /// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's
-/// `mouthClose` closes the lips while `jawOpen` opens the jaw. A shape is corrective if it alone
-/// moves the lips far through each other. The companion of a corrective shape is the other shape
-/// with which the lips overlap least; it must at least halve the overlap.
+/// `mouthClose` closes the lips while `jawOpen` opens the jaw. A shape is corrective if, applied
+/// alone, it moves the lips far through each other. The companion of a corrective shape is the
+/// other shape with which the lips overlap least; it must at least halve the overlap.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
 /// \return        #shapes: the companion of each corrective shape, if one is found.
-std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& set,
+std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
                                                       const GapPreserver& contacts, double extent);
 
 /// One shape: the vertices and parts that it moves, and the data for its corrections on a face.
@@ -70,15 +70,15 @@ struct PreparedShape {
       vertex_indices;  ///< #rows: indices into PreparedShapes::moved_vertices
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
-  std::vector<SingleRows> of_head;
+  std::vector<SingleRows> head_moves;
   std::vector<PartMove> parts;
   std::vector<LidMove> lids;  ///< #eyes
   std::vector<LidFollower> lid_followers;
-  SkinOverParts over_parts;
+  SkinOverParts skin_over_parts;
   SkinCrossings::Watched watched;
   bool moves_contacts = false;
-  /// #sets by #places: change of each gap between lips; empty if no gap changes
-  std::vector<std::vector<double>> widening;
+  /// #sets by #gaps: change of each gap between lips; empty if no gap changes
+  std::vector<std::vector<double>> gap_changes;
 };
 
 /// Everything that ShapeTransfer computes once: how the shapes of a template, or of each head, move
@@ -90,29 +90,30 @@ struct PreparedShapes {
                  const RegionWeights& regions);
 
   const HeadSet& faces;
-  const ShapeSet& set;
+  const ShapeSet& shape_set;
   HeadAxes axes;
   VertexFaces vertex_faces;
   std::vector<std::uint32_t> skin;  ///< vertices of the skin, ascending
-  std::vector<RigidPart> rigid;
-  /// #rigid by #regions: mean weights of the skin at each part
-  std::vector<std::vector<double>> rigid_alpha;
+  std::vector<RigidPart> rigid_parts;
+  /// #rigid_parts by #regions: mean region weights of the skin near each part
+  std::vector<std::vector<double>> rigid_part_weights;
   std::vector<ActingEye> eyes;
   std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
-  /// #moved_vertices by #regions: weights of the skin nearest to each vertex
+  /// #moved_vertices by #regions: region weights of the skin nearest to each vertex
   RegionWeights::Alpha alpha;
   GapPreserver contacts;
   RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
-  FrameField field;
+  FrameField frame_field;
   double extent = 0;  ///< diagonal of the template's skin's bounding box
   std::vector<std::uint32_t>
       inner_vertices;  ///< vertices of parts away from the eyes: gums and teeth
   SkinCrossings crossings;
-  CrossingSearch watched;  ///< search over the skin that at least one shape may bring into contact
+  CrossingSearch
+      rest_search;  ///< search over the skin that at least one shape may bring into contact
   std::vector<PreparedShape> shapes;
 
-  /// A face, and how its skin is rotated and stretched relative to the template's.
-  struct Carrier {
+  /// A face, with the local rotation and stretch of its skin relative to the template's skin.
+  struct FaceFrames {
     const Positions& mesh;
     FrameField::Frames frames;
     std::vector<Eigen::Matrix3d> maps;  ///< #moved_vertices: linear map at each vertex
@@ -120,27 +121,28 @@ struct PreparedShapes {
     /// #V: whether the vertex is at a self-intersection of the face at rest
     std::vector<bool> crosses_at_rest;
   };
-  Carrier carrier_for(const Positions& face) const;
+  FaceFrames make_face_frames(const Positions& face) const;
   /// Returns the mean of the linear maps at those vertices of a part that the shape moves.
-  Eigen::Matrix3d map_of(const PartMove& part, const PreparedShape& state,
-                         std::span<const Eigen::Matrix3d> maps) const;
+  Eigen::Matrix3d mean_map(const PartMove& part, const PreparedShape& state,
+                           std::span<const Eigen::Matrix3d> maps) const;
 
  private:
-  void find_inner(const PartList& parts);
+  void find_inner_vertices(const PartList& parts);
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
   void look_up_regions(const RegionWeights& regions);
-  void bind(const Displacements& moves, const Adjacency& adjacency, PreparedShape& state) const;
-  void bind_lids(const Displacements& moves, const Adjacency& adjacency,
-                 PreparedShape& state) const;
+  void prepare_shape(const Displacements& moves, const Adjacency& adjacency,
+                     PreparedShape& state) const;
+  void prepare_lids(const Displacements& moves, const Adjacency& adjacency,
+                    PreparedShape& state) const;
   SkinCrossings::Watched watch(const Displacements& moves, const PreparedShape& state) const;
   void add_sets();
   Displacements shape_of_set(std::size_t number, std::size_t shape) const;
   /// Adds one set's data of a shape to `state`.
   /// \param rest  The mesh to which the shape is added.
-  void add_set(const Carrier& carrier, const Positions& rest, const Displacements& shape,
+  void add_set(const FaceFrames& face_frames, const Positions& rest, const Displacements& shape,
                std::span<const FaceEye> at_eyes, PreparedShape& state) const;
-  SingleRows normalised(const Carrier& carrier, const PreparedShape& state,
+  SingleRows normalised(const FaceFrames& face_frames, const PreparedShape& state,
                         const Positions& moves) const;
 };
 

@@ -38,26 +38,28 @@ Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
 }
 
 /// Transforms a direction on the face to the template, by the inverse rotation and scale.
-Vector3d to_template(const RigidMotion& whole, const Vector3d& direction) {
-  return whole.undo(whole.to + direction) - whole.from;
+Vector3d to_template(const RigidMotion& face_motion, const Vector3d& direction) {
+  return face_motion.undo(face_motion.moved_pivot + direction) - face_motion.pivot;
 }
 
 /// Returns the displacement of a vertex by the rotation alone.
 Vector3d rotation_displacement(const std::array<double, 4>& quaternion, const PlacedPart& placed,
                                std::uint32_t vertex) {
-  const Vector3d arm = row3(placed.mesh, vertex) - placed.middle;
-  return placed.whole.turn(turned(quaternion, to_template(placed.whole, arm))) - arm;
+  const Vector3d arm = row3(placed.mesh, vertex) - placed.centre;
+  return placed.face_motion.apply_to_direction(
+             turned(quaternion, to_template(placed.face_motion, arm))) -
+         arm;
 }
 
 RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
                             std::span<const std::uint32_t> vertices,
                             std::span<const std::uint32_t> rows, const Positions& moves) {
-  const Positions rest = mesh(part.fitted, kAllColumns);
+  const Positions rest = mesh(part.fitted_vertices, kAllColumns);
   Positions shape = rest;
-  std::vector<std::uint32_t> all(part.fitted.size());
+  std::vector<std::uint32_t> all(part.fitted_vertices.size());
   std::iota(all.begin(), all.end(), 0U);
   for (const std::uint32_t i : all) {
-    const std::uint32_t place = index_in_list(vertices, part.fitted[i]);
+    const std::uint32_t place = index_in_list(vertices, part.fitted_vertices[i]);
     if (place != kNoIndex) shape.row(i) += moves.row(rows[place]);
   }
   return fit_rigid_motion(rest, shape, all, part.unit_weights);
@@ -67,10 +69,10 @@ RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
 
 PlacedPart::PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& positions,
                        const RigidMotion& motion, const Eigen::Matrix3d& skin)
-    : middle(
-          fit_rigid_motion(neutral, positions, part.fitted, part.unit_weights).apply(part.middle)),
+    : centre(fit_rigid_motion(neutral, positions, part.fitted_vertices, part.unit_weights)
+                 .apply(part.centre)),
       mesh(positions),
-      whole(motion),
+      face_motion(motion),
       map(skin) {}
 
 RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
@@ -79,15 +81,16 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
   const RigidMotion motion = motion_in_shape(part, placed.mesh, vertices, rows, moves);
   const Eigen::Matrix3d inverse = inverse3(placed.map);
   const std::array<double, 4> here = quaternion_of(motion);
-  const Vector3d axis = to_template(placed.whole, {here[1], here[2], here[3]}) * placed.whole.scale;
+  const Vector3d axis =
+      to_template(placed.face_motion, {here[1], here[2], here[3]}) * placed.face_motion.scale;
   RigidTurn turn{{here[0], axis.x(), axis.y(), axis.z()},
-                 apply3(inverse, motion.apply(placed.middle) - placed.middle),
+                 apply3(inverse, motion.apply(placed.centre) - placed.centre),
                  {}};
   normalize(turn.quaternion);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Vector3d left =
         row3(moves, rows[i]) - rotation_displacement(turn.quaternion, placed, vertices[i]);
-    turn.residuals.push_back(apply3(inverse, left) - turn.shift);
+    turn.residuals.push_back(apply3(inverse, left) - turn.translation);
   }
   return turn;
 }
@@ -98,7 +101,7 @@ RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> 
   for (const SetShare& of_set : shares) {
     const RigidTurn& turn = turns[of_set.set];
     for (std::size_t c = 0; c < 4; ++c) mean.quaternion[c] += of_set.share * turn.quaternion[c];
-    mean.shift += of_set.share * turn.shift;
+    mean.translation += of_set.share * turn.translation;
     for (std::size_t i = 0; i < mean.residuals.size(); ++i) {
       mean.residuals[i] += of_set.share * turn.residuals[i];
     }
@@ -112,7 +115,7 @@ void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
                 Positions& moves) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     moves.row(rows[i]) = (rotation_displacement(turn.quaternion, placed, vertices[i]) +
-                          apply3(placed.map, turn.shift + turn.residuals[i]))
+                          apply3(placed.map, turn.translation + turn.residuals[i]))
                              .transpose();
   }
 }

@@ -15,19 +15,19 @@ namespace crowdface {
 /// A rigid part of the template: an eyeball, or the teeth of a jaw.
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> fitted;  ///< the subset of `vertices` that determines motions
-  std::vector<double> unit_weights;   ///< #fitted: all 1
+  std::vector<std::uint32_t> fitted_vertices;  ///< the subset of `vertices` that determines motions
+  std::vector<double> unit_weights;            ///< #fitted_vertices: all 1
   /// centre of rotation: the centre of an eyeball, or the mean of the teeth
-  Eigen::Vector3d middle;
+  Eigen::Vector3d centre;
 };
 
 /// The motion of a rigid part in a shape, independent of the mesh on which the motion was measured.
 /// find_turn removes this mesh's local rotation and stretch relative to the template; carry_turn
 /// applies the rotation and stretch of another face.
 struct RigidTurn {
-  /// unit quaternion (w, x, y, z); rotation about the middle
+  /// unit quaternion (w, x, y, z) of the rotation about the centre
   std::array<double, 4> quaternion = {1, 0, 0, 0};
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< translation of the middle
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< translation of the centre
   /// #rows: the part of each vertex's displacement that rotation and translation do not explain
   std::vector<Eigen::Vector3d> residuals;
 };
@@ -35,12 +35,12 @@ struct RigidTurn {
 /// The position of a rigid part on a face.
 struct PlacedPart {
   PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& mesh,
-             const RigidMotion& whole, const Eigen::Matrix3d& map);
+             const RigidMotion& face_motion, const Eigen::Matrix3d& map);
 
-  Eigen::Vector3d middle;
+  Eigen::Vector3d centre;
   const Positions& mesh;
-  const RigidMotion& whole;    ///< motion from the template to the face
-  const Eigen::Matrix3d& map;  ///< mean linear map of the part's moved vertices
+  const RigidMotion& face_motion;  ///< motion from the template to the face
+  const Eigen::Matrix3d& map;      ///< mean linear map of the part's moved vertices
 };
 
 /// Measures the motion of a rigid part in a shape of a mesh, and expresses it on the template.

@@ -11,26 +11,27 @@
 
 namespace crowdface {
 
-/// An expression: displacements of a mesh at rest.
+/// An expression (shape): the displacements that it adds to a mesh at rest.
 struct Shape {
   std::string name;
   Displacements moves;
 };
 
-/// An expression of one head.
+/// One head's own version of an expression.
 struct OwnShape {
   std::vector<std::uint32_t> vertices;  ///< ascending
   SingleRows moves;                     ///< #vertices by 3
 };
 
-/// Expressions in the topology of a crowd's heads: one set of a template, or one set for each head.
+/// Expressions in the topology of a crowd's heads: one set for a template, or one set for each
+/// head.
 struct ShapeSet {
   /// #V by 3: the mesh at rest, which is the template or the mean head; no rows if there are no
   /// shapes
   Positions neutral;
   std::vector<Shape> shapes;  ///< the template's shapes, or the means of the heads' shapes
   /// #heads by #shapes: each head's own shapes; empty if all heads use one set
-  std::vector<std::vector<OwnShape>> of_head = {};
+  std::vector<std::vector<OwnShape>> head_shapes = {};
 };
 
 /// Returns the memory, in bytes, of one face's displacements for all shapes.
@@ -42,14 +43,15 @@ std::size_t own_shape_bytes(const ShapeSet& shapes);
 /// head) do not belong to the shape.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
-Shape shape_of(std::string name, const Positions& neutral, const Positions& mesh, double extent);
+Shape make_shape(std::string name, const Positions& neutral, const Positions& mesh, double extent);
 
-OwnShape own_shape_of(const Displacements& moves);
+OwnShape make_own_shape(const Displacements& moves);
 Displacements displacements_of(const OwnShape& shape);
 
 /// Returns the mean of all heads' displacements in one shape, at all vertices that move on any
 /// head.
-Displacements mean_of(const std::vector<std::vector<OwnShape>>& of_head, std::size_t shape);
+Displacements mean_displacements(const std::vector<std::vector<OwnShape>>& head_shapes,
+                                 std::size_t shape);
 
 /// The weight of a set of shapes, where the shapes of several sets are blended.
 struct SetShare {
@@ -58,18 +60,18 @@ struct SetShare {
 };
 using SetShares = std::vector<SetShare>;
 
-/// #regions: the weights of the sets of shapes that are blended in each region; sum one in each
-/// region.
+/// #regions: the weights of the sets of shapes that are blended in each region; the weights of a
+/// region sum to one.
 using RegionShares = std::vector<SetShares>;
 
 /// Returns the weights of the sets at a position that belongs to several regions.
 ///
 /// \param alpha  #regions: weights of the regions, with sum one.
-inline SetShares shares_at(std::span<const double> alpha, const RegionShares& of_region) {
+inline SetShares set_weights_at(std::span<const double> alpha, const RegionShares& region_shares) {
   SetShares shares;
-  for (std::size_t k = 0; k < of_region.size(); ++k) {
+  for (std::size_t k = 0; k < region_shares.size(); ++k) {
     if (alpha[k] == 0) continue;
-    for (const SetShare& of_set : of_region[k]) {
+    for (const SetShare& of_set : region_shares[k]) {
       shares.push_back({of_set.set, alpha[k] * of_set.share});
     }
   }

@@ -13,22 +13,22 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of rounds of repairs. A round is repeated only if it moved lids into an eyeball
-/// or opened lids.
+/// Largest number of repair rounds. Another round follows only if a round moved lids into an
+/// eyeball or opened lids.
 constexpr int kMaxRepairs = 3;
 /// Cost of a gap between lids that should be closed, per eyeball radius, in units of one
 /// intersecting triangle. The cost is high because intersections between closed lids are invisible.
 constexpr double kOpenIsAsBad = 1000;
 
-using Carrier = PreparedShapes::Carrier;
+using FaceFrames = PreparedShapes::FaceFrames;
 
 std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t target,
                                  const Positions& face) {
   std::vector<FaceEye> there;
   for (const auto& [number, eye, balls] : prepared.eyes) {
-    const RigidPart& part = prepared.rigid[number];
+    const RigidPart& part = prepared.rigid_parts[number];
     const RigidMotion motion = fit_rigid_motion(prepared.faces.heads[target].positions, face,
-                                                part.fitted, part.unit_weights);
+                                                part.fitted_vertices, part.unit_weights);
     there.push_back(face_eye(eye, balls[target], motion, face));
   }
   return there;
@@ -41,28 +41,28 @@ class CarriedShape {
   ///              companion shape.
   /// \param mesh  Equal to `rest`; modified during the call and restored.
   CarriedShape(const PreparedShapes& prepared, std::size_t number, std::span<const FaceEye> at_eyes,
-               const Carrier& carrier, const RegionShares& shares, const Positions& rest,
+               const FaceFrames& face_frames, const RegionShares& shares, const Positions& rest,
                Positions& mesh)
       : prepared_(prepared),
         shape_(prepared.shapes[number]),
         at_eyes_(at_eyes),
-        carrier_(carrier),
+        face_frames_(face_frames),
         shares_(shares),
         rest_(rest),
         mesh_(mesh),
-        result_{prepared.set.shapes[number].moves.vertices,
+        result_{prepared.shape_set.shapes[number].moves.vertices,
                 Positions(static_cast<Index>(shape_.vertex_indices.size()), 3)} {
     if (has_own_sets()) {
       move_skin(mixed_moves());
     } else {
-      move_skin(prepared.set.shapes[number].moves.moves);
+      move_skin(prepared.shape_set.shapes[number].moves.moves);
     }
     move_parts();
     const Positions carried = skin_of_followers();
     fit_lids();
     if (shape_.moves_contacts) keep_contacts();
-    shape_.over_parts.keep_in_front(rest_, carrier_.frames.whole, shape_.watched.rows, mesh_,
-                                    result_);
+    shape_.skin_over_parts.keep_in_front(rest_, face_frames_.frames.face_motion,
+                                         shape_.watched.rows, mesh_, result_);
     remove_crossings();
     follow_lids(carried);
   }
@@ -72,9 +72,10 @@ class CarriedShape {
   Index crossing() const { return crossing_; }
 
  private:
-  bool has_own_sets() const { return !shape_.of_head.empty(); }
+  bool has_own_sets() const { return !shape_.head_moves.empty(); }
   SetShares shares_of_part(std::size_t part) const {
-    return has_own_sets() ? shares_at(prepared_.rigid_alpha[part], shares_) : SetShares{{0, 1}};
+    return has_own_sets() ? set_weights_at(prepared_.rigid_part_weights[part], shares_)
+                          : SetShares{{0, 1}};
   }
   Positions mixed_moves() const;
   void move_skin(const Positions& moves);
@@ -92,7 +93,7 @@ class CarriedShape {
   const PreparedShapes& prepared_;
   const PreparedShape& shape_;
   std::span<const FaceEye> at_eyes_;
-  const Carrier& carrier_;
+  const FaceFrames& face_frames_;
   const RegionShares& shares_;
   const Positions& rest_;
   Positions& mesh_;
@@ -101,12 +102,12 @@ class CarriedShape {
   Index crossing_ = 0;
 };
 
-/// Returns the weighted mean of the heads' own displacements, region by region.
+/// Returns the mean of the heads' own displacements, weighted by the region weights of each vertex.
 Positions CarriedShape::mixed_moves() const {
   Positions moves = Positions::Zero(result_.moves.rows(), 3);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
     for (const SetShare& of_set : shares_[k]) {
-      const SingleRows& own = shape_.of_head[of_set.set];
+      const SingleRows& own = shape_.head_moves[of_set.set];
       for (Index i = 0; i < moves.rows(); ++i) {
         const double part = prepared_.alpha(shape_.vertex_indices[static_cast<std::size_t>(i)],
                                             static_cast<Index>(k));
@@ -123,15 +124,15 @@ void CarriedShape::move_skin(const Positions& moves) {
   for (std::size_t i = 0; i < shape_.vertex_indices.size(); ++i) {
     const auto row = static_cast<Index>(i);
     result_.moves.row(row) =
-        apply3(carrier_.maps[shape_.vertex_indices[i]], row3(moves, row)).transpose();
+        apply3(face_frames_.maps[shape_.vertex_indices[i]], row3(moves, row)).transpose();
   }
 }
 
 void CarriedShape::move_parts() {
   for (const PartMove& part : shape_.parts) {
-    const Eigen::Matrix3d map = prepared_.map_of(part, shape_, carrier_.maps);
-    const PlacedPart placed(prepared_.rigid[part.part], prepared_.set.neutral, carrier_.mesh,
-                            carrier_.frames.whole, map);
+    const Eigen::Matrix3d map = prepared_.mean_map(part, shape_, face_frames_.maps);
+    const PlacedPart placed(prepared_.rigid_parts[part.part], prepared_.shape_set.neutral,
+                            face_frames_.mesh, face_frames_.frames.face_motion, map);
     carry_turn(mean_turn(part.turns, shares_of_part(part.part)), placed, part.vertices, part.rows,
                result_.moves);
   }
@@ -156,32 +157,35 @@ void CarriedShape::fit_lids() {
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidMove& move = shape_.lids[e];
     if (move.lids.empty()) continue;
-    goals_[e] = LidClosure::mean(move.goals, shares_of_part(prepared_.eyes[e].part));
-    move.lids.fit(carrier_.mesh, at_eyes_[e], carrier_.frames.whole, goals_[e], result_.moves);
+    goals_[e] = LidClosure::mean_goals(move.goals, shares_of_part(prepared_.eyes[e].part));
+    move.lids.fit_lids(face_frames_.mesh, at_eyes_[e], face_frames_.frames.face_motion, goals_[e],
+                       result_.moves);
   }
 }
 
-/// Corrects the gaps between lips. Lips that the shape leaves closed stay closed. If the shape
-/// closes lips that its companion opens, all gaps change as on the template.
+/// Corrects the gaps between lips. If the shape hardly changes a gap on the template, the gap
+/// changes equally little on the face. If the shape closes lips that its companion opens, all gaps
+/// change as on the template.
 void CarriedShape::keep_contacts() {
   // Compute the wanted change of each gap: the weighted mean of the changes in the sets of shapes.
-  std::vector<double> widening(shape_.widening.front().size(), 0.0);
-  for (std::size_t p = 0; p < widening.size(); ++p) {
+  std::vector<double> gap_changes(shape_.gap_changes.front().size(), 0.0);
+  for (std::size_t p = 0; p < gap_changes.size(); ++p) {
     SetShares here = {{0, 1}};
     if (has_own_sets()) {
       const auto& alpha = prepared_.contact_alpha;
-      here = shares_at({&alpha(static_cast<Index>(p), 0), static_cast<std::size_t>(alpha.cols())},
-                       shares_);
+      here = set_weights_at(
+          {&alpha(static_cast<Index>(p), 0), static_cast<std::size_t>(alpha.cols())}, shares_);
     }
     for (const SetShare& of_set : here) {
-      widening[p] += of_set.share * carrier_.frames.whole.scale * shape_.widening[of_set.set][p];
+      gap_changes[p] +=
+          of_set.share * face_frames_.frames.face_motion.scale * shape_.gap_changes[of_set.set][p];
     }
   }
   // Adjust the mesh in the shape, and convert the result back to displacements.
   result_.add_to(mesh_);
   const auto how =
       shape_.companion ? GapPreserver::GapSelection::kAll : GapPreserver::GapSelection::kNearlySame;
-  prepared_.contacts.adjust(carrier_.gaps, widening, how, mesh_);
+  prepared_.contacts.adjust(face_frames_.gaps, gap_changes, how, mesh_);
   for (std::size_t i = 0; i < result_.vertices.size(); ++i) {
     const std::uint32_t v = result_.vertices[i];
     auto move = result_.moves.row(static_cast<Index>(i));
@@ -198,14 +202,16 @@ void CarriedShape::remove_crossings() {
   SkinCrossings::ExtraCost extra_cost;
   if (closes_lids())
     extra_cost = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
-  const SkinCrossings::Face face{rest_, carrier_.crosses_at_rest, carrier_.frames.whole};
+  const SkinCrossings::Face face{rest_, face_frames_.crosses_at_rest,
+                                 face_frames_.frames.face_motion};
   double best = HUGE_VAL;
   Positions kept;
   for (int round = 0; round < kMaxRepairs; ++round) {
     if (round > 0) close_lids();
     Index crossing = prepared_.crossings.repair(face, shape_.watched, mesh_, result_, extra_cost);
     const bool are_out = keep_lids_out();
-    if (extra_cost) crossing = prepared_.crossings.count(face, shape_.watched, result_, mesh_);
+    if (extra_cost)
+      crossing = prepared_.crossings.count_intersecting(face, shape_.watched, result_, mesh_);
     const double open = extra_cost ? extra_cost(result_.moves) : 0;
     const double bad = static_cast<double>(crossing) + open;
     if (bad < best) {
@@ -219,15 +225,17 @@ void CarriedShape::remove_crossings() {
 }
 
 bool CarriedShape::closes_lids() const {
-  return std::ranges::any_of(shape_.lids, [](const LidMove& move) { return move.lids.closes(); });
+  return std::ranges::any_of(shape_.lids,
+                             [](const LidMove& move) { return move.lids.closes_lids(); });
 }
 
 double CarriedShape::lids_open(const Positions& moves) const {
   double open = 0;
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
-    if (!lids.closes()) continue;
-    open = std::max(open, lids.opening(carrier_.mesh, carrier_.frames.whole, goals_[e], moves));
+    if (!lids.closes_lids()) continue;
+    open = std::max(open, lids.largest_open_gap(face_frames_.mesh, face_frames_.frames.face_motion,
+                                                goals_[e], moves));
   }
   return open;
 }
@@ -235,20 +243,20 @@ double CarriedShape::lids_open(const Positions& moves) const {
 void CarriedShape::close_lids() {
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
-    if (!lids.closes()) continue;
-    lids.close_again(carrier_.mesh, carrier_.frames.whole, goals_[e], result_.moves);
+    if (!lids.closes_lids()) continue;
+    lids.close_again(face_frames_.mesh, face_frames_.frames.face_motion, goals_[e], result_.moves);
   }
 }
 
 /// Moves the lids of all eyes out of the eyeballs. \return false if any lid was noticeably inside
-/// an eyeball, see LidClosure::keep_out.
+/// an eyeball, see LidClosure::move_out_of_eyeball.
 bool CarriedShape::keep_lids_out() {
   bool are_out = true;
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (lids.empty()) continue;
-    const bool is_out =
-        lids.keep_out(carrier_.mesh, at_eyes_[e], carrier_.frames.whole, goals_[e], result_.moves);
+    const bool is_out = lids.move_out_of_eyeball(
+        face_frames_.mesh, at_eyes_[e], face_frames_.frames.face_motion, goals_[e], result_.moves);
     are_out = are_out && is_out;
   }
   return are_out;
@@ -280,14 +288,14 @@ ShapeTransfer::~ShapeTransfer() = default;
 std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& face,
                                                 std::span<const RegionShares> shares,
                                                 std::vector<Index>* crossing) const {
-  const Carrier carrier = prepared_->carrier_for(face);
+  const FaceFrames face_frames = prepared_->make_face_frames(face);
   const auto at_eyes = placed_eyes(*prepared_, static_cast<std::size_t>(target), face);
   const RegionShares none;
   std::vector<Displacements> shapes(prepared_->shapes.size());
   if (crossing != nullptr) crossing->assign(shapes.size(), 0);
   const auto carry_one = [&](std::size_t s, const Positions& rest, Positions& mesh) {
-    CarriedShape shape(*prepared_, s, at_eyes, carrier, s < shares.size() ? shares[s] : none, rest,
-                       mesh);
+    CarriedShape shape(*prepared_, s, at_eyes, face_frames, s < shares.size() ? shares[s] : none,
+                       rest, mesh);
     if (crossing != nullptr) (*crossing)[s] = shape.crossing();
     shapes[s] = std::move(shape).moves();
   };
@@ -312,7 +320,7 @@ std::optional<std::size_t> ShapeTransfer::companion(std::size_t shape) const {
 std::size_t ShapeTransfer::memory_bytes() const {
   std::size_t bytes = static_cast<std::size_t>(prepared_->alpha.size()) * sizeof(double);
   for (const PreparedShape& shape : prepared_->shapes) {
-    for (const SingleRows& rows : shape.of_head) {
+    for (const SingleRows& rows : shape.head_moves) {
       bytes += static_cast<std::size_t>(rows.size()) * sizeof(float);
     }
   }

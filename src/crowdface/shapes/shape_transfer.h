@@ -17,7 +17,8 @@ namespace crowdface {
 struct PreparedShapes;
 
 /// Transfers expressions to faces of the same topology (docs/shapes.md). The shapes come from a
-/// template, or are weighted means of the heads' own shapes, normalised to the mean head.
+/// template. If each head has its own shapes, a face gets weighted means of them, normalised to the
+/// mean head.
 ///
 /// - Skin, and everything bound to the skin: displacements are multiplied by the local rotation and
 /// stretch of the face's skin relative to the template's (FrameField).
@@ -44,15 +45,16 @@ class ShapeTransfer {
   /// \param target    The head that the face is built on. The face has this head's eyeballs.
   /// \param face      #V by 3.
   /// \param shares    #shapes: weights of the heads' shapes. Empty: the template's shapes.
-  /// \param crossing  Optional output, #shapes: number of skin triangles that intersect other skin
-  ///                  only in the shape of this face: neither in the same shape of the template nor
-  ///                  in the face at rest.
+  /// \param crossing_counts  Optional output, #shapes: number of skin triangles that intersect
+  ///                  other skin in this face's shape, but neither in the template's shape nor in
+  ///                  the face at rest.
   /// \return          #shapes: displacements, with the vertices of the set's shape.
   std::vector<Displacements> carry(Index target, const Positions& face,
                                    std::span<const RegionShares> shares = {},
-                                   std::vector<Index>* crossing = nullptr) const;
+                                   std::vector<Index>* crossing_counts = nullptr) const;
 
-  /// Returns the index of the shape that this corrective shape belongs to, see companions_of.
+  /// Returns the index of the shape with which this corrective shape is applied, see companions_of;
+  /// nothing for other shapes.
   std::optional<std::size_t> companion(std::size_t shape) const;
 
   /// Returns the memory, in bytes, of the heads' normalised shapes and region weights.

@@ -21,12 +21,12 @@ constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
 // Distances from intersections, measured at rest. Skin closer than kEvened gets the average of the
-// displacements around it; skin farther than kNotEvened keeps its displacements.
+// neighbouring displacements; skin farther than kNotEvened keeps its displacements.
 constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
-// factor on these lengths where skin is arranged as on the template
+// factor on these lengths where skin gets the template's front-to-back order
 constexpr double kSameLayoutFactor = 0.7;
 /// Averaging changes the vertical displacements of lids by only this fraction, so that the eye
 /// stays closed.
@@ -69,12 +69,12 @@ class SkinCrossings::Repair {
          Displacements& shape)
       : skin_(skin),
         face_(face),
-        axes_(moved_axes(skin.axes_, face.whole)),
+        axes_(moved_axes(skin.axes_, face.face_motion)),
         watched_(watched),
         mesh_(mesh),
         shape_(shape) {
     shape_.add_to(mesh_);
-    boxes_ = watched_.search.boxes_of(mesh_);
+    boxes_ = watched_.search.make_boxes(mesh_);
     look();
   }
   ~Repair() {
@@ -85,14 +85,14 @@ class SkinCrossings::Repair {
 
   Index crossing() const { return crossing_triangles(pairs_); }
 
-  /// First pushes the lids apart. If intersections remain, starts again and arranges the lids as on
-  /// the template.
+  /// First pushes the lids apart. If intersections remain, starts again and gives the lids the
+  /// relative positions that they have on the template.
   void remove_crossings(const ExtraCost& extra_cost) {
     if (pairs_.empty()) return;
     const Positions start = shape_.moves;
     remove_crossings(extra_cost, watched_.joins_distant_skin ? &Repair::arrange_as_template
                                                              : &Repair::push_lids);
-    if (!watched_.side.empty() && best_ > 0) {
+    if (!watched_.lid_sides.empty() && best_ > 0) {
       shape_.moves = start;
       changed_.assign(changed_.size(), true);
       look_again({});
@@ -106,7 +106,7 @@ class SkinCrossings::Repair {
   using HandleLids = void (Repair::*)(const std::vector<Pair>& lids, double grown);
 
   void remove_crossings(const ExtraCost& extra_cost, HandleLids handle_lids) {
-    const int patience = watched_.side.empty() ? kRounds : kPatience;
+    const int patience = watched_.lid_sides.empty() ? kRounds : kPatience;
     int since_best = 0;
     double grown = 1;
     for (int round = 0; round <= kRounds; ++round, grown += kGrowth) {
@@ -137,7 +137,7 @@ class SkinCrossings::Repair {
 
   bool is_excused(std::uint32_t triangle) const {
     const auto& [a, b, c] = watched_.search.triangles()[triangle];
-    return watched_.excused[triangle] || face_.crosses_at_rest[a] || face_.crosses_at_rest[b] ||
+    return watched_.is_excused[triangle] || face_.crosses_at_rest[a] || face_.crosses_at_rest[b] ||
            face_.crosses_at_rest[c];
   }
   void look() {
@@ -169,7 +169,7 @@ class SkinCrossings::Repair {
     return row3(face_.rest, row.vertex) + row3(shape_.moves, row.row);
   }
   signed char side(std::uint32_t vertex) const {
-    return watched_.side.empty() ? static_cast<signed char>(0) : watched_.side[vertex];
+    return watched_.lid_sides.empty() ? static_cast<signed char>(0) : watched_.lid_sides[vertex];
   }
   int side_of(std::uint32_t triangle) const {
     for (const std::uint32_t v : watched_.search.triangles()[triangle]) {
@@ -205,13 +205,13 @@ class SkinCrossings::Repair {
     }
   }
 
-  /// Arranges skin as on the template in the shape: averages the difference between face and
-  /// template over skin that is close in the template's shape.
+  /// Gives skin the relative positions that it has in the template's shape: averages the difference
+  /// between face and template over skin that is close in this shape.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kSameLayoutFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, watched_.search);
     std::vector<Eigen::Vector3d> around;
-    const auto shaped = [&](std::uint32_t i) { return row3(watched_.shaped, i); };
+    const auto shaped = [&](std::uint32_t i) { return row3(watched_.shaped_positions, i); };
     for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
       if (std::ranges::binary_search(crossing, watched_.rows[i].vertex)) {
         around.push_back(shaped(i));
@@ -223,7 +223,7 @@ class SkinCrossings::Repair {
       const ShapeRow& row = watched_.rows[i];
       if (!watched_.joins_distant_skin && side(row.vertex) == 0) continue;
       if (!field.affects(shaped(i))) continue;
-      samples.push_back({i, shaped(i), place_of(row) - face_.whole.apply(shaped(i))});
+      samples.push_back({i, shaped(i), place_of(row) - face_.face_motion.apply(shaped(i))});
     }
     for (const auto& [number, by] : field.changes(samples)) move(watched_.rows[number], by);
   }
@@ -306,9 +306,9 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   for (std::uint32_t row = 0; row < shape.vertices.size(); ++row) {
     if (is_skin_[shape.vertices[row]]) watched.rows.push_back({row, shape.vertices[row]});
   }
-  watched.shaped.resize(static_cast<Index>(watched.rows.size()), 3);
+  watched.shaped_positions.resize(static_cast<Index>(watched.rows.size()), 3);
   for (std::size_t i = 0; i < watched.rows.size(); ++i) {
-    watched.shaped.row(static_cast<Index>(i)) = shaped.row(watched.rows[i].vertex);
+    watched.shaped_positions.row(static_cast<Index>(i)) = shaped.row(watched.rows[i].vertex);
   }
   // Search skin that may touch, and a few rings of triangles around this skin.
   std::vector<bool> meets = skin_that_may_touch(skin_, neutral, shaped, extent_);
@@ -324,27 +324,27 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   std::ranges::copy_if(skin_.triangles, std::back_inserter(triangles), [&](const Triangle& t) {
     return meets[t[0]] || meets[t[1]] || meets[t[2]];
   });
-  watched.excused.assign(triangles.size(), false);
+  watched.is_excused.assign(triangles.size(), false);
   watched.search = CrossingSearch(std::move(triangles), shaped, kMaxTemplateGap * extent_,
                                   kMaxFacingTemplateGap * extent_);
   // Ignore the intersections of the template in the shape.
-  excuse(shaped, watched);
+  mark_excused(shaped, watched);
   return watched;
 }
 
 /// Excuses every triangle that shares a vertex with an intersecting triangle, as NewIntersections
 /// does.
-void SkinCrossings::excuse(const Positions& mesh, Watched& watched) const {
+void SkinCrossings::mark_excused(const Positions& mesh, Watched& watched) const {
   const CrossingSearch& search = watched.search;
   std::vector<bool> there(is_skin_.size(), false);
-  const auto known = [&](std::uint32_t t) { return watched.excused[t]; };
+  const auto known = [&](std::uint32_t t) { return watched.is_excused[t]; };
   for (const std::uint32_t v :
-       vertices_of(search.crossing_pairs(mesh, search.boxes_of(mesh), known), search)) {
+       vertices_of(search.crossing_pairs(mesh, search.make_boxes(mesh), known), search)) {
     there[v] = true;
   }
-  for (std::size_t i = 0; i < watched.excused.size(); ++i) {
+  for (std::size_t i = 0; i < watched.is_excused.size(); ++i) {
     const auto& [a, b, c] = search.triangles()[i];
-    if (there[a] || there[b] || there[c]) watched.excused[i] = true;
+    if (there[a] || there[b] || there[c]) watched.is_excused[i] = true;
   }
 }
 
@@ -364,14 +364,14 @@ std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
   std::vector<bool> at(is_skin_.size(), false);
   const auto none = [](std::uint32_t) { return false; };
   for (const std::uint32_t v :
-       vertices_of(all.crossing_pairs(rest, all.boxes_of(rest), none), all)) {
+       vertices_of(all.crossing_pairs(rest, all.make_boxes(rest), none), all)) {
     at[v] = true;
   }
   return at;
 }
 
-Index SkinCrossings::count(const Face& face, const Watched& watched, const Displacements& shape,
-                           Positions& mesh) const {
+Index SkinCrossings::count_intersecting(const Face& face, const Watched& watched,
+                                        const Displacements& shape, Positions& mesh) const {
   Displacements same = shape;
   return Repair(*this, face, watched, mesh, same).crossing();
 }

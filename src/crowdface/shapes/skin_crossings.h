@@ -27,47 +27,47 @@ class SkinCrossings {
 
   const SkinTriangles& mesh() const { return skin_; }
 
-  /// The skin in which intersections of a shape are searched, see skin_that_may_touch.
+  /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
   struct Watched {
     CrossingSearch search;
     /// #triangles of `search`: whether the triangle takes part in an intersection on the template
-    std::vector<bool> excused;
+    std::vector<bool> is_excused;
     /// #V: 1 for the upper and −1 for the lower lid of an eye that the shape closes, 0 for other
     /// skin; empty if the shape closes no eye.
-    std::vector<signed char> side;
+    std::vector<signed char> lid_sides;
     std::vector<ShapeRow> rows;  ///< rows of the shape that are skin
-    Positions shaped;            ///< #rows by 3: these vertices of the template in the shape
+    Positions shaped_positions;  ///< #rows by 3: these vertices of the template in the shape
     /// Whether the shape brings together skin that is far apart at rest. If so, intersecting skin
     /// gets the same front-to-back order as on the template.
     bool joins_distant_skin = false;
   };
-  /// Finds the skin in which intersections of a shape are searched.
+  /// Finds the skin in which to search for intersections of a shape.
   /// \param neutral  The mesh to which the shape is added, #V by 3.
-  /// \param side     See Watched::side.
+  /// \param lid_sides     See Watched::lid_sides.
   Watched watch(const Positions& neutral, const Displacements& shape,
-                std::vector<signed char> side) const;
+                std::vector<signed char> lid_sides) const;
   /// Marks the triangles that intersect on `mesh` as excused, so that they are ignored on faces.
-  void excuse(const Positions& mesh, Watched& watched) const;
+  void mark_excused(const Positions& mesh, Watched& watched) const;
 
-  /// Returns a single search over the union of the skin that the given searches cover.
+  /// Returns one search over all triangles of the given searches.
   ///
   /// \param neutral  Template at rest, #V by 3.
   CrossingSearch watch_all(const Positions& neutral,
-                           std::span<const CrossingSearch* const> shapes) const;
+                           std::span<const CrossingSearch* const> searches) const;
   /// Returns #V: whether each vertex belongs to an intersecting triangle of a face at rest.
-  std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& all) const;
+  std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& search) const;
 
   struct Face {
     const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
     /// #V, from crossing_at_rest: vertices of intersections that the shape did not cause
     const std::vector<bool>& crosses_at_rest;
-    const RigidMotion& whole;  ///< motion from the template to the face
+    const RigidMotion& face_motion;  ///< motion from the template to the face
   };
   /// Returns the number of intersecting triangles in a shape of a face.
   ///
   /// \param mesh  The face at rest; modified during the call and restored.
-  Index count(const Face& face, const Watched& watched, const Displacements& shape,
-              Positions& mesh) const;
+  Index count_intersecting(const Face& face, const Watched& watched, const Displacements& shape,
+                           Positions& mesh) const;
 
   using ExtraCost = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged

@@ -19,14 +19,14 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. The wanted depth of a covered vertex
-// below the skin: this depth, or the depth on the template if the template's depth is less
+// Lengths are fractions of the skin's extent, about 430 mm. kDepth: target depth of a covered
+// vertex below the skin; the template's depth if this is less.
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
-// largest distance of a vertex from its cover; farther vertices need no check
+// largest distance of a vertex behind the skin; vertices farther behind need no check
 constexpr double kNear = 0.008;
 constexpr double kPushedAround = 0.02;  // radius of the skin that a push moves
-// size of the cells in which one vertex represents the others
+// Of the vertices in a cell of this size, only one is checked.
 constexpr double kFrontCell = 0.0025;
 // skin is pushed only if its distance from the vertex is less than this fraction of the wanted
 // depth
@@ -174,45 +174,45 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
       wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
       near = std::move(wider);
     }
-    Covered covered{v, around[hit->triangle], {}, std::min(depth, kDepth * extent)};
+    CoveredVertex covered{v, around[hit->triangle], {}, std::min(depth, kDepth * extent)};
     for (const std::uint32_t t : near) covered.candidates.push_back(skin.triangles[t]);
-    covered_.push_back(std::move(covered));
+    covered_vertices_.push_back(std::move(covered));
   }
 }
 
-void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& whole,
+void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& face_motion,
                                   std::span<const ShapeRow> rows, Positions& mesh,
                                   Displacements& shape) const {
   shape.add_to(mesh);
   // largest remaining push for each covered vertex: at most the shape's own movement
   std::vector<double> most;
-  for (const Covered& covered : covered_) {
+  for (const CoveredVertex& covered : covered_vertices_) {
     double least = HUGE_VAL;
-    for (const std::uint32_t v : covered.cover) {
+    for (const std::uint32_t v : covered.covering_triangle) {
       least = std::min(least, (row3(mesh, v) - row3(rest, v)).norm());
     }
     most.push_back(least);
   }
   for (int round = 0; round < kFrontRounds; ++round) {
-    const std::vector<Push> pushes = pushes_in(mesh, whole, most);
+    const std::vector<Push> pushes = find_pushes(mesh, face_motion, most);
     if (pushes.empty()) break;
-    push(pushes, whole.scale, rows, mesh, shape);
+    apply_pushes(pushes, face_motion.scale, rows, mesh, shape);
   }
   for (const std::uint32_t v : shape.vertices) mesh.row(v) = rest.row(v);
 }
 
-std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
-                                                          const RigidMotion& whole,
-                                                          std::span<double> most) const {
-  const double scale = whole.scale;
-  const HeadAxes axes = moved_axes(axes_, whole);
+std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mesh,
+                                                            const RigidMotion& face_motion,
+                                                            std::span<double> most) const {
+  const double scale = face_motion.scale;
+  const HeadAxes axes = moved_axes(axes_, face_motion);
   const Eigen::Vector3d side = axes.side();
   std::vector<Push> pushes;
-  for (std::size_t i = 0; i < covered_.size(); ++i) {
-    const Covered& covered = covered_[i];
+  for (std::size_t i = 0; i < covered_vertices_.size(); ++i) {
+    const CoveredVertex& covered = covered_vertices_[i];
     if (most[i] <= 0) continue;
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
-    const Corners over = corners_of(mesh, covered.cover);
+    const Corners over = corners_of(mesh, covered.covering_triangle);
     if ((over[0] - point).dot(normal_of(over)) > kNear * scale * extent_) continue;
     // Find the skin in front of the vertex on this face.
     std::optional<double> foremost;
@@ -237,8 +237,9 @@ std::vector<SkinOverParts::Push> SkinOverParts::pushes_in(const Positions& mesh,
 }
 
 /// Moves the skin at the points of `pushes`, and the skin around these points with a falloff.
-void SkinOverParts::push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
-                         Positions& mesh, Displacements& shape) const {
+void SkinOverParts::apply_pushes(std::span<const Push> pushes, double scale,
+                                 std::span<const ShapeRow> rows, Positions& mesh,
+                                 Displacements& shape) const {
   const double reach = kPushedAround * scale * extent_;
   Eigen::AlignedBox3d box;
   for (const Push& push : pushes) box.extend(push.position);

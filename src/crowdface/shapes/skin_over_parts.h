@@ -23,30 +23,30 @@ class SkinOverParts {
  public:
   SkinOverParts() = default;
   /// \param shaped  Template in the shape, #V by 3.
-  /// \param inner   Vertices that the skin may cover: gums and teeth.
-  /// \param moved   Vertices that the shape moves, ascending.
+  /// \param inner_vertices  Vertices that the skin may cover: gums and teeth.
+  /// \param moved_vertices  Vertices that the shape moves, ascending.
   /// \param extent  Diagonal of the skin's bounding box.
   SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
-                std::span<const std::uint32_t> inner, std::span<const std::uint32_t> moved,
-                const HeadAxes& axes, double extent);
+                std::span<const std::uint32_t> inner_vertices,
+                std::span<const std::uint32_t> moved_vertices, const HeadAxes& axes, double extent);
 
   /// Pushes skin outwards until it covers the same vertices on the face as on the template.
   ///
   /// \param rest   The mesh to which the shape is added, #V by 3.
-  /// \param whole  Motion from the template to the face.
+  /// \param face_motion  Motion from the template to the face.
   /// \param rows   Rows of the shape that are skin.
   /// \param mesh   Equal to `rest`; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
-  void keep_in_front(const Positions& rest, const RigidMotion& whole,
+  void keep_in_front(const Positions& rest, const RigidMotion& face_motion,
                      std::span<const ShapeRow> rows, Positions& mesh, Displacements& shape) const;
 
  private:
-  /// A vertex under the skin. `cover` is the triangle in front of this vertex on the template in
-  /// the shape.
-  struct Covered {
+  /// A vertex under the skin. `covering_triangle` is the skin in front of this vertex, on the
+  /// template in the shape.
+  struct CoveredVertex {
     std::uint32_t vertex;
-    Triangle cover;
-    /// triangles near `cover` that may cover the vertex on a face
+    Triangle covering_triangle;
+    /// triangles near `covering_triangle` that may cover the vertex on a face
     std::vector<Triangle> candidates;
     double depth;  ///< wanted depth of the vertex below the skin
   };
@@ -57,14 +57,14 @@ class SkinOverParts {
   /// Returns the pushes that move skin in front of covered vertices.
   /// \param max_push  #covered: the largest push that each covered vertex may still cause; reduced
   ///                  by each push.
-  std::vector<Push> pushes_in(const Positions& mesh, const RigidMotion& whole,
-                              std::span<double> max_push) const;
-  void push(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
-            Positions& mesh, Displacements& shape) const;
+  std::vector<Push> find_pushes(const Positions& mesh, const RigidMotion& face_motion,
+                                std::span<double> max_push) const;
+  void apply_pushes(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
+                    Positions& mesh, Displacements& shape) const;
 
   HeadAxes axes_;
   double extent_ = 0;
-  std::vector<Covered> covered_;
+  std::vector<CoveredVertex> covered_vertices_;
 };
 
 }  // namespace crowdface

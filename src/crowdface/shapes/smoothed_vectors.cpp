@@ -75,7 +75,7 @@ class CellMeans {
   Eigen::Vector3d low_;
   double cell_;
   std::array<std::size_t, 3> nodes_a_side_;
-  /// index into `nodes_`; kNoIndex for the many nodes without samples
+  /// #grid nodes: index into `nodes_`; kNoIndex for the many nodes without samples
   std::vector<std::uint32_t> number_;
   std::vector<Node> nodes_;
 };
@@ -91,17 +91,17 @@ SmoothedVectors::SmoothedVectors(std::vector<Eigen::Vector3d> centres, double ce
   for (const Eigen::Vector3d& place : centres_) box_.extend(place);
 }
 
-bool SmoothedVectors::in_reach(const Eigen::Vector3d& place, double reach) const {
+bool SmoothedVectors::may_reach(const Eigen::Vector3d& place, double reach) const {
   return (place.array() > box_.min().array() - reach).all() &&
          (place.array() < box_.max().array() + reach).all();
 }
 
 bool SmoothedVectors::affects(const Eigen::Vector3d& place) const {
-  return in_reach(place, outer_radius_ + cell_);
+  return may_reach(place, outer_radius_ + cell_);
 }
 
 /// Returns the distance to the nearest centre.
-double SmoothedVectors::distance(const Eigen::Vector3d& place) const {
+double SmoothedVectors::distance_to_centre(const Eigen::Vector3d& place) const {
   double least = std::numeric_limits<double>::max();
   for (const Eigen::Vector3d& other : centres_) {
     const Eigen::Vector3d from = other - place;
@@ -118,11 +118,11 @@ std::vector<SmoothedVectors::Change> SmoothedVectors::changes(
   for (const Sample& sample : samples) means.add(sample.position, sample.value);
   std::vector<Change> changes;
   for (const Sample& sample : samples) {
-    if (!in_reach(sample.position, outer_radius_)) continue;
-    const double away = distance(sample.position);
+    if (!may_reach(sample.position, outer_radius_)) continue;
+    const double away = distance_to_centre(sample.position);
     if (away >= outer_radius_) continue;
-    changes.push_back({sample.number, smooth_step(outer_radius_, inner_radius_, away) *
-                                          (means.at(sample.position) - sample.value)});
+    changes.push_back({sample.index, smooth_step(outer_radius_, inner_radius_, away) *
+                                         (means.at(sample.position) - sample.value)});
   }
   return changes;
 }

@@ -18,20 +18,20 @@ class SmoothedVectors {
   /// \param cell    Cell size of the grid over which vectors are averaged.
   /// \param inner_radius  Distance from a centre up to which the average replaces a vector
   ///                      completely.
-  /// \param outer_radius  Distance from which on a vector does not change. The effect fades between
-  ///                      both radii.
+  /// \param outer_radius  Distance from a centre beyond which vectors do not change. The effect
+  ///                      fades between both radii.
   SmoothedVectors(std::vector<Eigen::Vector3d> centres, double cell, double inner_radius,
                   double outer_radius);
 
   /// Returns whether a sample at this position can affect the result.
-  bool affects(const Eigen::Vector3d& place) const;
+  bool affects(const Eigen::Vector3d& position) const;
 
   struct Sample {
-    std::uint32_t number;  ///< identifies the sample in the result
+    std::uint32_t index;  ///< identifies the sample in the result
     Eigen::Vector3d position, value;
   };
   struct Change {
-    std::uint32_t number;
+    std::uint32_t index;
     Eigen::Vector3d displacement;
   };
   /// Returns the changes of the samples nearer than `outer_radius` to a centre.
@@ -40,8 +40,8 @@ class SmoothedVectors {
   std::vector<Change> changes(std::span<const Sample> samples) const;
 
  private:
-  bool in_reach(const Eigen::Vector3d& place, double reach) const;
-  double distance(const Eigen::Vector3d& place) const;
+  bool may_reach(const Eigen::Vector3d& position, double reach) const;
+  double distance_to_centre(const Eigen::Vector3d& position) const;
 
   std::vector<Eigen::Vector3d> centres_;
   Eigen::AlignedBox3d box_;  ///< bounding box of the centres

@@ -12,8 +12,8 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. The largest distance on the template of
-// skin that may touch on a face, since faces may be narrower
+// Lengths are fractions of the skin's extent, about 430 mm. kMeetingReach: skin that is at most
+// this far apart in the template's shape may touch on a narrower face.
 constexpr double kMeetingReach = 0.02;
 constexpr double kMeetingReachEdges = 1.6;  // the same limit in edge lengths
 /// Skin at two vertices may touch if the distance of the vertices in the shape is at most kOfMove
@@ -21,7 +21,7 @@ constexpr double kMeetingReachEdges = 1.6;  // the same limit in edge lengths
 constexpr double kOfMove = 4, kOfDifference = 10;
 // an edge folds if its ends move differently by more than this fraction of its length
 constexpr double kFolds = 0.5;
-// size of the cells in which one vertex represents the others
+// Of the vertices in a cell of this size that have similar normals, only one is checked.
 constexpr double kMeetingCell = 0.003;
 
 /// Returns, for each vertex of the skin, a vertex in the same cell with a similar normal; kNoIndex

@@ -29,7 +29,7 @@ struct BlendedPicture {
   std::vector<std::uint8_t> srgb;
   /// Height by width by `channels`, used instead of `srgb`: value = low + step · word. Normals are
   /// stored as x, y, z mapped to 0 … 1, as in normal map files.
-  std::vector<std::uint16_t> words = {};
+  std::vector<std::uint16_t> values16 = {};
   int channels = 3;
   float low = 0, step = 1.0F / 65535;
 };

@@ -11,7 +11,7 @@
 namespace crowdface {
 
 /// Fills the uncovered texels of a texture image with one value per channel, and then copies
-/// colours into the gutter.
+/// covered texels into the gutter.
 /// \param fill    #channels
 /// \param values  height by width by #channels.
 template <class Value>

@@ -19,7 +19,7 @@ constexpr int kPictureRowsPerBlock = 16;
 /// For each channel, the sum of the values of the covered texels of a row.
 using RowSums = std::array<std::uint64_t, 3>;
 
-/// Working memory for one row: a float for each texel and field.
+/// Working memory for one row of texels: a float for each texel and each field.
 class RowBuffer {
  public:
   RowBuffer(int width, std::size_t fields)
@@ -114,8 +114,8 @@ RowSums write_values(std::span<const SurfaceTexels::Span> spans, std::span<float
   return total;
 }
 
-/// Fills uncovered texels with the mean of the covered texels, and then copies colours into the
-/// gutter.
+/// Fills uncovered texels with the mean of the covered texels, and then copies covered texels into
+/// the gutter.
 /// \param sums    #rows: sums of covered texels.
 /// \param values  height by width by `channels`.
 template <class Value>
@@ -125,7 +125,7 @@ void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, st
   for (std::size_t c = 0; c < channels; ++c) {
     std::uint64_t sum = 0;
     for (const RowSums& row : sums) sum += row[c];
-    fill[c] = static_cast<Value>(sum / std::max<std::size_t>(1, texels.covered()));
+    fill[c] = static_cast<Value>(sum / std::max<std::size_t>(1, texels.covered_count()));
   }
   fill_uncovered(texels, std::span<const Value>(fill).first(channels), values.data());
 }
@@ -144,7 +144,7 @@ BlendedPicture blank_picture(const SurfaceTexels& texels, const MapCoding& codin
     picture.low = coding.low;
     picture.step = coding.step;
   }
-  picture.words.resize(static_cast<std::size_t>(picture.channels) * count);
+  picture.values16.resize(static_cast<std::size_t>(picture.channels) * count);
   return picture;
 }
 
@@ -177,16 +177,16 @@ BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& codin
       if (coding.content == MapContent::kColours) {
         total = write_colours(spans, sums, result.srgb.data() + row);
       } else if (coding.content == MapContent::kSlopes) {
-        total = write_normals(spans, sums, result.words.data() + row);
+        total = write_normals(spans, sums, result.values16.data() + row);
       } else {
-        total = write_values(spans, sums, result, result.words.data() + row);
+        total = write_values(spans, sums, result, result.values16.data() + row);
       }
     }
   });
-  if (result.words.empty()) {
+  if (result.values16.empty()) {
     fill_rest(texels, row_sums, channels, result.srgb);
   } else {
-    fill_rest(texels, row_sums, channels, result.words);
+    fill_rest(texels, row_sums, channels, result.values16);
   }
   return result;
 }

@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-// Kernels round products before adding them (no FMA), so that results are bit-identical to plain
-// loops on any instruction set.
+// Kernels do not fuse multiply and add, so that the results of all instruction sets are
+// bit-identical to plain loops.
 
 /// Largest number of floats that a kernel may write beyond the end of a row.
 inline constexpr std::size_t kRowSlack = 16;

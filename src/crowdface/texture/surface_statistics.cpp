@@ -39,9 +39,9 @@ Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   return numbers;
 }
 
-/// Calls `put(vertex, sample)` for every step-th texel of every step-th row, with the nearest
-/// vertex of the covering triangle. Vertices without a sample then get one texel of an adjacent
-/// triangle, if there is one.
+/// Calls `put(vertex, sample)` for every step-th covered texel of every step-th row, with the
+/// nearest vertex of the covering triangle. Then samples, for each vertex without a sample, one
+/// texel of an adjacent triangle, if there is one.
 template <class Put>
 void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_t vertex_count,
                      const Put& put) {
@@ -96,7 +96,8 @@ void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_
 CompressedRows<Sample> sample_surface(const std::vector<SurfaceTexels>& texels,
                                       std::size_t vertices) {
   double covered = 0;
-  for (const SurfaceTexels& picture : texels) covered += static_cast<double>(picture.covered());
+  for (const SurfaceTexels& picture : texels)
+    covered += static_cast<double>(picture.covered_count());
   const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(covered / kMaxSamples))));
   return compressed_rows<Sample>(
       vertices, [&](const auto& put) { for_each_sample(texels, step, vertices, put); });
@@ -188,8 +189,8 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
         }
         const auto& [x, y, z, has] = detail;
         for (std::size_t a = 0; a < heads; ++a) {
-          float* const sum = sums.data() + statistics.pair(a, 0);
-          float* const count = counts.data() + statistics.pair(a, 0);
+          float* const sum = sums.data() + statistics.pair_index(a, 0);
+          float* const count = counts.data() + statistics.pair_index(a, 0);
           for (std::size_t b = 0; b <= a; ++b) {
             sum[b] += x[a] * x[b] + y[a] * y[b] + z[a] * z[b];
             count[b] += has[a] * has[b];

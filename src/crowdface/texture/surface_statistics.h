@@ -19,19 +19,18 @@ struct SurfaceStatistics {
   /// The covariance of the details of heads a and b around a vertex, summed over the channels: the
   /// mean product of both heads' differences between map and `coarse_values`.
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {
-    return covariances[vertex * pairs + pair(a, b)];
+    return covariances[vertex * pairs + pair_index(a, b)];
   }
-  /// Index of an unordered pair of heads in `pairs`, which is the packed lower triangle of a
-  /// symmetric matrix.
-  std::size_t pair(std::size_t a, std::size_t b) const {
-    return a < b ? pair(b, a) : a * (a + 1) / 2 + b;
+  /// Index of an unordered pair of heads among all pairs: a packed lower triangular matrix.
+  std::size_t pair_index(std::size_t a, std::size_t b) const {
+    return a < b ? pair_index(b, a) : a * (a + 1) / 2 + b;
   }
 
   std::size_t pairs = 0;           ///< number of pairs of heads, each with itself included
   std::vector<float> covariances;  ///< #V by #pairs
 };
 
-/// Smoothing scales of the statistics, in iterations of the lazy operator.
+/// Smoothing scales of the statistics, in iterations of the filter's lazy operator.
 struct StatisticsScale {
   /// Iterations that remove detail from `coarse_values`.
   std::uint64_t detail_iterations = 4;

@@ -18,12 +18,12 @@ struct TextureLayout {
   };
   std::vector<Picture> pictures;
   std::vector<std::uint32_t> of_face;  ///< #F: index of the picture, or kNoIndex
-  /// #F: lower corner (u, v) of the unit square that contains the polygon.
+  /// #F: lower corner (u, v) of the unit square of texture space that contains the polygon.
   std::vector<std::array<std::int32_t, 2>> tile;
 };
 
 /// The mesh rasterized into one texture image: for each texel, the triangle that covers the texel's
-/// centre. Where several triangles overlap, the first one is used.
+/// centre. If several triangles overlap, the first triangle covers the texel.
 class SurfaceTexels {
  public:
   /// A triangle of a polygon's fan. At the centre of texel (x, y), the barycentric coordinate of
@@ -60,7 +60,7 @@ class SurfaceTexels {
   }
   const std::vector<Gutter>& gutter() const { return gutter_; }
   /// Number of covered texels.
-  std::size_t covered() const { return covered_; }
+  std::size_t covered_count() const { return covered_; }
   std::size_t memory_bytes() const;
 
  private:

@@ -48,9 +48,8 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
   return mean_of(target, mean);
 }
 
-/// Removes heads without a map: takes the first of `choices` in which a head with a map has weight,
-/// and normalizes its weights over the heads with a map. If no choice gives weight to a head with a
-/// map, all heads with a map get equal weights.
+/// Normalizes weights over the heads that have a map. Uses the first of `choices` that gives weight
+/// to such a head; if there is none, gives all heads with a map equal weights.
 HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> choices,
                                     const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
@@ -126,7 +125,7 @@ MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& ma
   }
   if (!common) return {};
   if (common->content == MapContent::kValues) {
-    common = MapCoding::values(common->channels, common->low, high);
+    common = MapCoding::value_coding(common->channels, common->low, high);
   }
   return *common;
 }
@@ -205,8 +204,8 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
   PictureFields fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
-    // Keep the head only if it has weight at some vertex.
-    double most = options_.target_only.empty() ? 0.0 : weights.of_target[h];
+    // Keep the head only if it has a positive weight at one vertex or more.
+    double most = options_.is_target_only.empty() ? 0.0 : weights.of_target[h];
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
     if (most > 0) fields.heads.push_back(h);
   }
@@ -218,7 +217,7 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
         std::vector<double> lent(fields.heads.size());
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
           const std::size_t vertex = vertices[i];
-          const bool is_part = !options_.target_only.empty() && options_.target_only[vertex];
+          const bool is_part = !options_.is_target_only.empty() && options_.is_target_only[vertex];
           for (std::size_t s = 0; s < lent.size(); ++s) {
             const std::size_t head = fields.heads[s];
             lent[s] = is_part ? weights.of_target[head] : 0.0;

@@ -17,8 +17,8 @@ struct TextureBlending {
   StatisticsScale scale;
   /// #V: weight of each vertex in means over the face; not all zero.
   std::vector<double> areas;
-  /// #V, or empty: vertices whose colours come from the target alone (eyes, teeth).
-  std::vector<bool> target_only;
+  /// #V, or empty: whether the vertex has the colours of the target alone (eyes, teeth).
+  std::vector<bool> is_target_only;
 };
 
 /// Blends a texture for each face from the textures of the heads (docs/textures.md). Let D_h be the

@@ -47,7 +47,7 @@ void add_row(const TexelRow& row, float weight, TexelRow& sum) {
 
 }  // namespace
 
-Density MapCoding::stored(float number) const {
+Density MapCoding::encode(float number) const {
   return static_cast<Density>(std::clamp(std::floor((number - low) / step + 0.5F), 0.0F, 65535.0F));
 }
 
@@ -70,7 +70,7 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
   const auto write = [&](int x, int y, const Eigen::Array3f& numbers) {
     for (int c = 0; c < coding.channels; ++c) {
       map.row(c, y)[x] = coding.content == MapContent::kColours ? density_of_light(numbers[c])
-                                                                : coding.stored(numbers[c]);
+                                                                : coding.encode(numbers[c]);
     }
   };
   parallel_blocks(height, kRowsPerBlock, [&](int begin, int end) {
@@ -114,7 +114,7 @@ std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
 void move_to_disk(TextureMap& map, const std::filesystem::path& folder) {
   const std::string_view bytes(reinterpret_cast<const char*>(map.planes.data()),
                                map.planes.size() * sizeof(Density));
-  map.scratch = std::make_shared<const MappedFile>(MappedFile::of_scratch(bytes, folder));
+  map.disk_file = std::make_shared<const MappedFile>(MappedFile::of_scratch(bytes, folder));
   map.planes = std::vector<Density>();  // frees the memory, unlike assigning {}
 }
 

@@ -18,7 +18,7 @@
 
 namespace crowdface {
 
-/// The meaning of a map's values.
+/// What the values of a texture map mean.
 enum class MapContent {
   kColours,  ///< optical densities of red, green and blue
   kSlopes,   ///< slopes x/z and y/z of a tangent-space normal
@@ -35,26 +35,26 @@ struct MapCoding {
   /// Decodes a stored value.
   float decode(Density stored) const { return low + step * static_cast<float>(stored); }
   /// Encodes a number: the nearest stored value, clamped to 0 … 65,535.
-  Density stored(float number) const;
+  Density encode(float number) const;
 
   /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
   /// representable.
-  static MapCoding slopes() { return {MapContent::kSlopes, 2, -8, 16.0F / 65534}; }
+  static MapCoding slope_coding() { return {MapContent::kSlopes, 2, -8, 16.0F / 65534}; }
   /// A coding of plain numbers. \param channels  1 or 3. \param low, high  range of all numbers; if
   ///     they are equal, every stored value encodes this number.
-  static MapCoding values(int channels, float low = 0, float high = 1) {
+  static MapCoding value_coding(int channels, float low = 0, float high = 1) {
     constexpr float kSmallestStep = std::numeric_limits<float>::min();
     return {MapContent::kValues, channels, low, std::max((high - low) / 65535, kSmallestStep)};
   }
 };
 
-/// The map of one head for one image of the texture layout.
+/// One head's texture map for one image of the texture layout, in 16-bit planes.
 struct TextureMap {
   int width = 0;
   int height = 0;
   std::vector<Density> planes;  ///< one plane per channel: height by width, first row at v = 1
   MapCoding coding = {};
-  std::shared_ptr<const MappedFile> scratch = {};  ///< holds the planes after move_to_disk
+  std::shared_ptr<const MappedFile> disk_file = {};  ///< holds the planes after move_to_disk
 
   float decode(Density stored) const { return coding.decode(stored); }
   std::size_t texels() const {
@@ -62,16 +62,18 @@ struct TextureMap {
   }
   /// The stored values of all channels, plane by plane, in memory or on disk.
   std::span<const Density> stored() const {
-    if (scratch == nullptr) return planes;
-    const std::string_view bytes = scratch->bytes();
+    if (disk_file == nullptr) return planes;
+    const std::string_view bytes = disk_file->bytes();
     return {reinterpret_cast<const Density*>(bytes.data()), bytes.size() / sizeof(Density)};
   }
-  const Density* row(int channel, int y) const { return stored().data() + first_of(channel, y); }
+  const Density* row(int channel, int y) const {
+    return stored().data() + plane_row_offset(channel, y);
+  }
   /// A writable row; only for maps in memory.
-  Density* row(int channel, int y) { return planes.data() + first_of(channel, y); }
+  Density* row(int channel, int y) { return planes.data() + plane_row_offset(channel, y); }
 
  private:
-  std::size_t first_of(int channel, int y) const {
+  std::size_t plane_row_offset(int channel, int y) const {
     return (static_cast<std::size_t>(channel) * static_cast<std::size_t>(height) +
             static_cast<std::size_t>(y)) *
            static_cast<std::size_t>(width);

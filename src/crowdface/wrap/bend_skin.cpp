@@ -45,7 +45,7 @@ double spread_of(const std::vector<Correspondence>& correspondences, double reac
   return outlier_distance(std::move(distances), reach);
 }
 
-/// Data that stays constant while one skin is bent onto one scan.
+/// Deforms one skin onto one scan; holds the data that stays constant in all rounds.
 class Bending {
  public:
   Bending(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
@@ -71,15 +71,16 @@ class Bending {
   }
 
   Positions run() {
-    const std::size_t rounds = options_.stiffness_mm.size();
+    const std::size_t rounds = options_.wavelengths_mm.size();
     for (std::size_t r = 0; r < rounds; ++r) {
       const double share =
           rounds > 1 ? static_cast<double>(r) / static_cast<double>(rounds - 1) : 1;
-      run_round(
-          options_.stiffness_mm[r], kReachFirstMm * std::pow(kReachLastMm / kReachFirstMm, share),
-          options_.landmarks_first + share * (options_.landmarks_last - options_.landmarks_first),
-          options_.tangential_first +
-              share * (options_.tangential_last - options_.tangential_first));
+      run_round(options_.wavelengths_mm[r],
+                kReachFirstMm * std::pow(kReachLastMm / kReachFirstMm, share),
+                options_.first_landmark_weight +
+                    share * (options_.last_landmark_weight - options_.first_landmark_weight),
+                options_.first_tangential_weight +
+                    share * (options_.last_tangential_weight - options_.first_tangential_weight));
     }
     return base_ + displacements_;
   }
@@ -106,7 +107,8 @@ class Bending {
     }
   }
 
-  /// Adds data terms that align the skin's boundary with the scan's boundary where they are close.
+  /// Adds data terms that align the skin's boundary with the scan's boundary, if they are closer
+  /// than `reach`.
   void add_rim_terms(const Positions& current, double reach, DataTerms& data_terms) const {
     if (!scan_end_grid_) return;
     for (const std::uint32_t v : skin_end_) {
@@ -157,7 +159,7 @@ class Bending {
           if (seen == 0) return;
           const Eigen::Vector3d point = row3(current, v);
           const auto place =
-              scan_.nearest(point, row3(normals, v), kMinCosine, reach, found_on_scan_[v]);
+              scan_.nearest(point, row3(normals, v), kMinNormalCosine, reach, found_on_scan_[v]);
           found_on_scan_[v] = place.triangle;
           if (place.found)
             correspondences[v] = {true, place.normal, place.point - point, areas_(v) * seen};
@@ -183,7 +185,7 @@ class Bending {
       const Eigen::Vector3d point = row3(scan_.scan().positions, s);
       const Eigen::Vector3d normal = row3(scan_.normals(), s);
       const SurfaceHit hit = hits[i] =
-          tree.nearest_facing(point, normal, kMinCosine, reach, hits[i].triangle);
+          tree.nearest_facing(point, normal, kMinNormalCosine, reach, hits[i].triangle);
       if (hit.triangle == kNoIndex || at_rim(hit)) return;
       correspondences[i] = {true, normal, point - hit.point, scan_weight_ * scan_areas_(s)};
     });

@@ -10,14 +10,14 @@
 namespace crowdface {
 
 struct BendOptions {
-  /// Stiffness of each round, given as a wavelength: the round suppresses variations of the
-  /// displacements with shorter wavelengths, independently of the mesh resolution.
-  std::vector<double> stiffness_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
+  /// Stiffness of each round, as a wavelength: the round suppresses displacement variations of
+  /// shorter wavelengths, independently of the mesh resolution.
+  std::vector<double> wavelengths_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
   /// Weight of offsets along the surface, relative to 1 for offsets along the normal, in the first
   /// and in the last round.
-  double tangential_first = 0.2, tangential_last = 0.8;
+  double first_tangential_weight = 0.2, last_tangential_weight = 0.8;
   /// Weight of the landmarks in the first and in the last round.
-  double landmarks_first = 1, landmarks_last = 0.3;
+  double first_landmark_weight = 1, last_landmark_weight = 0.3;
 };
 
 /// Deforms a skin onto a scan by non-rigid iterated closest points (Amberg et al. 2007), with a

@@ -24,7 +24,7 @@ CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks) {
   for (WrapLandmark& landmark : result.landmarks) {
     landmark.place = moved(Positions(landmark.place.transpose())).row(0).transpose();
   }
-  result.middle = middle.transpose();
+  result.box_centre = middle.transpose();
   return result;
 }
 

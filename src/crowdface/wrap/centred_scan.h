@@ -9,13 +9,13 @@
 namespace crowdface {
 
 /// A scan and its landmarks, translated so that the centre of the scan's bounding box is the
-/// origin, and rounded to about a millionth of the box. Wrapping makes discrete choices, such as
-/// the nearest triangle, that depend on the last digits of coordinates; their effects accumulate.
-/// Without centring and rounding, the result would depend on the scan's position.
+/// origin, and rounded to about a millionth of the box. Without centring and rounding, the result
+/// of a wrap would depend on the scan's position: discrete choices, such as the nearest triangle,
+/// depend on the last digits of coordinates, and their effects accumulate.
 struct CentredScan {
   Scan scan;
   std::vector<WrapLandmark> landmarks;
-  Eigen::Vector3d middle;  ///< centre of the bounding box in the scan file
+  Eigen::Vector3d box_centre;  ///< centre of the bounding box in the scan file
 };
 CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks);
 

@@ -18,7 +18,7 @@ namespace crowdface {
 namespace {
 
 constexpr double kReachMm = 3;
-/// Smallest relief that is kept, in edge lengths of the skin; finer relief is treated as noise.
+/// Smoothing scale in edge lengths of the skin: finer relief is treated as noise.
 constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
 constexpr double kMinNormalCosine = 0.7;  // least cosine between the normals of scan and skin
@@ -116,9 +116,8 @@ TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const P
   return asked;
 }
 
-/// Whether the offsets flip a triangle relative to its orientation before the offsets, or relative
-/// to the template. A triangle that was flipped relative to the template before the offsets is
-/// compared only with its orientation before the offsets.
+/// Whether the offsets flip a triangle relative to its orientation before the offsets or, unless it
+/// was already flipped there, relative to the template.
 bool flips(const Positions& rest, const Positions& before, const Positions& normals,
            const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
@@ -132,7 +131,7 @@ bool flips(const Positions& rest, const Positions& before, const Positions& norm
   return of_rest.dot(is) <= least * is.norm() && of_rest.dot(was) > least * was.norm();
 }
 
-/// Triangles that the offsets flip, among the triangles with a changed vertex.
+/// The triangles that the offsets flip; checks only triangles with a changed vertex.
 std::vector<std::uint32_t> flipped_triangles(const SkinMesh& skin, const Positions& rest,
                                              const Positions& before, const Positions& normals,
                                              const Eigen::VectorXd& along,
@@ -162,15 +161,15 @@ void reduce_offsets(const Positions& rest, const Positions& before, const Positi
           [&](const GrowingPatch& patch) {
             const auto rows = patch.vertices();
             asked = along(rows);
-            for (std::size_t i = 0; i < rows.size(); ++i) along(rows[i]) *= 1 - patch.share(i);
+            for (std::size_t i = 0; i < rows.size(); ++i) along(rows[i]) *= 1 - patch.weight(i);
           },
       .undo = [&](const GrowingPatch& patch) { along(patch.vertices()) = asked; }};
   mender.mend(turned, is_bad, change);
 }
 
 /// Removes folds that arise if the closest points of neighbouring vertices lie on different layers
-/// of the scan. At these vertices and in a neighbourhood that grows as needed, the mean of the
-/// neighbours replaces each offset.
+/// of the scan: replaces the offsets there by the mean of their neighbours, in a neighbourhood that
+/// grows as needed.
 /// \param mender  repairs the skin; created on first use.
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
                     const Positions& normals, std::optional<PatchMender>& mender,
@@ -192,8 +191,8 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
       }
     }
     std::ranges::sort(evened);
-    // In a crease, the normals cross, so that even equal offsets produce folds; therefore shrink
-    // the offsets a little in each sweep.
+    // Shrink the offsets a little in each sweep: in a crease the normals cross, so that even equal
+    // offsets produce folds.
     const double kept = round < kEvenOnly ? 1 : kKeptOffset;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {
@@ -217,13 +216,13 @@ void move_along(const Positions& normals, const Eigen::VectorXd& along, Position
 }  // namespace
 
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
-                        const ScanSurface& scan, int smoothings) {
+                        const ScanSurface& scan, int smoothing_steps) {
   std::optional<PatchMender> mender;
   Positions result = positions;
   Positions normals = vertex_normals_or_zero(skin.triangles, result);
-  if (smoothings > 0) {
+  if (smoothing_steps > 0) {
     const SmoothingOperator lazy(skin.adjacency, Boundary::kFree, OperatorKind::kLazy);
-    const auto times = static_cast<std::uint64_t>(smoothings);
+    const auto times = static_cast<std::uint64_t>(smoothing_steps);
     normals = iterate(lazy, normals, times);
     for (Index v = 0; v < normals.rows(); ++v)
       normals.row(v) = row3(normals, v).normalized().transpose();
@@ -239,7 +238,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
   // times the Laplacian.
   const SmoothFit fit(skin.adjacency, 16 * std::pow(kStiffnessEdges, 4));
   for (int round = 0; round < kDetailRounds; ++round) {
-    if (smoothings == 0) normals = vertex_normals_or_zero(skin.triangles, result);
+    if (smoothing_steps == 0) normals = vertex_normals_or_zero(skin.triangles, result);
     const TargetOffsets asked = ask_scan(skin, result, normals, scan);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
     even_out_folds(skin, rest, result, normals, mender, along);

@@ -6,15 +6,15 @@
 
 namespace crowdface {
 
-/// Moves a skin that is close to the scan onto the scan. Each vertex moves only along its normal,
-/// so that the correspondence does not slide along the surface. The result keeps relief down to
-/// about twice the skin's edge length.
+/// Moves a skin that is already close to the scan exactly onto the scan. Each vertex moves only
+/// along its normal, so that the correspondence does not slide along the surface. The result keeps
+/// relief down to about twice the skin's edge length.
 /// \param rest  #skin by 3, of the template; no triangle becomes flipped relative to `rest`.
 /// \param positions  #skin by 3, in millimetres, in the scan's frame.
-/// \param smoothings  0, or, if the bending step used a much coarser skin: number of smoothing
-///                    steps of normals and offsets in a preliminary round. The preliminary round
-///                    corrects coarse errors, without crossing normals in creases.
+/// \param smoothing_steps  If the bending step used a much coarser skin: number of smoothing steps
+///                    of normals and offsets in a preliminary round, which corrects coarse errors.
+///                    0: no such round.
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
-                        const ScanSurface& scan, int smoothings);
+                        const ScanSurface& scan, int smoothing_steps);
 
 }  // namespace crowdface

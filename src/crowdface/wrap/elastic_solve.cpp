@@ -116,12 +116,12 @@ SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd
   return laplacian.transpose() * weights.asDiagonal() * laplacian;
 }
 
-void DataTerms::add(std::uint32_t vertex, const Eigen::Vector3d& normal, double along, double all,
-                    const Eigen::Vector3d& offset) {
-  Eigen::Matrix3d weight = along * normal * normal.transpose();
-  weight.diagonal().array() += all;
+void DataTerms::add(std::uint32_t vertex, const Eigen::Vector3d& normal, double normal_weight,
+                    double isotropic_weight, const Eigen::Vector3d& offset) {
+  Eigen::Matrix3d weight = normal_weight * normal * normal.transpose();
+  weight.diagonal().array() += isotropic_weight;
   matrices[vertex] += weight;
-  right.row(vertex) += (weight * offset).transpose();
+  right_hand_side.row(vertex) += (weight * offset).transpose();
 }
 
 struct ElasticSolver::State {
@@ -149,14 +149,15 @@ ElasticSolver::~ElasticSolver() = default;
 
 void ElasticSolver::solve(const DataTerms& data_terms, const Limits& limits,
                           Positions& displacements) const {
-  Positions residual = data_terms.right;
+  Positions residual = data_terms.right_hand_side;
   add_scaled(residual, -1, state_->times(data_terms, displacements));
   Positions preconditioned = state_->factors.solve(residual);
   Positions direction = preconditioned;
   double rho = product(residual, preconditioned);
-  const double enough = limits.tolerance * limits.tolerance *
-                        product(data_terms.right, state_->factors.solve(data_terms.right));
-  for (int k = 0; k < limits.steps && rho > enough; ++k) {
+  const double enough =
+      limits.tolerance * limits.tolerance *
+      product(data_terms.right_hand_side, state_->factors.solve(data_terms.right_hand_side));
+  for (int k = 0; k < limits.max_steps && rho > enough; ++k) {
     throw_if_interrupted();
     const Positions image = state_->times(data_terms, direction);
     const double curvature = product(direction, image);

@@ -18,8 +18,7 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
 
 /// The cotangent Laplacian (Pinkall & Polthier 1993), #V by #V, not divided by areas. Weights of
 /// obtuse triangles are clamped to a small positive value, so that the discrete maximum principle
-/// holds. The rows of boundary vertices follow the same rule, so that a boundary can move but not
-/// bend.
+/// holds. Boundary vertices get rows of the same form, so that a boundary can move but not bend.
 SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& positions);
 
 /// The bending energy ∫ s |Δd|² of a displacement field d as dᵀ B d; B is #V by #V, symmetric.
@@ -32,14 +31,15 @@ SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd
 /// vertex.
 struct DataTerms {
   std::vector<Eigen::Matrix3d> matrices;  ///< #V: W, symmetric, positive semidefinite
-  Positions right;                        ///< #V by 3: W · offset
+  Positions right_hand_side;              ///< #V by 3: W · offset
 
   explicit DataTerms(Index vertices)
       : matrices(static_cast<std::size_t>(vertices), Eigen::Matrix3d::Zero()),
-        right(Positions::Zero(vertices, 3)) {}
-  /// Adds along · (n · (d − offset))² + all · |d − offset|².
-  void add(std::uint32_t vertex, const Eigen::Vector3d& normal, double along, double all,
-           const Eigen::Vector3d& offset);
+        right_hand_side(Positions::Zero(vertices, 3)) {}
+  /// Adds normal_weight · (n · (d − offset))² + isotropic_weight · |d − offset|² for the
+  /// displacement d.
+  void add(std::uint32_t vertex, const Eigen::Vector3d& normal, double normal_weight,
+           double isotropic_weight, const Eigen::Vector3d& offset);
 };
 
 /// Finds displacements d that minimise the data terms plus Σ over coordinates of dᵀ B d. Uses
@@ -49,12 +49,12 @@ struct DataTerms {
 class ElasticSolver {
  public:
   /// \param stiffness  #V by #V, symmetric, positive semidefinite
-  /// \param typical  #V positive weights, of the order of magnitude of the data terms
-  ElasticSolver(const SparseMatrix& stiffness, const Eigen::VectorXd& typical);
+  /// \param typical_weights  #V positive weights, of the order of magnitude of the data terms
+  ElasticSolver(const SparseMatrix& stiffness, const Eigen::VectorXd& typical_weights);
   ~ElasticSolver();
 
   struct Limits {
-    int steps = 60;
+    int max_steps = 60;
     double tolerance = 1e-3;  ///< residual relative to the right-hand side
   };
   /// Starts from `displacements`, #V by 3, and replaces them by an improved solution. The result is

@@ -100,7 +100,7 @@ std::vector<FaceFeature> face_features(const WrapTemplate& shape,
     if (places.size() < outline.landmarks.size()) continue;
     FaceFeature feature{std::string(outline.name), {}};
     for (std::uint32_t v = 0; v < shape.skin.vertices.size(); ++v) {
-      if (shape.skin.openness[v] <= kSeen) continue;
+      if (shape.skin.openness[v] <= kVisibleOpenness) continue;
       const Eigen::Vector3d p = row3(shape.positions, shape.skin.vertices[v]);
       if (distance_to_outline(p, places) < outline.reach_mm) feature.skin.push_back(v);
     }

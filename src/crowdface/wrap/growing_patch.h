@@ -20,9 +20,9 @@ class GrowingPatch {
   /// Adds the next ring of vertices.
   void grow();
   std::span<const std::uint32_t> vertices() const { return vertices_; }
-  /// Weight of vertex `i` of the patch: 1 at the triangle, 0 beyond the last ring. A larger
-  /// steepness makes the weight fall off faster at the patch's border.
-  double share(std::size_t i) const {
+  /// Weight of vertex `i` of the patch: 1 at the triangle, falling to 0 beyond the last ring; with
+  /// a larger steepness, mainly near the border.
+  double weight(std::size_t i) const {
     return std::min(1.0, steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
   }
   void set_steepness(double steepness) { steepness_ = steepness; }
@@ -36,7 +36,7 @@ class GrowingPatch {
   double steepness_ = 1;
 };
 
-/// An operation on a patch, and its inverse.
+/// An operation on a patch, and the operation that undoes it.
 struct PatchChange {
   std::function<void(const GrowingPatch&)> make, undo;
 };
@@ -48,8 +48,8 @@ class PatchMender {
   /// in `rest`.
   PatchMender(const SkinMesh& skin, const Positions& rest);
 
-  /// For each bad triangle, applies the operation to the smallest patch for which the operation
-  /// reduces the number of bad triangles. Leaves the triangle unchanged if there is no such patch.
+  /// For each bad triangle, applies the operation to the smallest patch around it in which this
+  /// reduces the number of bad triangles. If no patch does, the triangle stays unchanged.
   void mend(std::span<const std::uint32_t> triangles,
             const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// A matrix whose columns are the directions of side, up and front.
+/// A matrix whose columns are the side, up and front directions of a head.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
   Eigen::Matrix3d frame;
   frame << up.cross(front), up, front;
@@ -41,7 +41,7 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& a
   const ShapeFitOptions options{.reach_mm = {40, 30, 20, 12}, .steps = 4};
   ShapeFit best;
   best.residual = 1e300;
-  // Take the scale from the widths of the heads, because scans show different parts of the height.
+  // Take the scale from the ratio of the heads' widths, because scans end at different heights.
   // Align the tops of the heads and the foremost points of the faces.
   for (const double wider : {1.0, 0.85, 1.15}) {
     for (const double lower : kLower) {
@@ -73,12 +73,13 @@ Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxe
       .pose;
 }
 
-Similarity pose_of_faces(const ReliefMatch& of_template, const ReliefMatch& of_scan) {
+Similarity pose_of_faces(const ReliefMatch& template_face, const ReliefMatch& scan_face) {
   Similarity pose;
-  pose.scale = of_scan.scale / of_template.scale;
-  pose.rotation = frame_of(of_scan.axes.up, of_scan.axes.front) *
-                  frame_of(of_template.axes.up, of_template.axes.front).transpose();
-  pose.translation = of_scan.between_eyes - pose.scale * (pose.rotation * of_template.between_eyes);
+  pose.scale = scan_face.scale / template_face.scale;
+  pose.rotation = frame_of(scan_face.axes.up, scan_face.axes.front) *
+                  frame_of(template_face.axes.up, template_face.axes.front).transpose();
+  pose.translation =
+      scan_face.between_eyes - pose.scale * (pose.rotation * template_face.between_eyes);
   return pose;
 }
 

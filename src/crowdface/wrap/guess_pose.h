@@ -16,10 +16,10 @@ struct PoseHint {
   std::optional<ReliefMatch> face = {};  ///< face of the scan, if already known
 };
 
-/// Estimates the similarity from a template to a scan without landmarks. If both have the relief of
-/// a face, the function aligns the faces and refines with closest points. Otherwise it aligns the
-/// tops of the heads with several scales and offsets, refines each pose with closest points, and
-/// returns the pose with the smallest distances.
+/// Estimates the similarity from a template to a scan without landmarks. If both faces are found by
+/// their relief, the function aligns the faces and refines the pose with closest points. Otherwise
+/// it aligns the tops of the heads with several scales and offsets, refines each pose with closest
+/// points, and returns the pose with the smallest distances.
 /// \param rest  positions of the skin, in millimetres
 /// \param hint  may contain the face of the scan
 /// \param face  face of the template's skin, found by its relief
@@ -28,6 +28,6 @@ Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxe
                       const std::optional<ReliefMatch>& face);
 
 /// The similarity that aligns the face found on a template with the face found on a scan.
-Similarity pose_of_faces(const ReliefMatch& of_template, const ReliefMatch& of_scan);
+Similarity pose_of_faces(const ReliefMatch& template_face, const ReliefMatch& scan_face);
 
 }  // namespace crowdface

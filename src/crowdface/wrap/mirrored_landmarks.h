@@ -9,8 +9,8 @@ namespace crowdface {
 
 /// Rejects mirrored landmarks.
 /// \throws InvalidInput if the landmarks fit several times better after a reflection, because the
-///     scan is mirrored or because left and right names are exchanged; the message names the better
-///     explanation. Fewer than five landmarks cannot show a reflection and pass.
+///     scan is mirrored or because left and right names are exchanged; the message names the more
+///     likely cause. Fewer than five landmarks cannot show a reflection and are accepted.
 /// \param positions  in millimetres; the landmarks' vertices are rows of this matrix.
 void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks);

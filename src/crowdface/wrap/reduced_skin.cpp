@@ -15,10 +15,9 @@ namespace crowdface {
 
 namespace {
 
-/// Finds the position of each vertex of the original skin on the reduced skin: on a triangle around
-/// the reduced vertex that is nearest along the surface, or around one of its neighbours. Distances
-/// in space would fail, because lips touch and nostrils have thin walls: the nearest point may be
-/// on the other side.
+/// Finds the position of each vertex of the original skin on the reduced skin. Searches the
+/// triangles around the reduced vertex that is nearest along the surface, and around its
+/// neighbours. The nearest point in space may be wrong: lips touch, and nostrils have thin walls.
 std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
                                                        const Positions& positions,
                                                        const SkinMesh& small) {
@@ -27,7 +26,7 @@ std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
   const std::vector<std::uint32_t> source =
       nearest_along_edges(skin.adjacency, positions, small.vertices);
   const SurfaceTree tree(corners, small.triangles);
-  std::vector<ReducedSkin::BarycentricPoint> places(skin.vertices.size());
+  std::vector<ReducedSkin::BarycentricPoint> vertex_positions(skin.vertices.size());
   parallel_for_each(positions.rows(), 1024, [&](Index v) {
     const Eigen::Vector3d point = row3(positions, v);
     SurfaceHit best;
@@ -44,32 +43,34 @@ std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
       for (const std::uint32_t n : small.adjacency.of(from)) look_around(n);
     }
     if (best.triangle == kNoIndex) best = tree.nearest(point, 1e300);
-    auto& place = places[static_cast<std::size_t>(v)];
+    auto& place = vertex_positions[static_cast<std::size_t>(v)];
     place.triangle = best.triangle;
     for (std::size_t k = 0; k < 3; ++k) place.shares[k] = static_cast<float>(best.shares[k]);
   });
-  return places;
+  return vertex_positions;
 }
 
 }  // namespace
 
-Positions ReducedSkin::carry(const Positions& values, const SkinMesh& large) const {
-  Columns carried(static_cast<Index>(places.size()), 3);
-  for (std::size_t v = 0; v < places.size(); ++v) {
-    const Triangle& corners = mesh.triangles[places[v].triangle];
+Positions ReducedSkin::interpolate(const Positions& values, const SkinMesh& large) const {
+  Columns carried(static_cast<Index>(vertex_positions.size()), 3);
+  for (std::size_t v = 0; v < vertex_positions.size(); ++v) {
+    const Triangle& corners = mesh.triangles[vertex_positions[v].triangle];
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) sum += places[v].shares[k] * values.row(corners[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += vertex_positions[v].shares[k] * values.row(corners[k]);
     carried.row(static_cast<Index>(v)) = sum;
   }
   const SmoothingOperator lazy(large.adjacency, Boundary::kFree, OperatorKind::kLazy);
-  return iterate(lazy, carried, static_cast<std::uint64_t>(smoothings));
+  return iterate(lazy, carried, static_cast<std::uint64_t>(smoothing_steps));
 }
 
-std::vector<double> ReducedSkin::carry(const std::vector<double>& values) const {
-  std::vector<double> carried(places.size(), 0.0);
-  for (std::size_t v = 0; v < places.size(); ++v) {
-    const Triangle& corners = mesh.triangles[places[v].triangle];
-    for (std::size_t k = 0; k < 3; ++k) carried[v] += places[v].shares[k] * values[corners[k]];
+std::vector<double> ReducedSkin::interpolate(const std::vector<double>& values) const {
+  std::vector<double> carried(vertex_positions.size(), 0.0);
+  for (std::size_t v = 0; v < vertex_positions.size(); ++v) {
+    const Triangle& corners = mesh.triangles[vertex_positions[v].triangle];
+    for (std::size_t k = 0; k < 3; ++k)
+      carried[v] += vertex_positions[v].shares[k] * values[corners[k]];
   }
   return carried;
 }
@@ -81,12 +82,12 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::s
   reduced.mesh.triangles = small.triangles;
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
-  reduced.places = find_places(skin, positions, reduced.mesh);
-  // One smoothing step acts over half an edge of the original skin, and the interpolated values
-  // have creases at the edges of the reduced skin.
+  reduced.vertex_positions = find_places(skin, positions, reduced.mesh);
+  // Choose the number of smoothing steps: one step acts over half an edge of the original skin, and
+  // must smooth creases at the longer edges of the reduced skin.
   const auto ratio = static_cast<double>(skin.vertices.size()) /
                      static_cast<double>(std::max<std::size_t>(1, small.vertices.size()));
-  reduced.smoothings = static_cast<int>(std::clamp(ratio, 2.0, 120.0));
+  reduced.smoothing_steps = static_cast<int>(std::clamp(ratio, 2.0, 120.0));
   return reduced;
 }
 

@@ -17,15 +17,15 @@ struct ReducedSkin {
     std::uint32_t triangle;
     std::array<float, 3> shares;
   };
-  std::vector<BarycentricPoint> places;  ///< #vertices of the original skin
-  int smoothings = 0;                    ///< number of smoothing steps after interpolation
+  std::vector<BarycentricPoint> vertex_positions;  ///< #vertices of the original skin
+  int smoothing_steps = 0;  ///< number of smoothing steps after interpolation
 
   /// Interpolates values at the reduced skin's vertices (one row of three each) to the vertices of
   /// the original skin, and smooths them so that the edges of the reduced skin do not become
   /// visible.
-  Positions carry(const Positions& values, const SkinMesh& large) const;
+  Positions interpolate(const Positions& values, const SkinMesh& original) const;
   /// Interpolates one value per vertex, without smoothing.
-  std::vector<double> carry(const std::vector<double>& values) const;
+  std::vector<double> interpolate(const std::vector<double>& values) const;
 };
 
 /// Reduces a skin to a subset of about `vertices` of its vertices.

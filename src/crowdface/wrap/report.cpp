@@ -22,7 +22,7 @@
 namespace crowdface {
 namespace {
 
-// largest median distance of landmarks after the similarity
+// largest median distance between corresponding landmarks after the best similarity fit
 constexpr double kMaxMedianMm = 15;
 constexpr double kMaxDistanceMm = 3;  // 95th percentile over the visible skin
 constexpr double kMaxFarShare = 0.02, kMaxWithoutData = 0.15, kMinWithData = 0.02;
@@ -35,7 +35,7 @@ double percentile(std::vector<double> values, double share) {
 }
 
 bool seen(const WrapTemplate& shape, Index v) {
-  return shape.skin.openness[static_cast<std::size_t>(v)] > kSeen;
+  return shape.skin.openness[static_cast<std::size_t>(v)] > kVisibleOpenness;
 }
 
 /// Distances to the scan of the visible vertices that have scan data.
@@ -44,7 +44,8 @@ std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& 
                                    const SkinRegions* regions = nullptr, std::size_t region = 0) {
   std::vector<double> distances;
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
-    if (regions != nullptr && regions->of_vertex[static_cast<std::size_t>(v)] != region) continue;
+    if (regions != nullptr && regions->region_of_vertex[static_cast<std::size_t>(v)] != region)
+      continue;
     if (seen(shape, v) && !result.lacks_data[static_cast<std::size_t>(v)]) {
       distances.push_back(result.distance_mm(v));
     }
@@ -120,7 +121,7 @@ std::optional<VertexColours> doubt_colours(const WrapTemplate& shape, const Wrap
 
 }  // namespace
 
-WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result) {
+WrapDistances measure_distances(const WrapTemplate& shape, const WrapResult& result) {
   const std::vector<double> distances = seen_distances(shape, result);
   return {percentile(distances, 0.5), percentile(distances, 0.95)};
 }
@@ -148,21 +149,22 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult
                               "there"));
   }
   for (const LandmarkResidual& landmark : result.landmarks) {
-    if (!landmark.outlier) continue;
-    if (landmark.by_shape) {
+    if (!landmark.is_outlier) continue;
+    if (landmark.is_found_by_shape) {
       warnings.push_back(concat("landmark ", quoted(landmark.name),
                                 ", detected from the shape, ends ",
-                                format_fixed(landmark.final_mm, 1),
+                                format_fixed(landmark.final_distance_mm, 1),
                                 " mm from its detected place, far more than the others: if the "
                                 "picture is wrong, pick it"));
       continue;
     }
     warnings.push_back(concat(
-        "landmark ", quoted(landmark.name), " ends ", format_fixed(landmark.final_mm, 1),
+        "landmark ", quoted(landmark.name), " ends ", format_fixed(landmark.final_distance_mm, 1),
         " mm from where it was picked, far more than the others: check it on template and scan"));
   }
-  const auto picked = std::ranges::count(result.landmarks, false, &LandmarkResidual::by_shape);
-  if (!result.face_off_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
+  const auto picked =
+      std::ranges::count(result.landmarks, false, &LandmarkResidual::is_found_by_shape);
+  if (!result.face_distance_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     warnings.push_back(concat(
         "no face was recognised on the ",
         shape.face ? "scan"
@@ -190,8 +192,8 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
     warnings.push_back(concat("the scan has no data for ", format_fixed(100 * lacking, 0),
                               " % of the skin, whose shape is estimated"));
   }
-  if (result.flipped > 0) {
-    warnings.push_back(concat(result.flipped, " triangles are flipped"));
+  if (result.folded_triangle_count > 0) {
+    warnings.push_back(concat(result.folded_triangle_count, " triangles are flipped"));
   }
   if (model_heads > 0 && model_heads < kFewHeads) {
     warnings.push_back(concat("a model of ", model_heads,
@@ -209,14 +211,15 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
         "--scan-front, correct?");
   }
   std::vector<double> residuals;
-  for (const LandmarkResidual& landmark : result.landmarks) residuals.push_back(landmark.pose_mm);
+  for (const LandmarkResidual& landmark : result.landmarks)
+    residuals.push_back(landmark.pose_distance_mm);
   if (const double median = percentile(residuals, 0.5); !(median <= kMaxMedianMm)) {
     throw InvalidInput(
         concat("landmarks of template and scan do not match: half of them stay more than ",
                format_fixed(median, 1), " mm apart, expected less than ", kMaxMedianMm,
                "; are left and right swapped, or vertices counted from 1?"));
   }
-  if (const double far = distances_of(shape, result).percentile_95; !(far <= kMaxDistanceMm)) {
+  if (const double far = measure_distances(shape, result).percentile_95; !(far <= kMaxDistanceMm)) {
     throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
                               " mm off the scan, expected less than ", kMaxDistanceMm,
                               farthest_region(shape, result, regions),
@@ -224,8 +227,9 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                                                        : ": check the landmarks, pick more of them",
                               ", or exclude with --ignore what is not skin on the scan"));
   }
-  if (result.face_off_mm && *result.face_off_mm > kMaxFaceOffMm) {
-    throw InvalidInput(concat("the template's face ended ", format_fixed(*result.face_off_mm, 0),
+  if (result.face_distance_mm && *result.face_distance_mm > kMaxFaceOffMm) {
+    throw InvalidInput(concat("the template's face ended ",
+                              format_fixed(*result.face_distance_mm, 0),
                               " mm from the face of the scan: pick four landmarks or more "
                               "(crowdface wrap --pick), or check --scan-up and --scan-front"));
   }
@@ -251,25 +255,25 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
   }
   report["without_data"] = rounded(share_without_data(shape, result));
   if (facts.filled_share) report["textures_filled"] = rounded(*facts.filled_share);
-  report["flipped_triangles"] = result.flipped;
+  report["flipped_triangles"] = result.folded_triangle_count;
   report["landmarks"] = nlohmann::ordered_json::array();
   for (const LandmarkResidual& landmark : result.landmarks) {
     report["landmarks"].push_back({{"name", landmark.name},
-                                   {"pose_mm", rounded(landmark.pose_mm)},
-                                   {"final_mm", rounded(landmark.final_mm)},
-                                   {"outlier", landmark.outlier}});
-    if (landmark.by_shape) {
+                                   {"pose_mm", rounded(landmark.pose_distance_mm)},
+                                   {"final_mm", rounded(landmark.final_distance_mm)},
+                                   {"outlier", landmark.is_outlier}});
+    if (landmark.is_found_by_shape) {
       report["landmarks"].back()["detected_within_mm"] = rounded(landmark.error_mm);
     }
-    for (const auto& [key, all] :
-         {std::pair{"left_out_mm", &facts.left_out_mm}, std::pair{"unseen_mm", &facts.unseen_mm}}) {
+    for (const auto& [key, all] : {std::pair{"left_out_mm", &facts.leave_out_pose_mm},
+                                   std::pair{"unseen_mm", &facts.leave_out_wrap_mm}}) {
       const auto found = all->find(landmark.name);
       if (found != all->end()) report["landmarks"].back()[key] = rounded(found->second);
     }
   }
-  if (!facts.unseen_mm.empty()) {
+  if (!facts.leave_out_wrap_mm.empty()) {
     std::vector<double> all;
-    for (const auto& [name, mm] : facts.unseen_mm) all.push_back(mm);
+    for (const auto& [name, mm] : facts.leave_out_wrap_mm) all.push_back(mm);
     report["correspondence_mm"] = spread_json(all);
   }
   for (const FeatureAgreement& feature : result.features) {

@@ -17,7 +17,7 @@ namespace crowdface {
 struct WrapDistances {
   double median = 0, percentile_95 = 0;
 };
-WrapDistances distances_of(const WrapTemplate& shape, const WrapResult& result);
+WrapDistances measure_distances(const WrapTemplate& shape, const WrapResult& result);
 /// Returns the fraction of the visible skin for which there is no scan data.
 double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 
@@ -35,15 +35,15 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult
 void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                      const SkinRegions& regions);
 
-/// Facts for the report that are not measurements.
+/// Facts for the report that the result of a wrap does not contain.
 struct WrapFacts {
   std::string template_file, scan_file, inputs, mesh;  ///< `inputs` and `mesh` are digests
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
-  /// Distance of each landmark, in mm, from its position predicted by a similarity fitted to the
-  /// other landmarks. Has no entry for landmarks without a prediction.
-  std::map<std::string, double> left_out_mm;
-  /// Result of `unseen_landmarks`; empty if the user did not request it.
-  std::map<std::string, double> unseen_mm = {};
+  /// Distance in mm of each landmark from the position that a similarity fitted to the other
+  /// landmarks predicts; no entry if there is no prediction.
+  std::map<std::string, double> leave_out_pose_mm;
+  /// Result of `leave_out_distances`; empty if the user did not request it.
+  std::map<std::string, double> leave_out_wrap_mm = {};
   /// Fraction of the texels, 0 … 1, that are filled in because the scan does not cover them.
   std::optional<double> filled_share = {};
 };

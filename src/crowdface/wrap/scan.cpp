@@ -16,7 +16,7 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Boundary edges: the edges with exactly one triangle, ascending.
+/// The boundary edges (edges of exactly one triangle), ascending.
 std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
   std::vector<Edge> edges, rim;
   edges.reserve(3 * triangles.size());
@@ -91,7 +91,7 @@ std::vector<bool> used_vertices(const Scan& scan) {
   return used;
 }
 
-double missing_share(const Scan& scan) {
+double unclosed_fraction(const Scan& scan) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0;
   for (const Triangle& triangle : scan.triangles) {
@@ -120,7 +120,7 @@ std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangle
   return vertices;
 }
 
-Scan without_small_pieces(const Scan& scan, double min_share) {
+Scan remove_small_pieces(const Scan& scan, double min_share) {
   const std::vector<double> areas = areas_of_pieces(scan);
   const double least = min_share * largest(areas);
   Scan kept = scan;
@@ -129,11 +129,11 @@ Scan without_small_pieces(const Scan& scan, double min_share) {
   return kept;
 }
 
-Scan without_shells(const Scan& scan) {
+Scan remove_shells(const Scan& scan) {
   return of_modelled_head(scan, [](PartClass of) { return of != PartClass::kBound; });
 }
 
-Scan skin_only(const Scan& scan) {
+Scan keep_skin(const Scan& scan) {
   return of_modelled_head(scan, [](PartClass of) { return of == PartClass::kSkin; });
 }
 

@@ -28,9 +28,9 @@ void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept)
 std::vector<bool> used_vertices(const Scan& scan);
 
 /// How far a surface is from being closed: the length of the sum of the triangles' area vectors,
-/// divided by the area. 0 for a closed surface, less than 0.2 for a head with its neck, about 0.5
-/// for half a head, 0.8 for a face alone.
-double missing_share(const Scan& scan);
+/// divided by the sum of their areas. 0 for a closed surface, less than 0.2 for a head with its
+/// neck, about 0.5 for half a head, 0.8 for a face alone.
+double unclosed_fraction(const Scan& scan);
 
 /// The vertices at which the surface ends, ascending: the vertices of all boundary loops that are
 /// at least `min_length` long.
@@ -39,19 +39,19 @@ std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangle
 
 /// Removes connected components with less than `min_share` of the largest component's area, and
 /// triangles with a repeated vertex. Keeps all vertices, so that vertex indices do not change.
-Scan without_small_pieces(const Scan& scan, double min_share);
+Scan remove_small_pieces(const Scan& scan, double min_share);
 
-/// For a modelled head with eyeballs, removes the surfaces that lie in front of skin and eyes:
-/// lashes, tear lines, shadow shells. Returns other scans unchanged.
-Scan without_shells(const Scan& scan);
-/// For a modelled head with eyeballs, removes the eyeballs, teeth and all other parts. Returns other
-/// scans unchanged.
-Scan skin_only(const Scan& scan);
+/// If the scan is a modelled head with eyeballs, removes the surfaces that lie in front of skin and
+/// eyes: lashes, tear lines, shadow shells. Returns other scans unchanged.
+Scan remove_shells(const Scan& scan);
+/// If the scan is a modelled head with eyeballs, keeps only the skin. Returns other scans
+/// unchanged.
+Scan keep_skin(const Scan& scan);
 
 /// Merges vertices with equal positions: STL files repeat every corner, other formats repeat
 /// vertices at texture seams. Triangles then refer to the first vertex at each position. If merging
-/// hardly enlarges the largest connected component, the scan stays unchanged, so that lashes and
-/// eyes that touch the skin stay separate.
+/// hardly enlarges the largest connected component, leaves the scan unchanged: the mesh was already
+/// connected, and lashes and eyes that touch the skin stay separate.
 void weld(Scan& scan);
 
 }  // namespace crowdface

@@ -23,7 +23,7 @@ std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<
   if (match && (match->score < kMinScore || (hint && match->degrees_off > kMaxDegreesOff))) {
     match.reset();
   }
-  if (match) match->between_eyes += moved.middle;
+  if (match) match->between_eyes += moved.box_centre;
   return match;
 }
 

@@ -16,7 +16,7 @@
 namespace crowdface {
 namespace {
 
-// fraction of the template's lid opening below which an eye counts as closed
+// an eye counts as closed below this fraction of the template's lid opening
 constexpr double kClosed = 0.4;
 // half width, in eyeball radii, of the region in which the opening of the lids is measured
 constexpr double kMiddle = 0.4;
@@ -85,8 +85,8 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   const Positions rest = shape.skin.rows_of(shape.positions),
                   wrapped = shape.skin.rows_of(result.positions);
   std::vector<std::uint32_t> face, skull;
-  for (std::uint32_t v = 0; v < regions.of_vertex.size(); ++v) {
-    if (shape.skin.openness[v] <= kSeen || result.lacks_data[v]) continue;
+  for (std::uint32_t v = 0; v < regions.region_of_vertex.size(); ++v) {
+    if (shape.skin.openness[v] <= kVisibleOpenness || result.lacks_data[v]) continue;
     if (regions.contains(v, "nose") || regions.contains(v, "mouth")) face.push_back(v);
     if (regions.contains(v, "brow")) skull.push_back(v);
   }
@@ -114,14 +114,14 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
 }  // namespace
 
 bool SkinRegions::contains(std::uint32_t vertex, const std::string& name) const {
-  return vertex < of_vertex.size() && names[of_vertex[vertex]] == name;
+  return vertex < region_of_vertex.size() && names[region_of_vertex[vertex]] == name;
 }
 
 std::vector<std::string> scan_faults(const WrapTemplate& shape, const WrapResult& result,
                                      const SkinRegions& regions) {
   std::vector<std::string> faults;
   look_at_eyes(shape, result, faults);
-  if (!regions.of_vertex.empty()) {
+  if (!regions.region_of_vertex.empty()) {
     look_at_mouth(shape, result, regions, faults);
     look_at_hair(shape, result, regions, faults);
   }

@@ -12,19 +12,19 @@ namespace crowdface {
 inline constexpr double kFarFromScanMm =
     3;  ///< skin farther than this from the scan does not fit the scan
 
-/// Regions of the skin for which a report lists the distances separately.
+/// Regions of the skin for which a report lists distances to the scan separately.
 struct SkinRegions {
   std::vector<std::string> names;
-  std::vector<std::size_t> of_vertex;  ///< #skin indices into `names`; empty: no regions
+  std::vector<std::size_t> region_of_vertex;  ///< #skin indices into `names`; empty: no regions
 
   /// Whether a vertex of the skin belongs to the region `name`.
   bool contains(std::uint32_t vertex, const std::string& name) const;
 };
 
 /// Finds defects of a scan from the wrapped template: closed eyes (lids that meet in front of an
-/// eyeball), an open mouth (parted lips), hair (a skull that is larger than the template's after
-/// the faces are aligned, or that stays far from the scan). Returns one sentence per defect, with
-/// advice. Without regions the function checks only the eyes.
+/// eyeball), an open mouth (parted lips), hair (after the faces are aligned, a skull that is larger
+/// than the template's or far from the scan). Returns one sentence per defect, with advice. Without
+/// regions the function checks only the eyes.
 std::vector<std::string> scan_faults(const WrapTemplate& shape, const WrapResult& result,
                                      const SkinRegions& regions);
 

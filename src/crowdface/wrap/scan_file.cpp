@@ -26,8 +26,8 @@ bool has_area(const Scan& scan) {
   });
 }
 
-/// Rejects scans whose coordinates are so far from the origin, as map coordinates are, that
-/// rounding to single precision turns the surface into steps.
+/// Rejects scans that are so far from the origin (such as scans in map coordinates) that rounding
+/// to single precision turns the surface into steps.
 void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
   constexpr double kMaxOfSize = 1e-3;
   const std::vector<bool> used = used_vertices(scan);
@@ -105,7 +105,7 @@ Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
   if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
   weld(scan);
   refuse_fan(scan, path);
-  return without_shells(scan);
+  return remove_shells(scan);
 }
 
 }  // namespace crowdface

@@ -18,7 +18,7 @@ constexpr double kRounded = 1e-9;  ///< barycentric coordinate that counts as ze
 }  // namespace
 
 ScanSurface::ScanSurface(const Scan& scan)
-    : scan_(without_small_pieces(scan, kMinShare)),
+    : scan_(remove_small_pieces(scan, kMinShare)),
       normals_(vertex_normals_or_zero(scan_.triangles, scan_.positions)),
       rim_(build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
       tree_(scan_.positions, scan_.triangles) {}

@@ -9,9 +9,8 @@
 
 namespace crowdface {
 
-/// Smallest cosine between two normals that count as compatible, which means an angle of at most
-/// 60°.
-inline constexpr double kMinCosine = 0.5;
+/// Two normals are compatible if the cosine between them is at least this value (60° or less).
+inline constexpr double kMinNormalCosine = 0.5;
 
 /// A scan prepared for closest-point queries.
 class ScanSurface {
@@ -30,7 +29,8 @@ class ScanSurface {
     bool on_rim = false;  ///< whether the point lies on the scan's boundary
     std::uint32_t triangle = kNoIndex;
   };
-  /// The closest point whose surface normal is within `min_cosine` of the unit vector `facing`.
+  /// The closest point whose normal has a cosine of at least `min_cosine` with the unit vector
+  /// `facing`.
   /// \param guess  a triangle that is probably the closest, or kNoIndex.
   ClosestPoint nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                        double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
@@ -52,8 +52,8 @@ class ScanSurface {
   SurfaceTree tree_;
 };
 
-/// The distance beyond which scan data is downweighted as an outlier: three standard deviations of
-/// normal noise, estimated from the median, but at least half the reach.
+/// Distances to the scan beyond the result count as outliers: three standard deviations of normal
+/// noise, estimated from the median, but at least half the reach.
 /// \param distances  not negative; may be empty
 double outlier_distance(std::vector<double> distances, double reach);
 

@@ -31,7 +31,7 @@ struct Match {
 std::vector<std::uint32_t> choose_probes(const SkinMesh& skin) {
   std::vector<std::uint32_t> open;
   for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
-    if (skin.openness[v] > kOpenEnough) open.push_back(v);
+    if (skin.openness[v] > kUnfoldedOpenness) open.push_back(v);
   }
   return evenly_spaced_items(open, kMaxProbes);
 }
@@ -43,7 +43,7 @@ std::vector<Match> find_matches(const Positions& placed, const Positions& normal
   parallel_for_each(probes.size(), 128, [&](std::size_t i) {
     const std::uint32_t v = probes[i];
     const Eigen::Vector3d point = row3(placed, v);
-    const auto place = scan.nearest(point, row3(normals, v), kMinCosine, reach, found[i]);
+    const auto place = scan.nearest(point, row3(normals, v), kMinNormalCosine, reach, found[i]);
     found[i] = place.triangle;
     if (place.found) matches[i] = {v, place.point - point, place.normal, place.distance};
   });
@@ -152,10 +152,11 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   middle /= static_cast<double>(matches.size());
   const auto modes = static_cast<Index>(model.modes.size());
   Equations equations(modes);
-  const double weight = options.measurements / (static_cast<double>(matches.size()) * mm * mm);
+  const double weight =
+      options.effective_measurements / (static_cast<double>(matches.size()) * mm * mm);
   for (const Match& match : matches) {
     const Eigen::Vector3d arm = placed.row(match.vertex).transpose() - middle;
-    const double along = std::sqrt(options.tangential);
+    const double along = std::sqrt(options.tangential_weight);
     const Eigen::Matrix3d root =
         std::sqrt(weight) * (along * Eigen::Matrix3d::Identity() +
                              (1 - along) * match.normal * match.normal.transpose());
@@ -163,7 +164,7 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   }
   const double for_landmarks = landmarks.empty()
                                    ? 0
-                                   : options.landmark_weight * options.measurements /
+                                   : options.landmark_weight * options.effective_measurements /
                                          (static_cast<double>(landmarks.size()) * mm * mm);
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = placed.row(landmark.vertex).transpose();

@@ -15,13 +15,13 @@ namespace crowdface {
 /// between people's faces.
 inline constexpr double kPickedErrorMm = 3;
 
-/// A landmark marked on both template and scan.
+/// A landmark with known positions on both template and scan.
 struct WrapLandmark {
   std::string name;
   std::uint32_t vertex = 0;  ///< row of the skin; before wrapping, row of the template
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< position on the scan
   /// true: the program found the landmark from the surface's shape; false: the user picked it
-  bool by_shape = false;
+  bool is_found_by_shape = false;
   /// Uncertainty of `place`: standard deviation along each axis. The squared distance of a landmark
   /// has the weight 1/error_mm².
   double error_mm = kPickedErrorMm;
@@ -49,11 +49,11 @@ struct ShapeFit {
 struct ShapeFitOptions {
   std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< search radius of each round
   int steps = 4;                                        ///< number of steps in each round
-  /// A whole scan counts as this many independent measurements with an error of 1 mm. With larger
-  /// values, the prior pulls the coefficients less strongly towards 0.
-  double measurements = 7;
+  /// The whole scan has the weight of this many independent measurements with an error of 1 mm.
+  /// With larger values, the prior pulls the coefficients less strongly towards 0.
+  double effective_measurements = 7;
   /// Weight of offsets along the surface; offsets along the normal have weight 1.
-  double tangential = 0.1;
+  double tangential_weight = 0.1;
   double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface
 };
 

@@ -22,7 +22,7 @@ Positions ShapeModel::shape(const Eigen::VectorXd& coefficients) const {
   return result;
 }
 
-ShapeModel make_model(const std::vector<Positions>& heads) {
+ShapeModel make_shape_model(const std::vector<Positions>& heads) {
   require(!heads.empty(), "a model is made of heads, and there is none");
   const auto count = static_cast<Index>(heads.size());
   ShapeModel model;
@@ -54,7 +54,7 @@ ShapeModel make_model(const std::vector<Positions>& heads) {
   return model;
 }
 
-ShapeModel with_mirror_images(const ShapeModel& model, const MirrorMap& map) {
+ShapeModel add_mirror_images(const ShapeModel& model, const MirrorMap& map) {
   ShapeModel both{model.mean, {}};
   const Positions image = mirrored(map, model.mean);
   for (const Positions& mode : model.modes) {

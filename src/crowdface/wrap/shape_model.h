@@ -21,9 +21,9 @@ struct ShapeModel {
 /// Builds a model of aligned heads (#V by 3 each, at least one). The number of modes is the number
 /// of heads minus one. Source: Blanz & Vetter 1999, "A morphable model for the synthesis of 3D
 /// faces".
-ShapeModel make_model(const std::vector<Positions>& heads);
+ShapeModel make_shape_model(const std::vector<Positions>& heads);
 
 /// The model of the heads and their mirror images; has twice as many modes.
-ShapeModel with_mirror_images(const ShapeModel& model, const MirrorMap& map);
+ShapeModel add_mirror_images(const ShapeModel& model, const MirrorMap& map);
 
 }  // namespace crowdface

@@ -31,7 +31,7 @@ std::vector<std::uint32_t> spread_places(const SkinMesh& skin, const Positions& 
                                          std::size_t most) {
   std::vector<std::uint32_t> visible, places;
   for (std::uint32_t v = 0; v < skin.openness.size(); ++v) {
-    if (skin.openness[v] > kOpenEnough) visible.push_back(v);
+    if (skin.openness[v] > kUnfoldedOpenness) visible.push_back(v);
   }
   most = std::min(most, visible.size());
   std::vector<double> squared(visible.size(), 1e300);
@@ -71,7 +71,8 @@ class Regression {
       values(i) = one.value;
       variances(i) = one.variance;
     }
-    const double local = options_.local_share, smooth = options_.smooth_mm * options_.smooth_mm;
+    const double local = options_.local_share,
+                 smooth = options_.smooth_deviation_mm * options_.smooth_deviation_mm;
     const Eigen::MatrixXd heads = along.transpose() * along;
     Eigen::MatrixXd covariance = (1 - local) * heads + pose.transpose() * pose;
     for (Index i = 0; i < count; ++i) {
@@ -140,7 +141,7 @@ std::vector<Observation> observe_scan(const SkinMesh& skin, const ShapeModel& mo
   std::vector<Observation> observations(places.size());
   parallel_for_each(places.size(), 64, [&](std::size_t i) {
     const std::uint32_t v = places[i];
-    const auto place = scan.nearest(row3(positions, v), row3(normals, v), kMinCosine, reach);
+    const auto place = scan.nearest(row3(positions, v), row3(normals, v), kMinNormalCosine, reach);
     if (!place.found) return;
     const double off = place.normal.dot(place.point - row3(positions, v));
     observations[i] = {v, place.normal, place.normal.dot(place.point - row3(model.mean, v)), off};
@@ -162,9 +163,9 @@ Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Pos
                         const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
                         const RegressionOptions& options) {
   const Regression regression(model, options);
-  const std::vector<std::uint32_t> places = spread_places(skin, model.mean, options.places);
+  const std::vector<std::uint32_t> places = spread_places(skin, model.mean, options.sample_count);
   Positions current = positions;
-  for (const double reach : options.search_mm) {
+  for (const double reach : options.search_distances_mm) {
     throw_if_interrupted();
     std::vector<Observation> observations =
         observe_scan(skin, model, current, scan, places, reach, options.noise_mm);

@@ -8,11 +8,11 @@
 
 namespace crowdface {
 
-/// Thresholds of openness (see vertex_visibility): skin counts as visible above kSeen, and as
-/// outside folds above kOpenEnough.
-inline constexpr double kSeen = 0.12, kOpenEnough = 0.3;
+/// Thresholds of openness (see vertex_visibility): skin counts as visible above kVisibleOpenness,
+/// and as outside folds above kUnfoldedOpenness.
+inline constexpr double kVisibleOpenness = 0.12, kUnfoldedOpenness = 0.3;
 
-/// The skin of a template as a mesh of its own with renumbered vertices.
+/// The skin of a template as a separate mesh with its own vertex indices.
 struct SkinMesh {
   std::vector<std::uint32_t> vertices;  ///< rows of the template, ascending
   std::vector<Triangle> triangles;      ///< indices into `vertices`

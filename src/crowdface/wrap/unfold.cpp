@@ -43,7 +43,7 @@ Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions) 
                 fit_similarity(of_rest, as_it_was, ScaleFit::kUniform).apply(of_rest);
             for (std::size_t i = 0; i < rows.size(); ++i) {
               const auto row = static_cast<Index>(i);
-              positions.row(rows[i]) += patch.share(i) * (laid.row(row) - as_it_was.row(row));
+              positions.row(rows[i]) += patch.weight(i) * (laid.row(row) - as_it_was.row(row));
             }
           },
       .undo =

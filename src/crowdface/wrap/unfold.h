@@ -13,9 +13,8 @@ std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Position
                                             const Positions& positions);
 
 /// Repairs folded triangles. For each folded triangle, finds the smallest surrounding patch whose
-/// repair resolves the fold, and blends this patch towards the template's shape, transformed by the
-/// similarity that best aligns the template's patch. The blend decreases towards the patch's
-/// border.
+/// repair resolves the fold. The repair blends the patch towards the template's patch after the
+/// best similarity fit, with weights that decrease towards the patch's border.
 /// \return number of triangles that are still folded.
 Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions);
 

@@ -50,25 +50,27 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
     const Eigen::Vector3d point = skin.row(landmark.vertex).transpose();
     result.push_back(
         {landmark.name, (apply_similarity(pose, point) - landmark.place).norm() / pose.scale});
-    result.back().by_shape = landmark.by_shape;
+    result.back().is_found_by_shape = landmark.is_found_by_shape;
     result.back().error_mm = landmark.error_mm;
   }
   return result;
 }
 
-/// Adds the final distances and marks outliers. The surface and the other landmarks keep the
-/// landmark's vertex at its true position, so that the final distance is large if the landmark is
+/// Adds the final distances and marks outliers. The surface and the other landmarks hold a
+/// landmark's vertex near its true position. So a large final distance means that the landmark is
 /// misplaced on the scan.
 void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landmarks,
                std::vector<LandmarkResidual>& residuals) {
   std::vector<double> all;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    residuals[i].final_mm = (row3(wrapped, landmarks[i].vertex) - landmarks[i].place).norm();
-    all.push_back(residuals[i].final_mm);
+    residuals[i].final_distance_mm =
+        (row3(wrapped, landmarks[i].vertex) - landmarks[i].place).norm();
+    all.push_back(residuals[i].final_distance_mm);
   }
   if (all.empty()) return;
   const double most = std::max(kMinOutlierMm, kOutlier * nth_smallest(all, all.size() / 2));
-  for (LandmarkResidual& residual : residuals) residual.outlier = residual.final_mm > most;
+  for (LandmarkResidual& residual : residuals)
+    residual.is_outlier = residual.final_distance_mm > most;
 }
 
 void move(std::vector<WrapLandmark>& landmarks, const Similarity& motion) {
@@ -153,7 +155,7 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
   const FoundMirror mirror =
       find_mirror(shape.topology, shape.components, heads.mean, shape.axes.side());
   const ShapeModel both =
-      mirror.partner_fraction() < kMirroredShare ? heads : with_mirror_images(heads, mirror.map);
+      mirror.partner_fraction() < kMirroredShare ? heads : add_mirror_images(heads, mirror.map);
   ShapeModel of_skin{shape.skin.rows_of(both.mean), {}};
   for (const Positions& mode : both.modes) of_skin.modes.push_back(shape.skin.rows_of(mode));
   return of_skin;
@@ -182,9 +184,9 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
     result.landmarks = residuals_of(rest, fit.pose, landmarks);
     if (model != nullptr) {
       used = small ? &*small->model : model;
-      fit =
-          fit_shape(bent, *used, surface, marks, fit,
-                    {.reach_mm = {20, 16, 12, 8, 6, 4}, .measurements = 6, .landmark_weight = 0.1});
+      fit = fit_shape(
+          bent, *used, surface, marks, fit,
+          {.reach_mm = {20, 16, 12, 8, 6, 4}, .effective_measurements = 6, .landmark_weight = 0.1});
     }
   }
   result.pose = fit.pose;
@@ -198,22 +200,21 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   BendOptions bend;
   if (used != nullptr) {
     wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks);
-    // After the model fit the remaining differences are small, and correspondences are close to
-    // correct. A tangential weight would keep points at the slightly wrong positions of the closest
-    // points.
-    bend = {.stiffness_mm = {10, 5, 2.5},
-            .tangential_first = 0,
-            .tangential_last = 0.05,
-            .landmarks_first = 2,
-            .landmarks_last = 1.5};
+    // After the model fit, differences are small and correspondences nearly correct. A tangential
+    // weight would pull vertices to closest points, which are slightly wrong correspondences.
+    bend = {.wavelengths_mm = {10, 5, 2.5},
+            .first_tangential_weight = 0,
+            .last_tangential_weight = 0.05,
+            .first_landmark_weight = 2,
+            .last_landmark_weight = 1.5};
   }
   wrapped = bend_skin(bent, wrapped, surface, marks, bend);
   if (small) {
     unfold(bent, small->rest, wrapped);
-    wrapped = rest + shape.reduced->carry(wrapped - small->rest, skin);
+    wrapped = rest + shape.reduced->interpolate(wrapped - small->rest, skin);
   }
-  wrapped = follow_detail(skin, rest, wrapped, surface, small ? shape.reduced->smoothings : 0);
-  result.flipped = unfold(skin, rest, wrapped);
+  wrapped = follow_detail(skin, rest, wrapped, surface, small ? shape.reduced->smoothing_steps : 0);
+  result.folded_triangle_count = unfold(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
   if (face && shape.face) {
@@ -222,7 +223,7 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
         .rowwise()
         .squaredNorm()
         .minCoeff(&between);
-    result.face_off_mm =
+    result.face_distance_mm =
         (row3(wrapped, between) - apply_similarity(back, face->between_eyes)).norm();
   }
 
@@ -239,15 +240,15 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint) {
   const CentredScan moved = centre_scan(scan, landmarks);
   std::optional<PoseHint> standing = hint;
-  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::by_shape);
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_shape);
   if (standing && picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     standing->face.reset();
   } else if (standing && !standing->face) {
     standing->face = find_scan_face(scan, hint);
   }
-  if (standing && standing->face) standing->face->between_eyes -= moved.middle;
+  if (standing && standing->face) standing->face->between_eyes -= moved.box_centre;
   WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, standing);
-  result.pose.translation += moved.middle;
+  result.pose.translation += moved.box_centre;
   return result;
 }
 
@@ -282,7 +283,7 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   for (const bool drops_all : {false, true}) {
     if (worst(best) >= kDoubtfulAgreement) break;
     const std::size_t dropped = std::erase_if(landmarks, [&](const WrapLandmark& landmark) {
-      return landmark.by_shape && (drops_all || is_of_doubtful_feature(landmark));
+      return landmark.is_found_by_shape && (drops_all || is_of_doubtful_feature(landmark));
     });
     if (dropped == 0) continue;
     WrapResult other = wrapped_with(landmarks);
@@ -297,10 +298,10 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   return best;
 }
 
-std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const ShapeModel* model,
-                                               const Scan& scan,
-                                               const std::vector<WrapLandmark>& landmarks,
-                                               const std::optional<PoseHint>& hint) {
+std::map<std::string, double> leave_out_distances(const WrapTemplate& shape,
+                                                  const ShapeModel* model, const Scan& scan,
+                                                  const std::vector<WrapLandmark>& landmarks,
+                                                  const std::optional<PoseHint>& hint) {
   constexpr std::size_t kOneByOne = 12, kFolds = 4;
   std::map<std::string, double> unseen;
   if (!hint && landmarks.size() <= kMinLandmarks) return unseen;

@@ -14,18 +14,19 @@
 
 namespace crowdface {
 
-/// Distance between a landmark of the template and the same landmark of the scan.
+/// Distances between a landmark of the template and the same landmark of the scan.
 struct LandmarkResidual {
   std::string name;
-  double pose_mm = 0;     ///< distance after the similarity
-  double final_mm = 0;    ///< distance after the wrap
-  bool by_shape = false;  ///< see `WrapLandmark::by_shape`
-  /// whether the final distance is far above the others; the landmark is probably misplaced
-  bool outlier = false;
+  double pose_distance_mm = 0;     ///< distance after the similarity
+  double final_distance_mm = 0;    ///< distance after the wrap
+  bool is_found_by_shape = false;  ///< see `WrapLandmark::is_found_by_shape`
+  /// whether the final distance is far above the other landmarks' distances; then the landmark is
+  /// probably misplaced
+  bool is_outlier = false;
   double error_mm = 0;  ///< see `WrapLandmark::error_mm`
 };
 
-/// A feature with a smaller agreement is doubtful.
+/// A feature is doubtful if its agreement is smaller than this correlation.
 inline constexpr double kDoubtfulAgreement = 0.7;
 
 /// Agreement of a feature's relief on the wrapped template with the relief on the template; see
@@ -49,11 +50,11 @@ struct WrapResult {
   Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
   /// #skin: whether the vertex has no scan data nearby, or only the scan's boundary
   std::vector<bool> lacks_data;
-  Index flipped = 0;  ///< number of flipped triangles in the skin
-  /// Distance in mm between the point between the eyes on the wrapped template and the same point
-  /// of the face that was found from the scan's relief. Nothing if one of the two faces was not
-  /// found, or if enough landmarks were picked.
-  std::optional<double> face_off_mm;
+  Index folded_triangle_count = 0;  ///< triangles of the skin that remain folded
+  /// Distance in mm between two estimates of the point between the eyes: on the wrapped template,
+  /// and on the face found by the scan's relief. Nothing if a face was not found, or if enough
+  /// landmarks were picked.
+  std::optional<double> face_distance_mm;
 };
 
 /// Restricts a model of whole heads to the rows of the template's skin. If the template is nearly
@@ -63,7 +64,8 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
 inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determine the pose
 
 /// Deforms the template's skin onto the scan; eyes, teeth and lashes follow the skin.
-/// \param model  of the template's skin, in its frame and in millimetres; or nullptr.
+/// \param model  shape model of the template's skin, in the template's frame and in millimetres; or
+///               nullptr.
 /// \param landmarks  vertices of the whole template, positions in the scan's frame; the function
 /// ignores landmarks outside the skin.
 /// \throws InvalidInput if there are fewer than kMinLandmarks and no hint, or if the scan has no
@@ -71,10 +73,10 @@ inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determ
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
-/// Wraps, and checks with `relief_agreements` whether each feature of the template ended on the same
-/// feature of the scan. If a feature is doubtful, repeats the wrap without the landmarks by shape
-/// that lie on this feature, and then without all landmarks by shape. Returns the result whose worst
-/// feature agrees best.
+/// Wraps, and checks with `relief_agreements` whether each feature of the template ended on the
+/// same feature of the scan. If a feature is doubtful, repeats the wrap without the automatically
+/// found landmarks of this feature, and then without all automatically found landmarks. Returns the
+/// result whose worst feature agrees best.
 /// \param features  see `face_features`; may be empty
 /// \param shape, model, scan, landmarks, hint  as for `wrap`
 WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
@@ -84,13 +86,13 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
 
 /// Leave-out validation: the distance in mm between each landmark's picked position and its
 /// position in a wrap that does not use this landmark. The distance estimates the error of
-/// correspondence where no landmark was picked, plus the picking error. Needs one more wrap per
-/// landmark for up to eleven landmarks, and four more wraps for twelve and more; empty if too few
-/// landmarks would remain.
+/// correspondence between the landmarks, plus the picking error. Needs one more wrap per landmark
+/// for up to eleven landmarks, and four more wraps for twelve and more; empty if too few landmarks
+/// would remain.
 /// \param shape, model, scan, landmarks, hint  as for `wrap`
-std::map<std::string, double> unseen_landmarks(const WrapTemplate& shape, const ShapeModel* model,
-                                               const Scan& scan,
-                                               const std::vector<WrapLandmark>& landmarks,
-                                               const std::optional<PoseHint>& hint);
+std::map<std::string, double> leave_out_distances(const WrapTemplate& shape,
+                                                  const ShapeModel* model, const Scan& scan,
+                                                  const std::vector<WrapLandmark>& landmarks,
+                                                  const std::optional<PoseHint>& hint);
 
 }  // namespace crowdface

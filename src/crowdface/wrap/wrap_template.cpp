@@ -17,7 +17,7 @@ constexpr Index kMinVertices = 100;
 /// reduced skin.
 void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
   const Positions normals = vertex_normals(shape.topology, shape.positions);
-  const std::vector<Triangle> solid = solid_triangles(shape);
+  const std::vector<Triangle> solid = occluding_triangles(shape);
   SkinMesh& skin = shape.skin;
   if (skin.vertices.size() <= options.max_vertices) {
     skin.openness = vertex_visibility(shape.positions, normals, solid, skin.vertices);
@@ -27,7 +27,7 @@ void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
   std::vector<std::uint32_t> rows;
   for (const std::uint32_t v : shape.reduced->mesh.vertices) rows.push_back(skin.vertices[v]);
   shape.reduced->mesh.openness = vertex_visibility(shape.positions, normals, solid, rows);
-  skin.openness = shape.reduced->carry(shape.reduced->mesh.openness);
+  skin.openness = shape.reduced->interpolate(shape.reduced->mesh.openness);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ HeadShape head_shape(const WrapTemplate& shape) {
   return head;
 }
 
-std::vector<Triangle> solid_triangles(const WrapTemplate& shape) {
+std::vector<Triangle> occluding_triangles(const WrapTemplate& shape) {
   std::vector<Triangle> solid;
   for (const Triangle& t : triangles_of(shape.topology)) {
     if (shape.parts.classes[shape.components.of_vertex[t[0]]] != PartClass::kBound) {

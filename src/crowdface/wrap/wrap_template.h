@@ -26,8 +26,8 @@ struct WrapTemplate {
 };
 
 struct TemplateOptions {
-  /// A skin with more than `max_vertices` vertices is not deformed directly but by means of a
-  /// reduced skin with about `reduced_vertices` vertices.
+  /// If a skin has more than `max_vertices` vertices, a reduced skin with about `reduced_vertices`
+  /// vertices is deformed instead, and the result is interpolated.
   std::size_t max_vertices = 20000, reduced_vertices = 12000;
 };
 
@@ -39,10 +39,10 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
                            const HeadAxes& axes, const TemplateOptions& options = {},
                            const std::optional<ReliefMatch>& face = {});
 
-/// The inputs for finding the face on the template.
+/// The inputs of the search for the face on the template.
 HeadShape head_shape(const WrapTemplate& shape);
 
 /// The triangles that occlude the skin: all but lashes and tear lines.
-std::vector<Triangle> solid_triangles(const WrapTemplate& shape);
+std::vector<Triangle> occluding_triangles(const WrapTemplate& shape);
 
 }  // namespace crowdface

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Returns the JSON array `name`; checks that it has one row of three numbers per vertex.
+/// Returns the JSON array with the key `name`; checks that the array has three numbers per vertex.
 const json& triples(const json& root, const char* name, Index vertices, const fs::path& file) {
   const json& rows = root.at(name);
   if (!rows.is_array() || static_cast<Index>(rows.size()) != vertices) {

@@ -44,8 +44,8 @@ struct FittedMesh {
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.
   Positions fitted_to(const Positions& base) const;
-  /// Replaces the three base-mesh vertices of each vertex by the nearest vertices of `rows`, and
-  /// adapts the offsets so that the mesh fitted to `base` stays the same.
+  /// Binds each vertex to the three nearest base-mesh vertices of `rows` instead, and adapts the
+  /// offsets so that the mesh fitted to `base` stays the same.
   /// \param rows  base-mesh vertices, at least three.
   void anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base);
   /// Keeps the marked faces; removes all other faces, and vertices that no kept face uses.

@@ -13,8 +13,8 @@ namespace crowdface {
 
 /// Sex and age of a head.
 struct HeadPerson {
-  bool male = false;
-  double years = 0;
+  bool is_male = false;
+  double age_years = 0;
 };
 
 /// A generator of random heads of one topology; each head is a weighted sum of morph targets.

@@ -15,10 +15,10 @@ namespace {
 constexpr double kYoung = 25, kOld = 90;  // ages in years of MakeHuman's young and old targets
 constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
-/// A measure with two morph targets: one decreases it, one increases it. '*' in `stem` stands for l
-/// and r (left and right), whose values differ slightly. `spread` is the standard deviation. `aged`
-/// is the change of the mean per 20 years of age above 45, `weight` the change of the mean for the
-/// heaviest body.
+/// A measure of the face with two morph targets, one to decrease and one to increase the measure.
+/// '*' in `stem` stands for l and r (left and right), whose values differ slightly. `spread` is the
+/// standard deviation. `aged` is the change of the mean per 20 years of age above 45, `weight` the
+/// change of the mean for the heaviest body.
 struct Control {
   std::string_view stem, less, more;
   double spread;
@@ -162,7 +162,7 @@ std::array<double, 3> amounts(double x) {
 /// Adds the person's targets with the weights that MakeHuman uses: linear interpolation between the
 /// targets of both sexes, two ages and three builds.
 void add_person(const MakeHumanPerson& person, double male_share, std::vector<TargetWeight>& out) {
-  const double old_share = std::clamp((person.years - kYoung) / (kOld - kYoung), 0.0, 1.0);
+  const double old_share = std::clamp((person.age_years - kYoung) / (kOld - kYoung), 0.0, 1.0);
   const auto muscle = amounts(person.muscle), weight = amounts(person.weight);
   for (const bool male : {false, true}) {
     for (const bool old : {false, true}) {
@@ -186,8 +186,8 @@ void add_person(const MakeHumanPerson& person, double male_share, std::vector<Ta
 MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index) {
   MakeHumanPerson person;
   // Use stratified random numbers, so that even a few heads include both sexes and several ages.
-  person.male = random_stratified({seed, index, "makehuman/sex"}, 2) < 0.5;
-  person.years = std::floor(20 + 60 * random_stratified({seed, index, "makehuman/age"}, 5));
+  person.is_male = random_stratified({seed, index, "makehuman/sex"}, 2) < 0.5;
+  person.age_years = std::floor(20 + 60 * random_stratified({seed, index, "makehuman/age"}, 5));
   double sum = 0;
   for (std::uint32_t a = 0; a < 3; ++a) {
     // The fourth power gives most people one dominant ancestry.
@@ -209,11 +209,11 @@ std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::
   std::vector<TargetWeight> out;
   // Mix in up to 20 % of the targets of the other sex.
   const double mixed = random_between({seed, index, "makehuman/sex_share"}, 0, 0.2);
-  add_person(person, person.male ? 1 - mixed : mixed, out);
+  add_person(person, person.is_male ? 1 - mixed : mixed, out);
   for (const Control& control : kControls) {
     const std::string purpose = concat("makehuman/", control.stem, control.more);
     const double both = control.spread * random_normal({seed, index, purpose}) +
-                        control.aged * (person.years - 45) / 20 +
+                        control.aged * (person.age_years - 45) / 20 +
                         control.weight * (2 * person.weight - 1);
     for (const char side : sides_of(control)) {
       const std::string own = concat(purpose, "/", side);

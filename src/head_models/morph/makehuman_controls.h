@@ -13,10 +13,10 @@ namespace crowdface {
 
 inline constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
 
-/// Attributes of a person that determine the averages of the person's measures.
+/// Attributes of a person, from which the means of the person's random measures follow.
 struct MakeHumanPerson {
-  bool male = false;
-  double years = 0;                   ///< 20 … 80
+  bool is_male = false;
+  double age_years = 0;               ///< 20 … 80
   std::array<double, 3> ancestry{};   ///< shares of kAncestries, which sum to 1
   double muscle = 0.5, weight = 0.5;  ///< 0 (least) … 1 (most)
 };

@@ -167,10 +167,10 @@ void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
   }
   topology.vertex_count = vertices;
   parts_ = std::move(parts);
-  neutral_ = {std::move(topology), with_parts(mesh_.file_positions), std::move(uvs)};
+  neutral_ = {std::move(topology), append_parts(mesh_.file_positions), std::move(uvs)};
 }
 
-Positions MakeHumanHeads::with_parts(const Positions& base) const {
+Positions MakeHumanHeads::append_parts(const Positions& base) const {
   Positions head = base(skin_, kAllColumns);
   for (const ClothingPart& part : parts_) {
     const Positions more = part.mesh.fitted_to(base);
@@ -198,13 +198,13 @@ Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) con
   for (const TargetWeight& target : makehuman_targets(person, seed, index)) {
     targets_.add(target, rows, base);
   }
-  if (!parts_.empty()) return with_parts(base);
+  if (!parts_.empty()) return append_parts(base);
   return to_head_frame(base(mesh_.rows, kAllColumns), base);
 }
 
 std::optional<HeadPerson> MakeHumanHeads::person(std::uint64_t seed, std::uint64_t index) const {
   const MakeHumanPerson person = random_makehuman_person(seed, index);
-  return HeadPerson{person.male, person.years};
+  return HeadPerson{person.is_male, person.age_years};
 }
 
 }  // namespace crowdface

@@ -64,7 +64,7 @@ class MakeHumanHeads : public HeadModel {
 
  private:
   Positions to_head_frame(const Positions& decimetres, const Positions& base) const;
-  Positions with_parts(const Positions& base) const;
+  Positions append_parts(const Positions& base) const;
 
   MakeHumanMesh mesh_;
   MorphTargets targets_;

@@ -184,8 +184,8 @@ std::string prevailing_ancestry(const MakeHumanPerson& person) {
 std::vector<SkinShare> makehuman_skin(const fs::path& package, const MakeHumanPerson& person,
                                       std::uint64_t seed, std::uint64_t index) {
   std::vector<SkinShare> out;
-  const std::string_view sex = person.male ? "male" : "female";
-  for (const AgeShare& age : age_shares(person.years)) {
+  const std::string_view sex = person.is_male ? "male" : "female";
+  for (const AgeShare& age : age_shares(person.age_years)) {
     for (std::size_t a = 0; a < 3; ++a) {
       const double share = age.share * person.ancestry[a];
       if (share == 0) continue;

@@ -31,8 +31,9 @@ double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index);
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index);
 
-/// Returns a random hair colour that the person has when young: a name of named_hair_colours. Light
-/// and red hair have a probability above zero for Caucasian ancestry only.
+/// Returns the random hair colour of a person's youth, before greying: a name of
+/// named_hair_colours. Light and red hair have a probability above zero for Caucasian ancestry
+/// only.
 std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                   std::uint64_t index);
 
@@ -57,11 +58,12 @@ struct MakeHumanAttachment {
   std::string name, kind;
   std::filesystem::path file;     ///< path in the package
   std::vector<std::string> tags;  ///< tags that a head needs to wear the attachment
-  bool young = false;             ///< whether old people do not wear the attachment
-  double share = 1;               ///< relative frequency among attachments of the same kind
+  bool excludes_old = false;      ///< whether the attachment is not for old people
+  double relative_frequency = 1;  ///< relative frequency among attachments of the same kind
 };
 
-/// Returns the attachments that have a named author and a contemporary style, brows first.
+/// Returns the package's attachments that have a named author and a contemporary style, brows
+/// first.
 std::vector<MakeHumanAttachment> makehuman_attachments(const std::filesystem::path& package);
 
 /// Returns the ancestry ("african", "asian" or "caucasian") whose share is above 0.5; if there is

