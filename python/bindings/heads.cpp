@@ -146,7 +146,7 @@ HeadSet read_heads_from(const std::vector<fs::path>& files) {
   if (faces.files.empty()) throw MissingInput("heads: expected at least one file, found none");
   faces.names = names_of_heads(faces.files);
   Problems problems;
-  std::optional<HeadSet> heads = load_faces(faces, {}, problems);
+  std::optional<HeadSet> heads = load_head_set(faces, {}, problems);
   problems.throw_if_any();
   return std::move(*heads);
 }

@@ -98,7 +98,7 @@ class PythonJob {
   std::vector<Displacements> shapes(const std::string& recipe,
                                     const Eigen::Ref<const Positions>& face) {
     if (!shapes_) shapes_.emplace(job_.config, job_.inputs);
-    return shapes_->of_face(face_of(recipe).recipe, round_to_single(face));
+    return shapes_->shapes_of_face(face_of(recipe).recipe, round_to_single(face));
   }
 
   std::vector<PlacedAttachment> attachments(const std::string& recipe,

@@ -27,9 +27,9 @@ Run add_cache(CLI::App& program) {
           return;
         }
         const CacheContents contents = list_cache(folder);
-        print(concat(folder.string(), "\n", contents.prepared, " prepared heads, ", contents.read,
-                     " loaded heads, ", format_fixed(static_cast<double>(contents.bytes) / 1e6, 1),
-                     " MB\n"));
+        print(concat(folder.string(), "\n", contents.prepared_count, " prepared heads, ",
+                     contents.read_count, " loaded heads, ",
+                     format_fixed(static_cast<double>(contents.bytes) / 1e6, 1), " MB\n"));
       });
 }
 

@@ -69,8 +69,8 @@ PaintedMasks masks_of(const Model& model, const ImportOptions& options,
   const FaceHeights heights = model.heights();
   try {
     return paint_masks(neutral.topology, neutral.uvs,
-                       level_bands(neutral.positions.col(1), heights.eyes, heights.mouth), first,
-                       kMaskSize);
+                       horizontal_bands(neutral.positions.col(1), heights.eyes, heights.mouth),
+                       first, kMaskSize);
   } catch (const InvalidInput& error) {
     throw InvalidInput(concat(
         options.data, ": cannot find the heights of the eyes and the mouth: ", error.what()));

@@ -139,7 +139,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
     faces.names.push_back(faces.files.back().stem().string());
   }
   Problems problems;
-  auto set = load_faces(faces, {}, problems);
+  auto set = load_head_set(faces, {}, problems);
   if (!set) {
     throw_if_interrupted();
     log_warning(concat("no regions: ", problems.messages().front()));
@@ -162,7 +162,7 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   try {
     const Orientation orientation = seen.orientation.value_or(Orientation{{1, 1}, {2, 1}});
     seen.masks = propose_masks(*set, mean, orientation, parse_bands("brow,nose,mouth"),
-                               mask_size(set->topology.vertex_count));
+                               mask_texels(set->topology.vertex_count));
   } catch (const InvalidInput& error) {
     log_warning(concat("no regions: ", error.what()));
   }

@@ -88,12 +88,12 @@ void mask(const MaskOptions& options) {
   const WantedMask wanted =
       is_folder(options.heads) ? heads_of_folder(options.heads) : heads_of_config(options.heads);
   Problems problems;
-  const auto faces = load_faces(wanted.faces, options.cache.cache_path(), problems);
+  const auto faces = load_head_set(wanted.faces, options.cache.cache_path(), problems);
   problems.throw_if_any();
   const HeadShape mean = shape_of_mean(*faces);
   const Orientation orientation = bearing_of(options, wanted, faces->topology, mean);
   const int size = options.size.empty()
-                       ? mask_size(faces->topology.vertex_count)
+                       ? mask_texels(faces->topology.vertex_count)
                        : static_cast<int>(whole_number("--size", options.size, kMinSize, kMaxSize));
   MaskFiles masks = encode_masks(propose_masks(*faces, mean, orientation, bands, size), out);
   std::vector<HeadFile> files;

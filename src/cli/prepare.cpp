@@ -32,7 +32,7 @@ void tell_errors(const Job& job, const Prepared& prepared) {
 void refuse_heads_not_kept(const Prepared& prepared, const std::vector<std::string>& names,
                            const std::filesystem::path& cache) {
   for (std::size_t h = 0; h < names.size(); ++h) {
-    if (prepared.levels[h].mapped) continue;
+    if (prepared.levels[h].mapped_file) continue;
     throw IoError(
         concat(cache.string(), ": the cache does not contain the head ", names[h],
                " in prepared form; check that the folder is writable and has free space"));
@@ -60,8 +60,8 @@ Run add_prepare(CLI::App& program) {
         const std::filesystem::path cache = options.config.cache_path();
         make_directories(cache);
         if (!shard.is_whole_crowd()) {
-          return prepare_some(job.config, job.inputs, job.smoothing, cache,
-                              [&](std::size_t head) { return shard.owns(head); });
+          return prepare_heads(job.config, job.inputs, job.smoothing, cache,
+                               [&](std::size_t head) { return shard.owns(head); });
         }
         const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
         refuse_heads_not_kept(prepared, job.names.heads, cache);

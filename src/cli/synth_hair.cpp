@@ -38,7 +38,7 @@ const char* skin_tag(double tone) {
 }
 
 bool is_for(const synth::HairCut& cut, bool female, bool curly, bool bald) {
-  return cut.female == female && cut.curly == curly && cut.crown_bald == bald;
+  return cut.female == female && cut.curly == curly && cut.has_bald_crown == bald;
 }
 
 /// Returns the condition on the age class of those who wear a cut, or an empty text.
@@ -125,10 +125,9 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
     if (meshes[c] == nullptr) continue;
     pictures.insert(cut.curly);
     add_mesh(cut.name, meshes[c], picture_name(cut.curly));
-    section += item_line(
-        cut.name, "hair",
-        concat("tags: [", cut.female ? "female" : "male", ", ", form_tag(cut.curly, cut.crown_bald),
-               "]", age_condition(cut), ", tint: hair"));
+    section += item_line(cut.name, "hair",
+                         concat("tags: [", cut.female ? "female" : "male", ", ",
+                                form_tag(cut.curly, cut.has_bald_crown), "]", age_condition(cut), ", tint: hair"));
   }
   for (const bool curly : pictures) {
     files.push_back({folder / "textures" / picture_name(curly), [curly] {

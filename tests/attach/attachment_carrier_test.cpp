@@ -41,7 +41,7 @@ struct Heads {
   FittedSkin fitted() const { return {topology(), heads[0], skin, kUnitsPerMm}; }
 
   /// The skin above a height, so far off it along its normals.
-  Mesh cap(double min_height_cm, double off_mm) const {
+  Mesh cap(double min_height_cm, double centroid_distance_mm) const {
     const Positions normals = vertex_normals(topology(), heads[0]);
     std::vector<std::uint32_t> rows(static_cast<std::size_t>(topology().vertex_count), kNoIndex);
     Mesh cap;
@@ -49,7 +49,7 @@ struct Heads {
     for (const std::uint32_t v : skin) {
       if (heads[0](v, 1) < min_height_cm) continue;
       rows[v] = static_cast<std::uint32_t>(points.size());
-      points.push_back(heads[0].row(v) + off_mm * kUnitsPerMm * normals.row(v));
+      points.push_back(heads[0].row(v) + centroid_distance_mm * kUnitsPerMm * normals.row(v));
     }
     cap.points.resize(static_cast<Index>(points.size()), 3);
     for (Index p = 0; p < cap.points.rows(); ++p) {
@@ -127,10 +127,11 @@ std::vector<double> heights_on(const FittedSkin& skin, const Mesh& fitted, const
   const Positions normals = skin.normals(face);
   std::vector<double> heights;
   for (Index p = 0; p < points.rows(); ++p) {
-    const PointGrid::Nearest nearest = skin.grid().nearest(row3(fitted.points, p));
+    const PointGrid::NearestVertex nearest = skin.grid().nearest(row3(fitted.points, p));
     const bool far = nearest.distance > 25 * skin.mm() + 2 * skin.spacing();
-    heights.push_back(far ? std::numeric_limits<double>::infinity()
-                          : skin.place_near(face, normals, nearest.vertex, row3(points, p)).height);
+    heights.push_back(
+        far ? std::numeric_limits<double>::infinity()
+            : skin.nearest_skin(face, normals, nearest.vertex, row3(points, p)).height);
   }
   return heights;
 }
@@ -152,10 +153,10 @@ double share_inside(const FittedSkin& skin, const Mesh& fitted, const Positions&
 TEST(AttachmentCarrier, LeavesThemOnTheMeshTheyWereFittedTo) {
   const Heads heads;
   const FittedSkin skin = heads.fitted();
-  for (const double off_mm : {1.0, 8.0, 60.0}) {
-    const Mesh cap = heads.cap(2, off_mm);
+  for (const double centroid_distance_mm : {1.0, 8.0, 60.0}) {
+    const Mesh cap = heads.cap(2, centroid_distance_mm);
     const Positions bent = carried(skin, cap, AttachmentMove::kBend, heads.heads[0]);
-    EXPECT_LT((bent - cap.points).cwiseAbs().maxCoeff(), 1e-9) << off_mm;
+    EXPECT_LT((bent - cap.points).cwiseAbs().maxCoeff(), 1e-9) << centroid_distance_mm;
   }
   const Mesh glasses = heads.glasses();
   const Positions seated = carried(skin, glasses, AttachmentMove::kRigid, heads.heads[0]);
@@ -203,12 +204,12 @@ TEST(AttachmentCarrier, KeepsTheGapOfWhatLiesOnTheSkin) {
   const std::vector<double> before = heights_on(skin, cap, skin.mesh(), cap.points);
   const std::vector<double> heights =
       heights_on(skin, cap, heads.heads[1], carrier.carry(heads.heads[1], normals));
-  std::vector<double> off_mm;
+  std::vector<double> centroid_distance_mm;
   for (std::size_t p = 0; p < heights.size(); ++p) {
-    off_mm.push_back(std::abs(heights[p] - before[p]) / kUnitsPerMm);
+    centroid_distance_mm.push_back(std::abs(heights[p] - before[p]) / kUnitsPerMm);
   }
-  std::sort(off_mm.begin(), off_mm.end());
-  EXPECT_LT(off_mm[off_mm.size() * 9 / 10], 0.2);
+  std::sort(centroid_distance_mm.begin(), centroid_distance_mm.end());
+  EXPECT_LT(centroid_distance_mm[centroid_distance_mm.size() * 9 / 10], 0.2);
 }
 
 /// What lies far off the skin is moved by all the skin around, not by single faces of it.

@@ -267,7 +267,7 @@ TEST(EditSession, TellsFaultsOfTheWholeMesh) {
   const Inputs& inputs = editor.session->job().inputs;
   Positions pushed = plain;
   for (const Part& part : inputs.parts.parts) {
-    if (part.eyeball) continue;
+    if (part.is_eyeball) continue;
     for (const std::uint32_t v : part.vertices) pushed(v, 2) += 1.5;
   }
   EXPECT_THAT(editor.session->mesh_faults(head, pushed),

@@ -52,7 +52,7 @@ class KeptPatchesTest : public ::testing::Test {
 
 TEST_F(KeptPatchesTest, AreMadeOnceForAKeyAndUsedFromTheFile) {
   const CachedPatches first = patches(folder_.path());
-  EXPECT_TRUE(first.mapped) << "used from the file as soon as it is there";
+  EXPECT_TRUE(first.mapped_file) << "used from the file as soon as it is there";
   const CachedPatches again = patches(folder_.path());
   EXPECT_EQ(made_, 1);
   EXPECT_TRUE(alike(first, again));
@@ -78,7 +78,7 @@ TEST_F(KeptPatchesTest, StandInMemoryWhereTheyCannotBeKept) {
   const fs::path file = folder_.path() / "file";
   std::ofstream(file) << "no folder";
   const CachedPatches made = patches(file);
-  EXPECT_FALSE(made.mapped);
+  EXPECT_FALSE(made.mapped_file);
   EXPECT_TRUE(alike(made, patches(folder_.path() / "cache")));
 }
 

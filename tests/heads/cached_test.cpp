@@ -49,7 +49,7 @@ class Cached : public ::testing::Test {
   }
 
   Lists lists(const Digest& key, std::uint32_t most = 9) {
-    return cached(
+    return read_or_make(
         folder_.path(), {"test", key},
         [&] {
           ++made_;
@@ -227,7 +227,7 @@ TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
 
 TEST_F(Cached, WithoutACacheNothingIsKept) {
   for (int times = 1; times <= 2; ++times) {
-    cached(
+    read_or_make(
         fs::path(), {"test", Digest{}}, [&] { return ++made_; },
         [](auto& arrays, auto& number) { arrays("number", number); },
         [](int, const CacheEntry&) { return true; });

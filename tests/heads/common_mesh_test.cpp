@@ -89,7 +89,7 @@ class CommonMesh : public ::testing::Test {
     for (const std::string& name : folder_.names()) paths.push_back(folder_.head(name));
     Problems problems;
     std::vector<HeadFile> heads = read_heads(paths, {}, problems);
-    compare_with_first(heads, problems);
+    compare_meshes_with_first(heads, problems);
     problems.throw_if_any();
     return heads;
   }
@@ -176,12 +176,12 @@ TEST_F(CommonMesh, MatchesCornersOnlyAtOnePosition) {
   split.corner_vertices[5] = static_cast<std::uint32_t>(split.vertex_count++);
   positions.conservativeResize(split.vertex_count, 3);
   positions.row(split.vertex_count - 1) = positions.row(topology.corner_vertices[5]);
-  const auto vertices = vertices_of_corners(topology, split, positions);
+  const auto vertices = match_vertices_by_corners(topology, split, positions);
   ASSERT_TRUE(vertices);
   EXPECT_EQ(std::ssize(*vertices), topology.vertex_count);
   positions(split.vertex_count - 1, 0) += 0.01;
-  EXPECT_FALSE(vertices_of_corners(topology, split, positions));
-  EXPECT_TRUE(vertices_of_corners(split, topology, original_[0].positions))
+  EXPECT_FALSE(match_vertices_by_corners(topology, split, positions));
+  EXPECT_TRUE(match_vertices_by_corners(split, topology, original_[0].positions))
       << "the copies take the position of the vertex";
 }
 

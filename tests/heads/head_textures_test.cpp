@@ -54,12 +54,12 @@ TEST(HeadTextures, WarningsNameHeadsAsTheCrowdDoes) {
   const TemporaryFolder folder;
   Read head = read(folder, "newmtl right\nmap_Kd gone.png\n");
   head.faces.heads.push_back({"ann", {}});
-  EXPECT_THAT(find_attachment_textures(head.faces, head.files).front().warnings,
+  EXPECT_THAT(find_texture_files(head.faces, head.files).front().warnings,
               ElementsAre(HasSubstr("(ann)")));
 }
 
 HeadTextures load(const Read& read, int max_px) {
-  return load_render_textures(find_attachment_textures(read.faces, read.files).front(), max_px);
+  return load_render_textures(find_texture_files(read.faces, read.files).front(), max_px);
 }
 
 TEST(HeadTextures, ComeFromTheMaterialOfEachFaceInLinearLight) {
@@ -100,7 +100,7 @@ TEST(HeadTextures, AMissingOneIsAWarning) {
   ASSERT_FALSE(textures.warnings.empty());
   EXPECT_THAT(textures.warnings.back(), HasSubstr("no.png"));
   const Read none = read(folder, "newmtl skin left\nnewmtl right\n");
-  EXPECT_FALSE(find_attachment_textures(none.faces, none.files).front().any());
+  EXPECT_FALSE(find_texture_files(none.faces, none.files).front().has_files());
 }
 
 TEST(HeadTextures, OfMaterialsThatNoFaceUsesAreToldNotToBeShown) {
@@ -109,7 +109,7 @@ TEST(HeadTextures, OfMaterialsThatNoFaceUsesAreToldNotToBeShown) {
   for (const char* materials :
        {"newmtl face\nmap_Kd a.png\nnewmtl neck\n", "newmtl face\nmap_Kd a.png\n"}) {
     const HeadTextures textures = load(read(folder, materials), 1024);
-    EXPECT_FALSE(textures.any() && textures.texture_sets[0].textures.size() > 0);
+    EXPECT_FALSE(textures.has_textures() && textures.texture_sets[0].textures.size() > 0);
     EXPECT_THAT(textures.warnings,
                 ElementsAre(AllOf(HasSubstr("no polygon uses their materials \"face\""),
                                   HasSubstr("its materials are \"skin left\", \"right\" (head)"))));

@@ -85,11 +85,11 @@ class KeptHeads : public ::testing::Test {
 constexpr const char* kBoth = "2 of 2 heads were read from the cache";
 
 TEST_F(KeptHeads, AreReadOnceAndGiveTheSameCrowd) {
-  ASSERT_GE(fs::file_size(folder_.head("ann")), kMinKeptBytes);
+  ASSERT_GE(fs::file_size(folder_.head("ann")), kMinCachedBytes);
   EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("heads were read from the cache")));
   const CacheContents contents = list_cache(folder_.cache());
-  EXPECT_EQ(contents.read, 2U);
-  EXPECT_EQ(contents.prepared, 2U);
+  EXPECT_EQ(contents.read_count, 2U);
+  EXPECT_EQ(contents.prepared_count, 2U);
   EXPECT_EQ(contents.entries.size(), 7U) << "one mesh, patches and a face space of both";
   run();
   EXPECT_THAT(log(), ::testing::HasSubstr(kBoth));
@@ -180,7 +180,7 @@ TEST_F(KeptHeads, OtherMeshIsToldAsWithoutCache) {
   EXPECT_EQ(error_of_job(folder_.cache()), expected);
   EXPECT_FALSE(fs::exists(entry_of("bob"))) << "heads that do not belong together are not kept";
   Problems problems;
-  keep_heads(read_heads({folder_.head("bob")}, {}, problems), folder_.cache());
+  cache_heads(read_heads({folder_.head("bob")}, {}, problems), folder_.cache());
   ASSERT_TRUE(fs::exists(entry_of("bob")));
   EXPECT_EQ(error_of_job(folder_.cache()), expected);
 }

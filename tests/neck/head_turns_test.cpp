@@ -87,7 +87,7 @@ TEST(RotationsToMedian, AreNoneForHeadsThatDifferInFormOnly) {
 TEST(PosePart, LeavesOutWhatFormsExplain) {
   const auto part = [](double degrees, const Eigen::Vector3d& axis) {
     const Eigen::AngleAxisd turn(degrees * kDegree, axis);
-    return degrees_of(pose_part(turn.toRotationMatrix(), kAcross));
+    return degrees_of(pose_difference(turn.toRotationMatrix(), kAcross));
   };
   EXPECT_EQ(part(5.9, {1, 0, 0}), 0);
   EXPECT_NEAR(part(6.1, {1, 0, 0}), 6.1, 1e-9);
@@ -101,10 +101,10 @@ TEST(TurnVector, GivesTheRotationBack) {
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(2, -1, 2) / 3).toRotationMatrix();
   const RigidMotion motion =
-      nudged({}, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d::Zero(), turn_vector(rotation), 0);
+      nudged({}, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d::Zero(), rotation_vector(rotation), 0);
   EXPECT_LT((motion.rotation - rotation).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((motion.apply({1, 2, 3}) - Eigen::Vector3d(1, 2, 3)).norm(), 1e-12);
-  EXPECT_TRUE(turn_vector(Eigen::Matrix3d::Identity()).isZero(0));
+  EXPECT_TRUE(rotation_vector(Eigen::Matrix3d::Identity()).isZero(0));
 }
 
 }  // namespace

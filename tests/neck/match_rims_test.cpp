@@ -24,7 +24,7 @@ using testing::Tube;
 constexpr double kReachMm = 60;
 
 std::vector<Rim> rims_of(const Topology& topology) {
-  return open_rims(topology, build_adjacency(topology));
+  return find_open_rims(topology, build_adjacency(topology));
 }
 
 TEST(OpenRims, AreTheLoopsOfAMesh) {
@@ -83,7 +83,7 @@ class MatchingRim : public ::testing::Test {
   MatchingRim() : head_(tube_.positions()(tube_.rim(), kAllColumns)), body_(tube_.positions()) {
     for (Index v = 0; v < body_.rows(); ++v) body_(v, 1) = -body_(v, 1);
   }
-  Rim find() const { return matching_rim(head_, rims_of(topology_), body_, kReachMm); }
+  Rim find() const { return find_matching_rim(head_, rims_of(topology_), body_, kReachMm); }
   void expect_refused(const std::vector<std::string>& phrases) const {
     for (const std::string& phrase : phrases) {
       expect_error(ExitCode::kBadData, {"of 24 vertices", phrase}, [&] { find(); });
@@ -180,10 +180,10 @@ TEST_F(MatchingRim, KeepsItsOrderIfItIsTurnedALittle) {
 
 TEST_F(MatchingRim, MayHaveAGivenOrder) {
   Rim rim = tube_.rim();
-  EXPECT_EQ(matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven), rim);
+  EXPECT_EQ(find_matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven), rim);
   std::rotate(rim.begin(), rim.begin() + 1, rim.end());
   expect_error(ExitCode::kBadData, {"turned by"},
-               [&] { matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven); });
+               [&] { find_matching_rim(head_, {rim}, body_, kReachMm, RimOrder::kGiven); });
 }
 
 TEST_F(MatchingRim, InAnotherOrderIsRefused) {

@@ -110,7 +110,7 @@ TEST_F(NeckOfATube, HoldsShapesStillAtTheRim) {
   moves.moves = testing::random_positions(static_cast<Index>(moves.vertices.size()), 5);
   Positions before = mesh_, after = mesh_;
   moves.add_to(before);
-  seam().fix_rim(moves);
+  seam().keep_rim_still(moves);
   moves.add_to(after);
   EXPECT_TRUE(std::ranges::is_sorted(moves.vertices));
   EXPECT_EQ(after(tube_.rim(), kAllColumns), mesh_(tube_.rim(), kAllColumns));
@@ -127,7 +127,7 @@ TEST_F(NeckOfATube, HoldsShapesStillAtTheRim) {
 
 TEST_F(NeckOfATube, LeavesShapesThatDoNotMoveTheRim) {
   Displacements moves{{200, 700}, Positions::Ones(2, 3)};
-  seam().fix_rim(moves);
+  seam().keep_rim_still(moves);
   EXPECT_EQ(moves.vertices, (std::vector<std::uint32_t>{200, 700}));
 }
 

@@ -17,14 +17,15 @@ const std::vector<Band> kFive = {Band::kBrow, Band::kNose, Band::kMouth, Band::k
 
 TEST(Bands, RunSoftlyIntoOneAnotherAndSumToOne) {
   const Eigen::VectorXd heights = Eigen::VectorXd::LinSpaced(401, -10, 10);
-  const auto alpha = level_bands(heights, 3, -3);
+  const auto alpha = horizontal_bands(heights, 3, -3);
   EXPECT_LT((alpha.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
   EXPECT_GE(alpha.minCoeff(), 0);
   EXPECT_EQ(alpha(0, 2), 1);
   EXPECT_EQ(alpha(220, 1), 1);
   EXPECT_EQ(alpha(400, 0), 1);
   EXPECT_LT((alpha.bottomRows(400) - alpha.topRows(400)).cwiseAbs().maxCoeff(), 0.06);
-  expect_error(ExitCode::kBadData, {"eyes above the mouth"}, [&] { level_bands(heights, 3, 3); });
+  expect_error(ExitCode::kBadData, {"eyes above the mouth"},
+               [&] { horizontal_bands(heights, 3, 3); });
 }
 
 TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {

@@ -22,8 +22,8 @@ FaceLandmarks landmarks_of_mean(const HeadSet& heads) {
 Positions in_order(const FaceLandmarks& found) {
   Positions points = Positions::Zero(static_cast<Index>(trait_landmarks().size()), 3);
   for (std::size_t l = 0; l < trait_landmarks().size(); ++l) {
-    const auto place = found.places.find(trait_landmarks()[l].name);
-    if (place == found.places.end()) continue;
+    const auto place = found.points.find(trait_landmarks()[l].name);
+    if (place == found.points.end()) continue;
     points.row(static_cast<Index>(l)) = 10 * place->second.position.transpose();
   }
   return points;
@@ -34,10 +34,10 @@ TEST(FaceLandmarks, AreFoundOnSyntheticHeadsOfAnyResolution) {
     const FaceLandmarks found = landmarks_of_mean(synth_heads(vertices, 8));
     for (const TraitLandmark& landmark : trait_landmarks()) {
       if (landmark.name == "hairline") continue;
-      EXPECT_TRUE(found.places.contains(landmark.name)) << landmark.name << " at " << vertices;
+      EXPECT_TRUE(found.points.contains(landmark.name)) << landmark.name << " at " << vertices;
     }
-    EXPECT_TRUE(found.missing.contains("hairline")) << "no shape shows it";
-    EXPECT_EQ(found.places.size() + found.missing.size(), trait_landmarks().size());
+    EXPECT_TRUE(found.missing_reasons.contains("hairline")) << "no shape shows it";
+    EXPECT_EQ(found.points.size() + found.missing_reasons.size(), trait_landmarks().size());
   }
 }
 
@@ -59,11 +59,11 @@ TEST(FaceLandmarks, GivePlausibleMeasurements) {
 
 TEST(FaceLandmarks, LeftAndRightAreSymmetric) {
   const FaceLandmarks found = landmarks_of_mean(synth_heads(20000, 8));
-  for (const auto& [name, left] : found.places) {
+  for (const auto& [name, left] : found.points) {
     const std::size_t side = name.find("_left");
     if (side == std::string::npos) continue;
-    const auto right = found.places.find(name.substr(0, side) + "_right");
-    ASSERT_NE(right, found.places.end()) << name;
+    const auto right = found.points.find(name.substr(0, side) + "_right");
+    ASSERT_NE(right, found.points.end()) << name;
     EXPECT_GT(left.position.x(), 0) << name << ": the head's own left";
     const Eigen::Vector3d image = right->second.position.cwiseProduct(Eigen::Vector3d(-1, 1, 1));
     EXPECT_LT((left.position - image).norm(), 0.15) << name << ", centimetres";
@@ -74,7 +74,7 @@ TEST(FaceLandmarks, WithoutAFaceThereAreNone) {
   const HeadSet heads = synth_heads(5000, 2);
   HeadSet flat = heads;
   for (Head& head : flat.heads) head.positions.col(2) *= 0.01;
-  EXPECT_TRUE(landmarks_of_mean(flat).places.empty());
+  EXPECT_TRUE(landmarks_of_mean(flat).points.empty());
 }
 
 }  // namespace

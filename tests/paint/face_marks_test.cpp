@@ -79,12 +79,12 @@ HeadShape merged(Topology& topology, const HeadShape& head, double cell) {
 TEST(FaceMarks, AReasonIsGivenIfNoFaceIsFound) {
   const HeadSet faces = synth_heads(5000);
   const HeadShape head = shape_of_mean(faces);
-  EXPECT_EQ(reason_of_no_face(faces.topology, head, axes_of({{1, 1}, {0, 1}})),
+  EXPECT_EQ(why_no_face_found(faces.topology, head, axes_of({{1, 1}, {0, 1}})),
             "the heads look along +Z with +Y up");
   Topology topology = faces.topology;
   const HeadShape coarse = merged(topology, head, 2.6);
   ASSERT_FALSE(find_face_marks(topology, coarse, {}));
-  const std::string reason = reason_of_no_face(topology, coarse, {});
+  const std::string reason = why_no_face_found(topology, coarse, {});
   EXPECT_NE(reason.find("mm long; above 18 mm they do not show a face"), reason.npos) << reason;
 }
 

@@ -16,7 +16,7 @@ TEST(SurfaceDistance, OnAPlaneItIsTheStraightWay) {
   const SurfacePoint place = surface.nearest({0.113, -0.071, 0.4});
   EXPECT_NEAR(place.position.x(), 0.113, 1e-12);
   EXPECT_NEAR(place.position.z(), 0, 1e-12);
-  const auto reached = surface.within({place}, 0.8);
+  const auto reached = surface.vertices_within({place}, 0.8);
   std::size_t inside = 0;
   for (Index v = 0; v < sheet.positions.rows(); ++v) {
     if ((sheet.positions.row(v).transpose() - place.position).norm() < 0.79) ++inside;
@@ -34,20 +34,21 @@ TEST(SurfaceDistance, ManyPlacesAreOne) {
   const SurfacePoint a = surface.nearest({-0.5, 0, 0}), b = surface.nearest({0.5, 0.1, 0});
   std::vector<double> nearest(static_cast<std::size_t>(sheet.positions.rows()), 1e9);
   for (const SurfacePoint& place : {a, b}) {
-    for (const auto& [v, d] : surface.within({place}, 0.7)) nearest[v] = std::min(nearest[v], d);
+    for (const auto& [v, d] : surface.vertices_within({place}, 0.7))
+      nearest[v] = std::min(nearest[v], d);
   }
-  for (const auto& [v, d] : surface.within({a, b}, 0.7)) EXPECT_NEAR(d, nearest[v], 0.02);
+  for (const auto& [v, d] : surface.vertices_within({a, b}, 0.7)) EXPECT_NEAR(d, nearest[v], 0.02);
 }
 
 TEST(SurfaceDistance, AGapIsNotCrossedHoweverNarrow) {
   const Sheet sheet = folded_sheet(40);
   const SurfaceDistance surface(sheet.topology, sheet.positions);
   const SurfacePoint place = surface.nearest({0.6, 0, 0});
-  for (const auto& [vertex, distance] : surface.within({place}, 0.55)) {
+  for (const auto& [vertex, distance] : surface.vertices_within({place}, 0.55)) {
     EXPECT_EQ(sheet.positions(vertex, 2), 0) << "around the fold it is 0.6 and more";
   }
   bool other_side = false;
-  for (const auto& [vertex, distance] : surface.within({place}, 0.75)) {
+  for (const auto& [vertex, distance] : surface.vertices_within({place}, 0.75)) {
     if (sheet.positions(vertex, 2) == 0) continue;
     other_side = true;
     EXPECT_GT(distance, 0.59);
@@ -71,7 +72,7 @@ TEST(SurfaceDistance, PiecesWithOneRimAreOneSurface) {
   const SurfaceDistance surface(both, positions);
   const SurfacePoint place = surface.nearest({0.75, 0.03, 0});
   double farthest = 0;
-  for (const auto& [vertex, distance] : surface.within({place}, 0.9)) {
+  for (const auto& [vertex, distance] : surface.vertices_within({place}, 0.9)) {
     const double straight = (positions.row(vertex).transpose() - place.position).norm();
     EXPECT_NEAR(distance, straight, 0.1 * straight + 1e-9);
     farthest = std::max(farthest, positions(vertex, 0));
@@ -84,7 +85,7 @@ TEST(SurfaceDistance, PiecesWithOneRimAreOneSurface) {
   const SurfaceDistance lips(closed.topology, closed.positions);
   const Adjacency edges = build_adjacency(closed.topology);
   for (std::uint32_t v = 0; v < closed.topology.vertex_count; ++v) {
-    EXPECT_EQ(lips.around(v).size(), edges.of(v).size());
+    EXPECT_EQ(lips.adjacent_vertices(v).size(), edges.of(v).size());
   }
 }
 

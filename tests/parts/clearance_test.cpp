@@ -32,7 +32,7 @@ struct Sheets {
     const Adjacency adjacency = build_adjacency(topology);
     std::vector<std::uint32_t> all;
     for (Index v = 0; v < positions.rows(); ++v) all.push_back(static_cast<std::uint32_t>(v));
-    ContactPlace place{{0.1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {}, {}};
+    GapSection place{{0.1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {}, {}};
     cut_profiles(adjacency, positions, all, side, 100, place);
     return Clearance(place, adjacency).gap(positions);
   }

@@ -64,7 +64,7 @@ struct LidsAroundBall {
     for (Index v = ball; v < moved.rows(); ++v) {
       const Eigen::Vector3d point = moved.row(v).transpose();
       const SurfacePoint place =
-          nearest_around(mesh.topology, faces, moved, grid.nearest(point).vertex, point);
+          nearest_point_around(mesh.topology, faces, moved, grid.nearest(point).vertex, point);
       const Eigen::Vector3d centre = motion.apply({0, 0, 0});
       const bool inside = (point - centre).norm() < (place.position - centre).norm();
       gaps.push_back(inside ? -place.distance : place.distance);

@@ -57,7 +57,7 @@ TEST(PartFollower, ChangesTheSizeOfBothEyeballsAlike) {
   scene.follower().follow(0, result);
   std::vector<double> growth;
   for (const Part& part : scene.parts.parts) {
-    if (!part.eyeball) continue;
+    if (!part.is_eyeball) continue;
     const auto extent = [&](const Positions& positions) {
       const Positions rows = positions(part.vertices, kAllColumns);
       return (rows.rowwise() - rows.colwise().mean()).norm();
@@ -94,7 +94,7 @@ TEST(PartFollower, MovesRigidPartsAsAWholeAndLeavesTheSkin) {
   const Positions blended = bent(head);
   Positions result = blended;
   scene.follower().follow(0, result);
-  for (Index v = 0; v < scene.parts.shapes[0].vertices; ++v) {
+  for (Index v = 0; v < scene.parts.shapes[0].vertex_count; ++v) {
     ASSERT_TRUE(result.row(v) == blended.row(v)) << "skin";
   }
   for (const Part& part : scene.parts.parts) {

@@ -71,7 +71,7 @@ class Watch {
     }
     for (const Part& part : parts_.parts) {
       if (part.part_class != PartClass::kRigid) continue;
-      if (part.eyeball) {
+      if (part.is_eyeball) {
         eyes_.push_back(watch_eye(part));
       } else {
         mouths_.push_back(&part);
@@ -98,7 +98,7 @@ class Watch {
         for (const std::uint32_t v : vertices) {
           const Vector3d point = mesh.row(v).transpose();
           const SurfacePoint place =
-              nearest_around(topology_, around_, mesh, ball.nearest(point).vertex, point);
+              nearest_point_around(topology_, around_, mesh, ball.nearest(point).vertex, point);
           Vector3d outward = normal_at(mesh, place);
           if (outward.dot(place.position - centre) < 0) outward = -outward;
           const double side = outward.dot(point - place.position) < 0 ? -1 : 1;
@@ -120,7 +120,7 @@ class Watch {
       for (const std::uint32_t v : part->vertices) {
         const Vector3d point = mesh.row(v).transpose();
         const SurfacePoint place =
-            nearest_around(topology_, around_, mesh, skin.nearest(point).vertex, point);
+            nearest_point_around(topology_, around_, mesh, skin.nearest(point).vertex, point);
         Vector3d normal = Vector3d::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
           normal += place.shares[k] * normals.row(place.corners[k]).transpose();
@@ -408,14 +408,14 @@ void paint_bands(const std::filesystem::path& folder, const std::string& prefix)
   const auto height_of = [&](bool eyeball) {
     double sum = 0, count = 0;
     for (const Part& part : watch.parts().parts) {
-      if (part.part_class != PartClass::kRigid || part.eyeball != eyeball) continue;
+      if (part.part_class != PartClass::kRigid || part.is_eyeball != eyeball) continue;
       for (const std::uint32_t v : part.vertices) sum += faces.heads[0].positions(v, 1);
       count += static_cast<double>(part.vertices.size());
     }
     return sum / count;
   };
   const auto bands =
-      level_bands(faces.heads[0].positions.col(1), height_of(true), height_of(false));
+      horizontal_bands(faces.heads[0].positions.col(1), height_of(true), height_of(false));
   const PaintedMasks masks = paint_masks(faces.topology, faces.uvs, bands, {}, kSize);
   for (const auto& [file, bytes] : encode_masks(masks, prefix + ".png").files) {
     write_file(file, bytes);

@@ -29,13 +29,13 @@ TEST(Parts, AreToldApartByTheirShapes) {
   EXPECT_THAT(list.parts[0].components,
               ElementsAre(HeadComponent::kLeftEye, HeadComponent::kLeftIris))
       << "what lies inside an eyeball is part of it";
-  EXPECT_TRUE(list.parts[0].eyeball);
+  EXPECT_TRUE(list.parts[0].is_eyeball);
   EXPECT_THAT(list.parts[1].components, ElementsAre(HeadComponent::kRightEye));
-  EXPECT_TRUE(list.parts[1].eyeball);
+  EXPECT_TRUE(list.parts[1].is_eyeball);
   EXPECT_THAT(list.parts[2].components,
               ElementsAre(HeadComponent::kFirstTooth, HeadComponent::kSecondTooth))
       << "teeth side by side";
-  EXPECT_FALSE(list.parts[2].eyeball);
+  EXPECT_FALSE(list.parts[2].is_eyeball);
   EXPECT_EQ(list.parts[3].part_class, PartClass::kBound);
 }
 
@@ -60,8 +60,9 @@ TEST(Parts, KeepTheTeethOfTheTwoJawsApart) {
 TEST(Parts, KnowAnEyeballsSurface) {
   const PartList list = parts_of(testing::simple_head());
   const Part& eye = list.parts[0];
-  EXPECT_EQ(eye.ball, HeadComponent::kLeftEye);
-  EXPECT_EQ(static_cast<Index>(eye.surface.size()), list.shapes[HeadComponent::kLeftEye].vertices);
+  EXPECT_EQ(eye.ball_component, HeadComponent::kLeftEye);
+  EXPECT_EQ(static_cast<Index>(eye.surface.size()),
+            list.shapes[HeadComponent::kLeftEye].vertex_count);
   EXPECT_TRUE(list.parts[2].surface.empty());
 }
 
@@ -152,7 +153,7 @@ TEST(Parts, OfAHeadAreTheSameAtEveryResolution) {
     for (const Part& part : list.parts) {
       EXPECT_EQ(part.part_class, PartClass::kRigid);
       EXPECT_EQ(part.components.size(), 1U);
-      eyeballs.push_back(part.eyeball);
+      eyeballs.push_back(part.is_eyeball);
     }
     EXPECT_EQ(eyeballs, (std::vector<bool>{true, true, false, false}));
   }

@@ -32,7 +32,8 @@ TEST(RigidMotion, RecoversWhatMovedThePoints) {
     for (Index i = 0; i < from.rows(); ++i) {
       EXPECT_LT((motion.apply(from.row(i).transpose()) - to.row(i).transpose()).norm(), 1e-12)
           << angle;
-      EXPECT_LT((motion.undo(to.row(i).transpose()) - from.row(i).transpose()).norm(), 1e-12);
+      EXPECT_LT((motion.apply_inverse(to.row(i).transpose()) - from.row(i).transpose()).norm(),
+                1e-12);
     }
   }
 }

@@ -130,7 +130,7 @@ TEST(SkinContacts, DoNotPullSkinApartAndTogetherWhereNeighboursDiffer) {
   std::vector<std::size_t> along(contacts.size());
   std::iota(along.begin(), along.end(), 0U);
   std::sort(along.begin(), along.end(), [&](std::size_t a, std::size_t b) {
-    return contacts.place(a).middle.x() < contacts.place(b).middle.x();
+    return contacts.section(a).middle.x() < contacts.section(b).middle.x();
   });
   std::vector<SkinContacts::Range> ranges(contacts.size());
   for (std::size_t i = 0; i < along.size(); ++i) {
@@ -166,7 +166,7 @@ TEST(SkinContacts, OfSyntheticHeadsAreTheirLipsAtAnyResolution) {
     const SkinContacts contacts = contacts_of(faces);
     std::size_t lips = 0;
     for (std::size_t p = 0; p < contacts.size(); ++p) {
-      const Eigen::Vector3d& middle = contacts.place(p).middle;
+      const Eigen::Vector3d& middle = contacts.section(p).middle;
       if (middle.z() > 5 && middle.y() < -5) ++lips;
     }
     // Of 5,000 vertices a mouth has no more than six edges across.

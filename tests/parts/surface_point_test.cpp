@@ -46,8 +46,8 @@ TEST(SurfacePoint, IsNearerThanAnyOtherPlaceOnItsTriangles) {
   const PointGrid grid(mesh.positions, all);
   for (std::uint64_t i = 0; i < 100; ++i) {
     const Eigen::Vector3d point = random_point(i, 4);
-    const SurfacePoint place =
-        nearest_around(mesh.topology, faces, mesh.positions, grid.nearest(point).vertex, point);
+    const SurfacePoint place = nearest_point_around(mesh.topology, faces, mesh.positions,
+                                                    grid.nearest(point).vertex, point);
     EXPECT_NEAR(place.shares[0] + place.shares[1] + place.shares[2], 1, 1e-12);
     EXPECT_NEAR((place.position - point).norm(), place.distance, 1e-12);
     // Every triangle of the mesh, sampled finely.

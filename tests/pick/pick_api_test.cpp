@@ -148,8 +148,8 @@ TEST_F(PickApiTest, BesideTheMeshThereIsNothing) {
 
 TEST_F(PickApiTest, OnAnEyeNothingIsPickedButAtItsRim) {
   for (const Part& part : shape_.parts.parts) {
-    if (!part.eyeball) continue;
-    const Eigen::Vector3d centre = shape_.parts.shapes[part.ball].centre;
+    if (!part.is_eyeball) continue;
+    const Eigen::Vector3d centre = shape_.parts.shapes[part.ball_component].centre;
     EXPECT_TRUE(json("POST", "api/pick", look("template", centre))["place"].is_null());
   }
 }

@@ -95,7 +95,7 @@ TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
   const Job& job = *with.job;
   const FaceBuilder builder(job.config, job.inputs, *with.prepared);
   const MeshDefects defects = mesh_defects(job.config, job.inputs, builder);
-  const auto mirror = mirror_for(job.config, job.inputs, "a test");
+  const auto mirror = required_mirror_map(job.config, job.inputs, "a test");
   for (const double asymmetry : {1.0, 1.5}) {
     Recipe plain = recipe(0, 1, 60, 1.3);
     plain.asymmetry = asymmetry;

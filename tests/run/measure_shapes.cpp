@@ -209,7 +209,7 @@ int main(int argc, char** argv) try {
   }
   std::vector<MeasuredLids> eyes;
   for (const Part& part : job.inputs.parts.parts) {
-    if (!part.eyeball) continue;
+    if (!part.is_eyeball) continue;
     eyes.emplace_back(job.inputs.faces, skin, job.inputs.parts, part, set.neutral,
                       head_axes(job.config));
   }
@@ -227,7 +227,7 @@ int main(int argc, char** argv) try {
     face = round_to_single(face);
     const std::vector<TrianglePair> at_rest = crossings.of(face);
     at_rest_in_all += crossings.all(at_rest);
-    const std::vector<Displacements> carried_shapes = shapes.of_face(*recipe, face);
+    const std::vector<Displacements> carried_shapes = shapes.shapes_of_face(*recipe, face);
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       const Displacements& shape = template_moves[s];
       const Displacements moves = with_companion(carried_shapes, s, shapes.companion(s));

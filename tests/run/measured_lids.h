@@ -71,7 +71,7 @@ class MeasuredLids {
     std::vector<std::optional<double>> gaps;
     for (const EdgePoint& point : points_) {
       const Eigen::Vector3d at =
-          (1 - point.share) * row3(mesh, point.a) + point.share * row3(mesh, point.b);
+          (1 - point.fraction) * row3(mesh, point.a) + point.fraction * row3(mesh, point.b);
       const Cut below = highest(lower_, mesh, at.dot(axes_.side()), 1);
       const double gap = at.dot(axes_.up) - below.height;
       gaps.push_back(std::isfinite(gap) ? std::optional(gap) : std::nullopt);
@@ -104,7 +104,7 @@ class MeasuredLids {
   }
 
   BallMap map_in(const Positions& mesh) const {
-    const ComponentShape& ball = parts_.shapes[part_.ball];
+    const ComponentShape& ball = parts_.shapes[part_.ball_component];
     const RigidMotion motion = fit_rigid_motion(mean_, mesh, part_.vertices, ones_);
     return BallMap(faces_.topology, around_, mesh, part_.surface, motion.apply(ball.centre),
                    motion.scale * ball.radius, axes_);

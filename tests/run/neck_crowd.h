@@ -102,7 +102,7 @@ class NeckCrowd : public ::testing::Test {
       folder_.write(concat("heads/head_", h, ".obj"), with_normals(mesh));
     }
     const Adjacency adjacency = build_adjacency(heads_.topology());
-    rim_ = lowest_rim(open_rims(heads_.topology(), adjacency), mean, {0, 1, 0}, 10);
+    rim_ = lowest_rim(find_open_rims(heads_.topology(), adjacency), mean, {0, 1, 0}, 10);
     seam_ = mean(rim_, kAllColumns);
     for (Index i = 0; i < seam_.rows(); ++i) {
       seam_.row(i) += Eigen::RowVector3d(0.3, 0.2 * std::sin(static_cast<double>(i) / 9), 0.4);

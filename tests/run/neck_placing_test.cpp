@@ -61,17 +61,17 @@ TEST_F(NeckPlacing, HeadsAreMovedButNotTiltedScaledOrBent) {
   const Job plain = load_job(configure("", "", "", "plain"), {});
   const Job job = load_job(configure("{body: body.obj}", ""), {});
   for (std::size_t h = 0; h < kHeads; ++h) {
-    const auto& [placed, turn, moved_mm, turned_degrees, bent_mm] = job.inputs.neck->heads[h];
+    const auto& [placed, turn, shift_mm, rotation_degrees, max_bend_mm] = job.inputs.neck->heads[h];
     const Positions& head = job.inputs.faces.heads[h].positions;
     const Positions by = head - plain.inputs.faces.heads[h].positions;
     const Eigen::RowVector3d shift = (placed.moved_pivot - placed.pivot).transpose();
     EXPECT_TRUE(placed.rotation.isIdentity(1e-12));
     EXPECT_TRUE(turn.isZero(0));
-    EXPECT_LT(turned_degrees, 1e-9);
-    EXPECT_NEAR(moved_mm, 10 * shift.norm(), 1e-6);
+    EXPECT_LT(rotation_degrees, 1e-9);
+    EXPECT_NEAR(shift_mm, 10 * shift.norm(), 1e-6);
     EXPECT_LT((by.rowwise() - shift).cwiseAbs().maxCoeff(), 1e-9);
     const Positions rest = seam_ - head(rim_, kAllColumns);
-    EXPECT_NEAR(bent_mm, 10 * rest.rowwise().norm().maxCoeff(), 1e-3);
+    EXPECT_NEAR(max_bend_mm, 10 * rest.rowwise().norm().maxCoeff(), 1e-3);
     EXPECT_LT(rest.colwise().mean().norm(), 1e-5);
   }
 }
@@ -84,12 +84,12 @@ TEST_F(NeckPlacing, TurnedHeadsAreTurnedBackTogether) {
     change_head(h, [&](const Eigen::Vector3d& p) { return turn * p; });
   }
   const Job job = load_job(configure("{body: body.obj}", ""), {});
-  const Eigen::Matrix3d& rotation = job.inputs.neck->heads[2].placed.rotation;
+  const Eigen::Matrix3d& rotation = job.inputs.neck->heads[2].placement.rotation;
   EXPECT_LT(degrees_of(rotation * turn), 2) << "the wave of the body's ring tilts it a little";
   for (std::size_t h = 0; h < kHeads; ++h) {
-    EXPECT_EQ(job.inputs.neck->heads[h].placed.rotation, rotation);
-    EXPECT_TRUE(job.inputs.neck->heads[h].turn.isZero(0));
-    EXPECT_TRUE(straight.inputs.neck->heads[h].placed.rotation.isIdentity(1e-12));
+    EXPECT_EQ(job.inputs.neck->heads[h].placement.rotation, rotation);
+    EXPECT_TRUE(job.inputs.neck->heads[h].pose_rotation.isZero(0));
+    EXPECT_TRUE(straight.inputs.neck->heads[h].placement.rotation.isIdentity(1e-12));
   }
 }
 
@@ -102,9 +102,9 @@ TEST_F(NeckPlacing, TurnedHeadsAreTurnedBackToAHead) {
     change_head(h, [&](const Eigen::Vector3d& p) { return turn * p; });
   }
   const Job job = load_job(configure("{body: body.obj}", ""), {});
-  const Eigen::Matrix3d& rotation = job.inputs.neck->heads[2].placed.rotation;
+  const Eigen::Matrix3d& rotation = job.inputs.neck->heads[2].placement.rotation;
   EXPECT_LT(degrees_of(rotation * turn), 3) << "heads differ in form";
-  EXPECT_EQ(rotation, job.inputs.neck->heads[0].placed.rotation);
+  EXPECT_EQ(rotation, job.inputs.neck->heads[0].placement.rotation);
 }
 
 // A head in another pose than the others: its faces are turned back, and are the same faces as
@@ -176,8 +176,8 @@ TEST_F(NeckPlacing, SlopingRingsTiltNoHead) {
   };
   for (const Index h : {1, 3}) change_head(h, bend);
   const Job job = load_job(configure("{body: body.obj}", ""), {});
-  for (const HeadsOnBody::Head& head : job.inputs.neck->heads) EXPECT_EQ(head.turned_degrees, 0);
-  EXPECT_GT(job.inputs.neck->heads[1].bent_mm, 5);
+  for (const HeadsOnBody::Head& head : job.inputs.neck->heads) EXPECT_EQ(head.rotation_degrees, 0);
+  EXPECT_GT(job.inputs.neck->heads[1].max_bend_mm, 5);
 }
 
 TEST_F(NeckPlacing, MayBeThatOfAHeadOrTheirMean) {

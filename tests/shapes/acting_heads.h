@@ -35,7 +35,7 @@ struct Heads {
   std::vector<const Part*> eyes() const {
     std::vector<const Part*> eyes;
     for (const Part& part : parts.parts) {
-      if (part.eyeball) eyes.push_back(&part);
+      if (part.is_eyeball) eyes.push_back(&part);
     }
     return eyes;
   }
@@ -57,7 +57,7 @@ inline bool is_skin(const Heads& heads, Index v) {
 /// An eye's centre and radius on a head: those on the mean head, carried there.
 inline std::pair<Vector3d, double> ball_of(const Heads& heads, const Part& eye,
                                            const Positions& head) {
-  const ComponentShape& ball = heads.parts.shapes[eye.ball];
+  const ComponentShape& ball = heads.parts.shapes[eye.ball_component];
   const RigidMotion motion = fit_rigid_motion(mean_head(heads.faces), head, eye.vertices,
                                               std::vector<double>(eye.vertices.size(), 1.0));
   return {motion.apply(ball.centre), motion.scale * ball.radius};

@@ -34,7 +34,7 @@ struct HeadsWithPoints {
   const Positions& operator[](std::size_t i) const { return faces.heads[i].positions; }
   const Part& eye() const {
     for (const Part& part : parts.parts) {
-      if (part.eyeball) return part;
+      if (part.is_eyeball) return part;
     }
     throw std::logic_error("no eyeball");
   }

@@ -272,7 +272,7 @@ TEST(ShapeTransfer, RigidPartsStayRigid) {
   const Heads heads = synthetic_heads();
   const Part* teeth = nullptr;
   for (const Part& part : heads.parts.parts) {
-    if (!part.eyeball && part.part_class == PartClass::kRigid) teeth = &part;
+    if (!part.is_eyeball && part.part_class == PartClass::kRigid) teeth = &part;
   }
   ASSERT_NE(teeth, nullptr);
   Positions open = heads[0];

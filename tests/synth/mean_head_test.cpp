@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 TEST(Sculpture, LineMeetsTheSkin) {
   for (const Vector3d& guide : {Vector3d(0, 0, 9), Vector3d(0, 11, 0), Vector3d(7, 3, -1),
                                 Vector3d(-7, 3, -1), Vector3d(0, 2, -9), Vector3d(3, -7, 8)}) {
-    const Vector3d on = onto_skin({0, 0, 0}, guide);
+    const Vector3d on = project_onto_skin({0, 0, 0}, guide);
     EXPECT_NEAR(skin_distance(on), 0, 1e-9);
     EXPECT_NEAR(on.normalized().dot(guide.normalized()), 1, 1e-12);
     EXPECT_NEAR(skin_normal(on).norm(), 1, 1e-12);

@@ -58,16 +58,16 @@ std::array<Spread, 2> spread_of(const Distance& distance) {
 }
 
 struct Landmarks {
-  Vector3d euryon = onto_skin({0, 4, -1}, {8, 4, -1});
-  Vector3d frontotemporale = onto_skin({0, 2.6, 6.5}, {6, 2.6, 6.5});
-  Vector3d zygion = onto_skin({0, -2, 3}, {8, -2, 3});
-  Vector3d gonion = onto_skin({0, -7.6, 1.4}, {6, -7.6, 1.4});
-  Vector3d glabella = onto_skin({0, 1.9, 0}, {0, 1.9, 10});
-  Vector3d opisthocranion = onto_skin({0, 2, 0}, {0, 2, -10});
-  Vector3d nasion = onto_skin({0, 0.6, 6}, {0, 0.6, 10});
-  Vector3d gnathion = onto_skin({0, -9, 7.4}, {0, -13, 7.4});
-  Vector3d subnasale = onto_skin({0, -3.5, 8}, {0, -4.8, 9.9});
-  Vector3d alare = onto_skin({0, -3.9, 10}, {2, -3.9, 10});
+  Vector3d euryon = project_onto_skin({0, 4, -1}, {8, 4, -1});
+  Vector3d frontotemporale = project_onto_skin({0, 2.6, 6.5}, {6, 2.6, 6.5});
+  Vector3d zygion = project_onto_skin({0, -2, 3}, {8, -2, 3});
+  Vector3d gonion = project_onto_skin({0, -7.6, 1.4}, {6, -7.6, 1.4});
+  Vector3d glabella = project_onto_skin({0, 1.9, 0}, {0, 1.9, 10});
+  Vector3d opisthocranion = project_onto_skin({0, 2, 0}, {0, 2, -10});
+  Vector3d nasion = project_onto_skin({0, 0.6, 6}, {0, 0.6, 10});
+  Vector3d gnathion = project_onto_skin({0, -9, 7.4}, {0, -13, 7.4});
+  Vector3d subnasale = project_onto_skin({0, -3.5, 8}, {0, -4.8, 9.9});
+  Vector3d alare = project_onto_skin({0, -3.9, 10}, {2, -3.9, 10});
   Vector3d endocanthion = mean_skin({Sheet::kEye, 1, 0.5, 1}).position;
   Vector3d exocanthion = mean_skin({Sheet::kEye, 1, 2.5, 1}).position;
   Vector3d cheilion = mean_skin({Sheet::kMouth, 1, 2.5, 1}).position;

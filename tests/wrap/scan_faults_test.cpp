@@ -37,9 +37,9 @@ class ScanFaults : public ::testing::Test {
   }
   const Part& eye() const {
     return *std::find_if(shape_.parts.parts.begin(), shape_.parts.parts.end(),
-                         [](const Part& part) { return part.eyeball; });
+                         [](const Part& part) { return part.is_eyeball; });
   }
-  const ComponentShape& ball() const { return shape_.parts.shapes[eye().ball]; }
+  const ComponentShape& ball() const { return shape_.parts.shapes[eye().ball_component]; }
   std::vector<std::string> faults() const { return scan_faults(shape_, result_, regions_); }
 
   WrapTemplate shape_;

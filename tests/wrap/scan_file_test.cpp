@@ -199,7 +199,7 @@ TEST(ScanFile, LashesOfAHeadWithEyesAreLeftOut) {
   const Scan head{heads.positions(1, 0), triangles_of(heads.topology())};
   const WrapTemplate shape = make_template(heads.topology(), 10 * head.positions, {});
   const Part* eye = nullptr;
-  for (const Part& part : shape.parts.parts) eye = part.eyeball ? &part : eye;
+  for (const Part& part : shape.parts.parts) eye = part.is_eyeball ? &part : eye;
   ASSERT_NE(eye, nullptr);
   const Eigen::Vector3d centre = shape.parts.shapes[eye->ball].centre / 10;
   // A strip of the skin above the eye, a third of a millimetre off it.
@@ -222,7 +222,7 @@ TEST(ScanFile, LashesOfAHeadWithEyesAreLeftOut) {
   EXPECT_EQ(remove_shells(dressed).triangles, head.triangles);
   std::erase_if(dressed.triangles, [&](const Triangle& t) {
     return std::ranges::any_of(shape.parts.parts, [&](const Part& part) {
-      return part.eyeball && std::ranges::binary_search(part.vertices, t[0]);
+      return part.is_eyeball && std::ranges::binary_search(part.vertices, t[0]);
     });
   });
   EXPECT_EQ(remove_shells(dressed).triangles, dressed.triangles) << "a scan in pieces";

@@ -9,7 +9,7 @@ AttachmentCarrier::AttachmentCarrier(const FittedSkin& skin, const Topology& top
   if (move == AttachmentMove::kBend) {
     bend_ = std::make_unique<const SmoothBend>(skin, points);
   } else {
-    seat_ = std::make_unique<const RigidSeat>(skin, points, *gaps_);
+    rigid_placement_ = std::make_unique<const RigidPlacement>(skin, points, *gaps_);
   }
 }
 
@@ -18,7 +18,7 @@ std::size_t AttachmentCarrier::memory_bytes() const {
 }
 
 Positions AttachmentCarrier::carry(const Positions& face, const Positions& normals) const {
-  if (seat_) return seat_->seat(face, normals);
+  if (rigid_placement_) return rigid_placement_->place(face, normals);
   Positions points = bend_->bend(face);
   gaps_->restore(face, normals, points);
   return points;

@@ -37,8 +37,9 @@ class AttachmentCarrier {
 
  private:
   std::unique_ptr<const SkinGaps> gaps_;
-  std::unique_ptr<const SmoothBend> bend_;  ///< Exactly one of `bend_` and `seat_` is set.
-  std::unique_ptr<const RigidSeat> seat_;
+  std::unique_ptr<const SmoothBend>
+      bend_;  ///< Exactly one of `bend_` and `rigid_placement_` is set.
+  std::unique_ptr<const RigidPlacement> rigid_placement_;
 };
 
 }  // namespace crowdface

@@ -73,7 +73,7 @@ FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std
   // Add coarser levels for larger patches.
   while (levels_.back().vertices.size() > kCoarsest) {
     const std::size_t before = levels_.back().vertices.size();
-    add_coarser(2 * levels_.back().spacing);
+    add_coarser_level(2 * levels_.back().spacing);
     if (levels_.back().vertices.size() == before) break;
   }
 }
@@ -86,7 +86,7 @@ void FittedSkin::add_level(double spacing, std::vector<std::uint32_t> vertices,
 
 /// Adds a coarser level: picks in each cell the vertex nearest to the cell's centre of area, and
 /// gives this vertex the area of the whole cell.
-void FittedSkin::add_coarser(double spacing) {
+void FittedSkin::add_coarser_level(double spacing) {
   std::vector<InCell> cells;
   const Eigen::Vector3d low = row3(mesh_, skin_.front());
   for (const std::uint32_t v : skin_) {
@@ -179,10 +179,11 @@ Positions FittedSkin::normals(const Positions& face) const {
   return normal_sign_ * fans_.normals(topology_, face, {0, 0, 0});
 }
 
-SkinPlace FittedSkin::place_near(const Positions& face, const Positions& normals,
-                                 std::uint32_t start, const Eigen::Vector3d& point) const {
-  const SurfacePoint place = nearest_from(
-      topology_, vertex_faces_, face, descend(topology_, vertex_faces_, face, start, point), point);
+NearestSkin FittedSkin::nearest_skin(const Positions& face, const Positions& normals,
+                                     std::uint32_t start, const Eigen::Vector3d& point) const {
+  const SurfacePoint place = nearest_point_from(
+      topology_, vertex_faces_, face,
+      walk_to_nearest_vertex(topology_, vertex_faces_, face, start, point), point);
   const Eigen::Vector3d outward = point_on(normals, place.corners, place.shares).normalized();
   return {place.corners[0], (point - place.position).dot(outward), outward, place.position};
 }

@@ -14,7 +14,7 @@
 namespace crowdface {
 
 /// The point of the skin that is nearest to a given point.
-struct SkinPlace {
+struct NearestSkin {
   std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
   /// signed distance of the given point from the skin; negative if the point is inside
   double height = 0;
@@ -55,8 +55,7 @@ class FittedSkin {
   /// from the skin. Weights and reach are continuous in the point, so neighbouring points get
   /// almost the same patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
-  /// Like patch_around(point), with a given minimum reach.
-  /// \param min_reach  Minimum reach of the patch.
+  /// Like patch_around(point), but the reach is at least `min_reach`.
   Patch patch_around(const Eigen::Vector3d& point, double min_reach) const;
 
   /// Returns the outward unit normals of a face's vertices, #V by 3.
@@ -67,8 +66,8 @@ class FittedSkin {
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from `normals`.
   /// \param start    A vertex of the skin near the point.
-  SkinPlace place_near(const Positions& face, const Positions& normals, std::uint32_t start,
-                       const Eigen::Vector3d& point) const;
+  NearestSkin nearest_skin(const Positions& face, const Positions& normals, std::uint32_t start,
+                           const Eigen::Vector3d& point) const;
 
  private:
   /// A level of detail of the skin: one vertex in each occupied cell of a grid.
@@ -79,7 +78,7 @@ class FittedSkin {
     PointGrid grid;
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
-  void add_coarser(double spacing);
+  void add_coarser_level(double spacing);
   double reach_at(const Eigen::Vector3d& point, double min_reach) const;
   void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                    Patch& patch) const;

@@ -23,7 +23,8 @@ constexpr double kStillness = 0.02;
 
 }  // namespace
 
-RigidSeat::RigidSeat(const FittedSkin& skin, const Positions& points, const SkinGaps& gaps)
+RigidPlacement::RigidPlacement(const FittedSkin& skin, const Positions& points,
+                               const SkinGaps& gaps)
     : skin_(skin), points_(points), gaps_(gaps) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(points.rows()));
   if (all.empty()) return;
@@ -38,7 +39,7 @@ RigidSeat::RigidSeat(const FittedSkin& skin, const Positions& points, const Skin
   }
 }
 
-Positions RigidSeat::moved_points(const RigidMotion& motion) const {
+Positions RigidPlacement::moved_points(const RigidMotion& motion) const {
   Positions result(points_.rows(), 3);
   for (Index p = 0; p < points_.rows(); ++p) {
     result.row(p) = motion.apply(row3(points_, p)).transpose();
@@ -47,8 +48,8 @@ Positions RigidSeat::moved_points(const RigidMotion& motion) const {
 }
 
 /// Returns `motion` followed by one least-squares step that moves the attachment out of the skin.
-RigidMotion RigidSeat::step_out_of_skin(const RigidMotion& motion,
-                                        const std::vector<SkinGaps::Violation>& missing) const {
+RigidMotion RigidPlacement::step_out_of_skin(
+    const RigidMotion& motion, const std::vector<SkinGaps::Violation>& missing) const {
   // translation, rotation and growth; rotation and growth are scaled by the radius
   constexpr std::size_t kUnknowns = 7;
   QuadraticProgram program(kUnknowns);
@@ -68,7 +69,7 @@ RigidMotion RigidSeat::step_out_of_skin(const RigidMotion& motion,
                 x[6] / radius);
 }
 
-Positions RigidSeat::seat(const Positions& face, const Positions& normals) const {
+Positions RigidPlacement::place(const Positions& face, const Positions& normals) const {
   if (socket_.vertices.size() < 3) return moved_points({});
   RigidMotion motion = fit_rigid_motion(skin_.mesh(), face, socket_.vertices, socket_.weights);
   for (int round = 0; round < kSeatRounds; ++round) {

@@ -12,18 +12,18 @@ namespace crowdface {
 /// Places a rigid attachment on a face. First, the attachment moves by the rotation, translation
 /// and scale that best fit the motion of the nearby skin. Then a few small rigid motions reduce the
 /// depth by which the attachment penetrates the skin.
-class RigidSeat {
+class RigidPlacement {
  public:
   /// \param skin    Must outlive this object.
   /// \param points  #P by 3, on the fitted mesh; must outlive this object.
   /// \param gaps    Distances of the points from the skin; must outlive this object.
-  RigidSeat(const FittedSkin& skin, const Positions& points, const SkinGaps& gaps);
+  RigidPlacement(const FittedSkin& skin, const Positions& points, const SkinGaps& gaps);
 
   /// Returns the points on a face, #P by 3.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
-  Positions seat(const Positions& face, const Positions& normals) const;
+  Positions place(const Positions& face, const Positions& normals) const;
 
  private:
   RigidMotion step_out_of_skin(const RigidMotion& motion,

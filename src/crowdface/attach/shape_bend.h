@@ -26,13 +26,12 @@ class ShapeBend {
   ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
             const Positions& points);
 
-  /// Returns how the attachment moves in an expression. The result omits points whose patches
-  /// contain no moved skin.
+  /// Returns the displacements of the attachment in an expression. Points whose patches contain no
+  /// moved skin are omitted.
   ///
   /// \param face   #V by 3, at rest.
   /// \param placed #P by 3, the attachment on that face at rest.
   /// \param shape  Displacements of the face.
-  /// \return       Displacements of the attachment's points.
   Displacements shape_displacements(const Positions& face, const Positions& placed,
                                     const Displacements& shape) const;
 

@@ -28,15 +28,15 @@ constexpr double kNowhere = std::numeric_limits<double>::infinity();
 SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Positions& points)
     : skin_(skin),
       heights_(static_cast<std::size_t>(points.rows()), kNowhere),
-      starts_(heights_.size(), 0),
+      start_vertices_(heights_.size(), 0),
       neighbours_(build_adjacency(topology)) {
   const Positions normals = skin.normals(skin.mesh());
   parallel_for_each(heights_.size(), kGapsPerBlock, [&](std::size_t p) {
     const Eigen::Vector3d point = row3(points, static_cast<Index>(p));
-    const PointGrid::Nearest nearest = skin.grid().nearest(point);
-    starts_[p] = nearest.vertex;
+    const PointGrid::NearestVertex nearest = skin.grid().nearest(point);
+    start_vertices_[p] = nearest.vertex;
     if (nearest.distance > kFarMm * skin.mm() + 2 * skin.spacing()) return;
-    heights_[p] = skin.place_near(skin.mesh(), normals, nearest.vertex, point).height;
+    heights_[p] = skin.nearest_skin(skin.mesh(), normals, nearest.vertex, point).height;
   });
 }
 
@@ -55,7 +55,8 @@ std::vector<SkinGaps::Violation> SkinGaps::violations(const Positions& face,
   std::vector<Violation> all;
   for (std::uint32_t p = 0; p < heights_.size(); ++p) {
     if (heights_[p] == kNowhere || heights_[p] < 0) continue;
-    const SkinPlace place = skin_.place_near(face, normals, starts_[p], row3(points, p));
+    const NearestSkin place =
+        skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     const double missing = min_height(p) - place.height;
     if (missing > 0) all.push_back({p, missing, place.outward});
   }
@@ -67,7 +68,8 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
   const auto count = static_cast<std::uint32_t>(heights_.size());
   parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
     if (heights_[p] == kNowhere) return;
-    const SkinPlace place = skin_.place_near(face, normals, starts_[p], row3(points, p));
+    const NearestSkin place =
+        skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     // Restore the original gap near the skin, and at least the minimum distance elsewhere.
     const double off = std::abs(heights_[p]) / skin_.mm();
     const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);

@@ -51,7 +51,7 @@ class SkinGaps {
   /// #P: signed distances on the fitted mesh; infinite if the point is far from the skin
   std::vector<double> heights_;
   /// #P: a skin vertex near each point, where the search for the nearest skin starts
-  std::vector<std::uint32_t> starts_;
+  std::vector<std::uint32_t> start_vertices_;
   Adjacency neighbours_;  ///< #P: neighbours in the attachment's mesh
 };
 

@@ -22,8 +22,8 @@ namespace {
 /// a texture file without a path.
 /// \param is_skin  #F: whether the face belongs to the skin
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
-                     HeadsTextures& found) {
-  AttachmentTextures& placed = found.heads[0];
+                     FoundTextureFiles& found) {
+  HeadTextureFiles& placed = found.heads[0];
   if (placed.of_face.empty()) placed.of_face.assign(is_skin.size(), kNoIndex);
   std::set<std::uint32_t> used;
   bool tiled = false;
@@ -76,12 +76,13 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int p
                 "found none");
   }
   const FaceMaterials materials = face_materials(file.materials, topology.face_count());
-  HeadsTextures found =
-      find_attachment_textures({topology, file.uvs, {{file.path.stem().string(), {}}}}, {&file, 1})
+  FoundTextureFiles found =
+      find_texture_files({topology, file.uvs, {{file.path.stem().string(), {}}}}, {&file, 1})
           .front();
   warnings_ = std::move(found.warnings);
-  for (std::string& warning : leave_out_unreadable(found)) warnings_.push_back(std::move(warning));
-  const AttachmentTextures own = found.heads[0];
+  for (std::string& warning : remove_unreadable_files(found))
+    warnings_.push_back(std::move(warning));
+  const HeadTextureFiles own = found.heads[0];
   choose_pictures(materials, is_skin, found);
   TextureLayout layout;
   const std::vector<PictureSource> pictures = lay_out_pictures(found, layout);

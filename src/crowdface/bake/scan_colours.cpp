@@ -71,8 +71,8 @@ std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
 
 }  // namespace
 
-MeshMaps read_mesh_maps(const AttachmentTextures& textures, TextureKind kind,
-                        const Topology& topology, const TextureCoordinates& uvs) {
+MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind, const Topology& topology,
+                        const TextureCoordinates& uvs) {
   MeshMaps maps;
   maps.texture_of_face = textures.of_face;
   if (textures.files.empty()) return maps;
@@ -113,12 +113,13 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     named.material_libraries = {write_mesh_textures(mesh, scratch.path(), "scan")};
     named.textures_at = scratch.path() / "scan";
   }
-  HeadsTextures found = find_attachment_textures(mesh_, {&named, 1}).front();
+  FoundTextureFiles found = find_texture_files(mesh_, {&named, 1}).front();
   warnings_ = std::move(found.warnings);
-  for (std::string& warning : leave_out_unreadable(found)) warnings_.push_back(std::move(warning));
+  for (std::string& warning : remove_unreadable_files(found))
+    warnings_.push_back(std::move(warning));
   colours_ = read_mesh_maps(found.heads[0], TextureKind::kColour, topology, mesh_.uvs);
   if (mesh.textures.empty()) {
-    for (const AttachmentTextures::File& texture : found.heads[0].files) {
+    for (const HeadTextureFiles::File& texture : found.heads[0].files) {
       texture_paths_.push_back(texture.path);
     }
   }

@@ -33,7 +33,7 @@ EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& s
   const std::lock_guard lock(mutex_);
   if (!shapes_) shapes_ = std::make_unique<const FaceShapes>(job_.config, job_.inputs);
   if (face_.rows() != positions.rows() || face_ != positions) {
-    moves_ = shapes_->of_face(recipe, positions);
+    moves_ = shapes_->shapes_of_face(recipe, positions);
     face_ = positions;
   }
   for (const auto& [shape, share] : wanted) {

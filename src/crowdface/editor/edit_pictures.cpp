@@ -38,7 +38,7 @@ const FaceTextures& EditPictures::textures() {
 std::optional<TextureSet> EditPictures::textures_of(const Recipe& recipe) {
   constexpr int kMaxTexels = 1024;
   const Inputs& inputs = job_.inputs;
-  if (!inputs.textures.blend() && !any_is_shown(inputs.maps)) {
+  if (!inputs.textures.blend() && !are_any_rendered(inputs.maps)) {
     return texture_set_of_head(inputs.textures, recipe.target, kMaxTexels);
   }
   FaceTextureSet own(inputs.textures, inputs.maps, recipe.target, kMaxTexels);

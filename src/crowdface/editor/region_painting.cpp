@@ -199,7 +199,7 @@ PaintedRegions RegionPainting::regions(const Json& change) {
 std::vector<std::filesystem::path> RegionPainting::save(const PaintedRegions& regions,
                                                         const std::filesystem::path& path) const {
   const HeadSet& faces = session_.job().inputs.faces;
-  const int size = mask_size(faces.topology.vertex_count);
+  const int size = mask_texels(faces.topology.vertex_count);
   const MaskFiles images =
       encode_masks(paint_masks(faces.topology, faces.uvs, regions.alpha, mean_.skin, size), path);
   for (const auto& [file, bytes] : images.files) write_file(file, bytes);

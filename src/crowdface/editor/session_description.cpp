@@ -157,7 +157,7 @@ Json EditSession::description() const {
   json["crowd"] = nullptr;
   if (crowd_) {
     json["crowd"] = {{"directory", config.output.directory.string()}, {"faces", Json::array()}};
-    add_change_choices(config, job_.inputs.textures.any(), json["crowd"]);
+    add_change_choices(config, job_.inputs.textures.has_textures(), json["crowd"]);
     for (const FacePlan& face : *crowd_) {
       Json entry = recipe_to_json(face, casting_, config);
       entry["index"] = face.index ? Json(*face.index) : Json(nullptr);

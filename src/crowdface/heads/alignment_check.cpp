@@ -62,7 +62,7 @@ HeadPose pose_against(const Positions& head, const Positions& reference) {
   pose.angle_degrees = fit.angle_degrees();
   pose.scale = fit.scale > 0 ? 1 / fit.scale : 0;
   if (size > 0) {
-    pose.shift = (head.colwise().mean() - reference.colwise().mean()).norm() / size;
+    pose.relative_shift = (head.colwise().mean() - reference.colwise().mean()).norm() / size;
   }
   return pose;
 }
@@ -72,22 +72,24 @@ bool is_of_other_size(const HeadPose& pose) {
 }
 
 bool is_off(const HeadPose& pose) {
-  return pose.angle_degrees > kMaxDegrees || pose.shift > kMaxShift || is_of_other_size(pose);
+  return pose.angle_degrees > kMaxDegrees || pose.relative_shift > kMaxShift ||
+         is_of_other_size(pose);
 }
 
 double badness(const HeadPose& pose) {
   const double scale = std::max(pose.scale, 1 / std::max(pose.scale, 1e-9));
-  return pose.angle_degrees / kMaxDegrees + pose.shift / kMaxShift + (scale - 1) / (kMaxScale - 1);
+  return pose.angle_degrees / kMaxDegrees + pose.relative_shift / kMaxShift +
+         (scale - 1) / (kMaxScale - 1);
 }
 
 }  // namespace
 
-std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& components) {
+std::vector<HeadPose> head_poses(const HeadSet& heads, const Components& components) {
   const std::vector<Index> chosen = some_skin(components, kPoints);
-  const std::size_t count = faces.heads.size();
+  const std::size_t count = heads.heads.size();
   if (chosen.size() < 3) return std::vector<HeadPose>(count);
   std::vector<Positions> points;
-  for (const Head& head : faces.heads) points.emplace_back(head.positions(chosen, kAllColumns));
+  for (const Head& head : heads.heads) points.emplace_back(head.positions(chosen, kAllColumns));
   // The reference is the head whose median disagreement with the other heads is smallest, so that
   // one stray head does not make the other heads look wrong.
   std::vector<double> disagreement(count);
@@ -121,45 +123,46 @@ std::string objection_to_pose(const HeadPose& pose, const std::string& head) {
   return {};
 }
 
-bool needs_rigid_alignment(const HeadSet& faces, const Components& components) {
-  const std::vector<HeadPose> poses = head_poses(faces, components);
+bool needs_rigid_alignment(const HeadSet& heads, const Components& components) {
+  const std::vector<HeadPose> poses = head_poses(heads, components);
   return std::ranges::any_of(poses, is_off) && std::ranges::none_of(poses, is_of_other_size);
 }
 
-std::vector<std::string> align_heads(HeadSet& faces, const Components& components, Align align) {
+std::vector<std::string> align_heads(HeadSet& heads, const Components& components, Align align) {
   if (align == Align::kNone) return {};
   if (align == Align::kRigid) {
     const std::vector<Index> chosen =
-        some_skin(components, std::max<Index>(faces.topology.vertex_count, 1));
-    const Positions reference = faces.heads[0].positions(chosen, kAllColumns);
+        some_skin(components, std::max<Index>(heads.topology.vertex_count, 1));
+    const Positions reference = heads.heads[0].positions(chosen, kAllColumns);
     if (chosen.size() >= 3) {
-      parallel_for_each(faces.heads.size() - 1, [&](std::size_t h) {
-        Positions& positions = faces.heads[h + 1].positions;
+      parallel_for_each(heads.heads.size() - 1, [&](std::size_t h) {
+        Positions& positions = heads.heads[h + 1].positions;
         const Positions points = positions(chosen, kAllColumns);
         positions = fit_similarity(points, reference, ScaleFit::kRigid).apply(positions);
       });
     }
   }
   std::vector<std::string> warnings;
-  const std::vector<HeadPose> poses = head_poses(faces, components);
+  const std::vector<HeadPose> poses = head_poses(heads, components);
   for (std::size_t h = 0; h < poses.size(); ++h) {
-    const std::string objection = objection_to_pose(poses[h], faces.heads[h].name);
+    const std::string objection = objection_to_pose(poses[h], heads.heads[h].name);
     if (!objection.empty()) throw InvalidInput(objection);
     if (!is_off(poses[h])) continue;
     if (align == Align::kCheck && poses[h].angle_degrees > kMaxTurn) {
-      throw InvalidInput(concat("head ", faces.heads[h].name, " is turned by ",
+      throw InvalidInput(concat("head ", heads.heads[h].name, " is turned by ",
                                 format_fixed(poses[h].angle_degrees, 1),
                                 " degrees relative to the others; faces.align: rigid turns it "
                                 "back, faces.align: none skips this check"));
     }
-    warnings.push_back(concat(
-        "head ", faces.heads[h].name, " is not aligned with the others: turned by ",
-        format_fixed(poses[h].angle_degrees, 1), " degrees, moved by ",
-        format_fixed(100 * poses[h].shift, 1), " % of its size, ", format_fixed(poses[h].scale, 2),
-        " times as large; blending treats this difference as detail",
-        is_of_other_size(poses[h]) ? " (a different size is not corrected; check its units)"
-        : align == Align::kCheck   ? " (faces.align: rigid turns and moves it back)"
-                                   : ""));
+    warnings.push_back(
+        concat("head ", heads.heads[h].name, " is not aligned with the others: turned by ",
+               format_fixed(poses[h].angle_degrees, 1), " degrees, moved by ",
+               format_fixed(100 * poses[h].relative_shift, 1), " % of its size, ",
+               format_fixed(poses[h].scale, 2),
+               " times as large; blending treats this difference as detail",
+               is_of_other_size(poses[h]) ? " (a different size is not corrected; check its units)"
+               : align == Align::kCheck   ? " (faces.align: rigid turns and moves it back)"
+                                          : ""));
   }
   return warnings;
 }

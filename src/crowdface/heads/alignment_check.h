@@ -13,7 +13,8 @@ namespace crowdface {
 /// The rotation, shift and scale of a head relative to the reference head.
 struct HeadPose {
   double angle_degrees = 0;  ///< rotation that aligns the head with the reference
-  double shift = 0;  ///< distance between the heads' centroids, as a fraction of the head's size
+  /// distance between the heads' centroids, as a fraction of the head's size
+  double relative_shift = 0;
   double scale = 1;  ///< size of the head relative to the reference
   /// Whether left and right are swapped: reflected, the head fits the reference several times
   /// better.
@@ -22,7 +23,7 @@ struct HeadPose {
 
 /// Poses of all heads relative to the medoid (the head nearest in pose to all others). Only skin
 /// vertices count.
-std::vector<HeadPose> head_poses(const HeadSet& faces, const Components& components);
+std::vector<HeadPose> head_poses(const HeadSet& heads, const Components& components);
 
 /// A message that says why `align_heads` refuses a head even with `rigid`: the head is mirrored or
 /// in another unit. Empty if `align_heads` accepts the head.
@@ -30,13 +31,13 @@ std::string objection_to_pose(const HeadPose& pose, const std::string& head);
 
 /// Whether `rigid` alignment would help: all heads have the same size, but at least one head is
 /// rotated or shifted so far that `align_heads` would warn.
-bool needs_rigid_alignment(const HeadSet& faces, const Components& components);
+bool needs_rigid_alignment(const HeadSet& heads, const Components& components);
 
 /// Warns about heads that are rotated, shifted or scaled relative to the other heads, because
 /// blending would treat the difference in pose as detail. With `check`, heads stay as they are;
 /// with `rigid`, each head is first aligned with the first head.
-/// \throws InvalidInput if a head is mirrored, has another unit or, with `check`, is rotated by more than 45
-///         degrees.
-std::vector<std::string> align_heads(HeadSet& faces, const Components& components, Align align);
+/// \throws InvalidInput if a head is mirrored or has another unit, and with `check` also if a head
+///         is rotated by more than 45 degrees.
+std::vector<std::string> align_heads(HeadSet& heads, const Components& components, Align align);
 
 }  // namespace crowdface

@@ -44,12 +44,12 @@ std::optional<std::string> unused_materials(const NamedTextures& named, const Ob
 /// Returns the UDIM tile of a polygon. The polygon's centroid determines it, so that corners may
 /// lie on a tile's border. Returns the first tile if the polygon has no texture coordinates or lies
 /// outside all tiles.
-TilePlace tile_of(const HeadSet& faces, Index face) {
+TilePlace tile_of(const HeadSet& heads, Index face) {
   Eigen::RowVector2d sum(0, 0);
   double corners = 0;
-  for (const std::uint32_t uv : faces.topology.face_uvs(face)) {
+  for (const std::uint32_t uv : heads.topology.face_uvs(face)) {
     if (uv == kNoIndex) return {0, 0};
-    sum += faces.uvs.row(uv);
+    sum += heads.uvs.row(uv);
     corners += 1;
   }
   const Eigen::RowVector2d middle = sum / corners;
@@ -57,11 +57,11 @@ TilePlace tile_of(const HeadSet& faces, Index face) {
   return {static_cast<std::int32_t>(middle.x()), static_cast<std::int32_t>(middle.y())};
 }
 
-AttachmentTextures attachments_of(const std::map<std::string, fs::path>& of_material,
-                                  const std::vector<TilePlace>& tiles,
-                                  const std::vector<MaterialRange>& ranges,
-                                  std::vector<fs::path>& missing) {
-  AttachmentTextures placed;
+HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_material,
+                                const std::vector<TilePlace>& tiles,
+                                const std::vector<MaterialRange>& ranges,
+                                std::vector<fs::path>& missing) {
+  HeadTextureFiles placed;
   if (of_material.empty()) return placed;
   placed.of_face.assign(tiles.size(), kNoIndex);
   const FaceMaterials materials = face_materials(ranges, static_cast<Index>(tiles.size()));
@@ -91,19 +91,19 @@ AttachmentTextures attachments_of(const std::map<std::string, fs::path>& of_mate
 
 }  // namespace
 
-bool HeadsTextures::any() const {
-  return std::ranges::any_of(
-      heads, [](const AttachmentTextures& placed) { return !placed.files.empty(); });
+bool FoundTextureFiles::has_files() const {
+  return std::ranges::any_of(heads,
+                             [](const HeadTextureFiles& placed) { return !placed.files.empty(); });
 }
 
-bool HeadsTextures::differ() const {
-  const auto paths_of = [](const AttachmentTextures& placed) {
+bool FoundTextureFiles::heads_differ() const {
+  const auto paths_of = [](const HeadTextureFiles& placed) {
     std::vector<fs::path> paths;
-    for (const AttachmentTextures::File& file : placed.files) paths.push_back(file.path);
+    for (const HeadTextureFiles::File& file : placed.files) paths.push_back(file.path);
     return paths;
   };
-  const AttachmentTextures* first = nullptr;
-  for (const AttachmentTextures& placed : heads) {
+  const HeadTextureFiles* first = nullptr;
+  for (const HeadTextureFiles& placed : heads) {
     if (placed.files.empty()) continue;
     if (first == nullptr) first = &placed;
     if (paths_of(placed) != paths_of(*first)) return true;
@@ -111,10 +111,10 @@ bool HeadsTextures::differ() const {
   return false;
 }
 
-void leave_out(HeadsTextures& textures, const std::set<fs::path>& files) {
-  for (AttachmentTextures& placed : textures.heads) {
+void remove_files(FoundTextureFiles& textures, const std::set<fs::path>& files) {
+  for (HeadTextureFiles& placed : textures.heads) {
     std::vector<std::uint32_t> row(placed.files.size(), kNoIndex);
-    std::vector<AttachmentTextures::File> kept;
+    std::vector<HeadTextureFiles::File> kept;
     for (std::size_t i = 0; i < placed.files.size(); ++i) {
       if (files.contains(placed.files[i].path)) continue;
       row[i] = static_cast<std::uint32_t>(kept.size());
@@ -127,11 +127,11 @@ void leave_out(HeadsTextures& textures, const std::set<fs::path>& files) {
   }
 }
 
-std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
+std::vector<std::string> remove_unreadable_files(FoundTextureFiles& textures) {
   std::vector<std::string> warnings;
   std::set<fs::path> seen, unreadable;
-  for (const AttachmentTextures& placed : textures.heads) {
-    for (const AttachmentTextures::File& file : placed.files) {
+  for (const HeadTextureFiles& placed : textures.heads) {
+    for (const HeadTextureFiles::File& file : placed.files) {
       if (!seen.insert(file.path).second) continue;
       try {
         read_image_size(file.path, {.jpeg = true});
@@ -141,19 +141,19 @@ std::vector<std::string> leave_out_unreadable(HeadsTextures& textures) {
       }
     }
   }
-  leave_out(textures, unreadable);
+  remove_files(textures, unreadable);
   return warnings;
 }
 
-std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
-                                                    std::span<const ObjFile> files) {
-  const Index face_count = faces.topology.face_count();
-  const bool has_uvs = !faces.topology.corner_uvs.empty();
+std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
+                                                  std::span<const ObjFile> files) {
+  const Index face_count = heads.topology.face_count();
+  const bool has_uvs = !heads.topology.corner_uvs.empty();
   std::vector<TilePlace> tile(static_cast<std::size_t>(face_count), TilePlace{0, 0});
   if (has_uvs) {
     constexpr Index kBlock = 16384;
     parallel_for_each(face_count, kBlock,
-                      [&](Index f) { tile[static_cast<std::size_t>(f)] = tile_of(faces, f); });
+                      [&](Index f) { tile[static_cast<std::size_t>(f)] = tile_of(heads, f); });
   }
   // Heads in one folder mostly share their material files.
   std::map<std::pair<fs::path, std::vector<std::string>>, NamedTextures> known;
@@ -170,13 +170,13 @@ std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
     for (const auto& [kind, of_material] : named.of_kind) kinds.insert(kind);
     of_head.push_back(&named);
   }
-  std::vector<HeadsTextures> all;
+  std::vector<FoundTextureFiles> all;
   for (const TextureKind kind : kinds) {
-    HeadsTextures result{kind, {}, tile, {}};
+    FoundTextureFiles result{kind, {}, tile, {}};
     std::map<std::string, std::vector<std::string>> heads_of_warning;
     for (std::size_t h = 0; h < files.size(); ++h) {
       const std::string head =
-          h < faces.heads.size() ? faces.heads[h].name : files[h].path.stem().string();
+          h < heads.heads.size() ? heads.heads[h].name : files[h].path.stem().string();
       if (kind == TextureKind::kColour) {
         for (const std::string& text : of_head[h]->warnings) heads_of_warning[text].push_back(head);
         const auto unused = unused_materials(*of_head[h], files[h], face_count);
@@ -195,10 +195,10 @@ std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
     for (const auto& [text, heads] : heads_of_warning) {
       result.warnings.push_back(concat(text, " (", join(heads), ")"));
     }
-    if (result.any()) {
-      for (AttachmentTextures& placed : result.heads) placed.of_face.resize(tile.size(), kNoIndex);
+    if (result.has_files()) {
+      for (HeadTextureFiles& placed : result.heads) placed.of_face.resize(tile.size(), kNoIndex);
     }
-    if (kind == TextureKind::kColour || result.any()) all.push_back(std::move(result));
+    if (kind == TextureKind::kColour || result.has_files()) all.push_back(std::move(result));
   }
   return all;
 }

@@ -16,7 +16,7 @@
 namespace crowdface {
 
 /// The texture files of one kind that a head's materials name.
-struct AttachmentTextures {
+struct HeadTextureFiles {
   struct File {
     std::filesystem::path path;  ///< an existing file
     std::filesystem::path name;  ///< as in the material file; may contain <UDIM>
@@ -27,29 +27,29 @@ struct AttachmentTextures {
 };
 
 /// All heads' textures of one kind, and warnings about missing files.
-struct HeadsTextures {
+struct FoundTextureFiles {
   TextureKind kind = TextureKind::kColour;
-  std::vector<AttachmentTextures> heads;  ///< #heads
+  std::vector<HeadTextureFiles> heads;  ///< #heads
   /// #F, column and row of each polygon's UDIM tile
   std::vector<std::array<std::int32_t, 2>> tile;
   std::vector<std::string> warnings;  ///< without duplicates, each with the heads concerned
 
-  bool any() const;
+  bool has_files() const;
   /// Whether two heads have different textures.
-  bool differ() const;
+  bool heads_differ() const;
 };
 
-/// Removes these files; polygons that use them then have no texture.
-void leave_out(HeadsTextures& textures, const std::set<std::filesystem::path>& files);
-/// Removes files that are not readable images. \return a warning for each.
-std::vector<std::string> leave_out_unreadable(HeadsTextures& textures);
+/// Removes files from `textures`; the polygons that use a removed file then have no texture.
+void remove_files(FoundTextureFiles& textures, const std::set<std::filesystem::path>& files);
+/// Removes the files that are not readable images. \return a warning for each removed file.
+std::vector<std::string> remove_unreadable_files(FoundTextureFiles& textures);
 
 /// Reads material files and checks which textures exist, without reading the textures. Problems in
 /// material files are listed with the colour textures.
-/// \param faces  topology and texture coordinates that all heads share
+/// \param heads  topology and texture coordinates that all heads share
 /// \param files  #heads
-/// \return the colour textures, then each other kind that any head has.
-std::vector<HeadsTextures> find_attachment_textures(const HeadSet& faces,
-                                                    std::span<const ObjFile> files);
+/// \return one item per kind of texture: always the colours, then each kind that any head has.
+std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
+                                                  std::span<const ObjFile> files);
 
 }  // namespace crowdface

@@ -26,7 +26,7 @@ constexpr int kLargestUnasked = 4096;
 
 /// For each image, the files of a head from which the image is composed; empty if the head has no
 /// texture for some polygon of the image.
-std::vector<std::vector<std::uint32_t>> rows_in_pictures(const AttachmentTextures& placed,
+std::vector<std::vector<std::uint32_t>> rows_in_pictures(const HeadTextureFiles& placed,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
   std::vector<std::set<std::uint32_t>> rows(pictures);
@@ -128,7 +128,7 @@ void read_maps(LoadedMaps& maps, const fs::path& scratch) {
 
 /// Merges several maps, each of which covers some of the image's polygons.
 std::shared_ptr<const TextureMap> compose(
-    const HeadSet& faces, const TextureLayout& layout, std::uint32_t picture,
+    const HeadSet& heads, const TextureLayout& layout, std::uint32_t picture,
     const std::vector<std::uint32_t>& of_face,
     const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps,
     const fs::path& scratch) {
@@ -145,7 +145,7 @@ std::shared_ptr<const TextureMap> compose(
     }
     coding = MapCoding::value_coding(coding.channels, coding.low, high);
   }
-  const SurfaceTexels texels(faces.topology, faces.uvs, layout, picture);
+  const SurfaceTexels texels(heads.topology, heads.uvs, layout, picture);
   for (int y = 0; y < texels.height(); ++y) {
     for (const SurfaceTexels::Span& span : texels.row(y)) {
       const TextureMap& from = *maps.at(of_face[texels.triangle(span.triangle).face]);
@@ -163,7 +163,7 @@ std::shared_ptr<const TextureMap> compose(
 /// Sets the size of each image in the layout.
 /// \param sizes  size of each file
 /// \param rows   #heads by #pictures, see rows_in_pictures
-void choose_sizes(const HeadsTextures& found, const std::map<fs::path, ImageSize>& sizes,
+void choose_sizes(const FoundTextureFiles& found, const std::map<fs::path, ImageSize>& sizes,
                   const std::vector<std::vector<std::vector<std::uint32_t>>>& rows,
                   std::optional<std::uint64_t> size, TextureLayout& layout) {
   for (std::size_t p = 0; p < layout.pictures.size(); ++p) {
@@ -208,8 +208,8 @@ NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
 
 }  // namespace
 
-HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& materials,
-                                   HeadsTextures found, std::optional<std::uint64_t> size,
+HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& materials,
+                                   FoundTextureFiles found, std::optional<std::uint64_t> size,
                                    const fs::path& scratch) {
   HeadTextures result;
   TextureLayout& layout = result.blended.layout;
@@ -220,10 +220,10 @@ HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& ma
   std::map<fs::path, ImageSize> sizes;
   std::map<fs::path, Digest> contents;
   Hasher hasher;
-  for (const AttachmentTextures& placed : found.heads) {
+  for (const HeadTextureFiles& placed : found.heads) {
     rows.push_back(rows_in_pictures(placed, layout, pictures.size()));
     hasher.add(placed.files.size());
-    for (const AttachmentTextures::File& file : placed.files) {
+    for (const HeadTextureFiles::File& file : placed.files) {
       if (!sizes.contains(file.path)) {
         sizes[file.path] = read_image_size(file.path, {.jpeg = true});
         contents[file.path] = hash_file(file.path).digest;
@@ -242,8 +242,8 @@ HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) {
         const ImageSize& file = sizes.at(found.heads[h].files[row].path);
         channels = std::max(channels, file.channels);
-        name.of_bytes = name.of_bytes && file.has_bytes;
-        name.of_floats = name.of_floats || file.has_floats;
+        name.has_only_bytes = name.has_only_bytes && file.has_bytes;
+        name.holds_floats = name.holds_floats || file.has_floats;
       }
     }
     const auto& first = found.heads[pictures[p].head].files[pictures[p].row].path;
@@ -276,13 +276,13 @@ HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) of_row[row] = maps.at(needed(h, row, p));
       if (of_row.size() == 1) map = of_row.begin()->second;
       if (of_row.size() > 1) {
-        map = compose(faces, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row,
+        map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row,
                       out_of_memory);
       }
       if (map) continue;
       const PictureName& name = result.names[p];
       found.warnings.push_back(
-          concat(faces.heads[h].name, ": has no ", statement_of(found.kind).name, " texture",
+          concat(heads.heads[h].name, ": has no ", statement_of(found.kind).name, " texture",
                  name.part.empty() ? "" : concat(" for all of ", name.part),
                  name.tile == 0 ? "" : concat(" in tile ", name.tile),
                  "; in its place, faces use the textures of their other heads"));

@@ -90,7 +90,7 @@ BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
     : neck_(neck),
       topology_(neck.body->file.topology),
       uvs_(neck.body->file.uvs),
-      body_at_ring_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
+      body_ring_densities_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
       fade_(topology_, build_adjacency(topology_), neck.body->file.positions, neck.body_rim,
             falloff_mm / neck.mm_per_unit) {
   if (texture.empty()) {
@@ -106,11 +106,12 @@ BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
   texels_ =
       std::make_unique<const SurfaceTexels>(topology_, uvs_, one_picture(topology_, *map_), 0);
   if (texture.empty()) return;
-  body_at_ring_ = coarse_at(neck.body_rim, topology_, neck.body->file.positions, *texels_, map_);
+  body_ring_densities_ =
+      coarse_at(neck.body_rim, topology_, neck.body->file.positions, *texels_, map_);
 }
 
-BlendedPicture BodyPainter::paint(const Positions& at_ring) const {
-  const Positions difference = at_ring - body_at_ring_;
+BlendedPicture BodyPainter::paint(const Positions& ring_densities) const {
+  const Positions difference = ring_densities - body_ring_densities_;
   const Eigen::RowVector3d mean = difference.colwise().mean();
   Positions added = mean.replicate(topology_.vertex_count, 1);
   const Positions faded = fade_.bend(difference.rowwise() - mean);

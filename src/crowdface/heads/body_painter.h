@@ -26,8 +26,8 @@ class BodyPainter {
   const Topology& topology() const { return topology_; }
   const TextureCoordinates& uvs() const { return uvs_; }
 
-  /// \param at_ring  optical densities of the face's skin at the ring, #rim by 3
-  BlendedPicture paint(const Positions& at_ring) const;
+  /// \param ring_densities  optical densities of the face's skin at the ring, #rim by 3
+  BlendedPicture paint(const Positions& ring_densities) const;
 
  private:
   const HeadsOnBody& neck_;
@@ -35,7 +35,7 @@ class BodyPainter {
   TextureCoordinates uvs_;
   std::shared_ptr<const TextureMap> map_;
   std::unique_ptr<const SurfaceTexels> texels_;
-  Positions body_at_ring_;  ///< optical densities of the body, #rim by 3
+  Positions body_ring_densities_;  ///< optical densities of the body, #rim by 3
   NeckBend fade_;
 };
 

@@ -53,7 +53,7 @@ bool all_coordinates(std::span<const T> values) {
 }  // namespace
 
 fs::path cache_entry(const fs::path& cache, const CacheKey& key) {
-  return cache / concat(key.kind, '-', key.digest.hex(), kCacheEnding);
+  return cache / concat(key.kind, '-', key.digest.hex(), kCacheExtension);
 }
 
 void write_entry(const fs::path& cache, const CacheKey& key,
@@ -62,12 +62,12 @@ void write_entry(const fs::path& cache, const CacheKey& key,
   EntryHeader header;
   header.arrays = static_cast<std::uint32_t>(arrays.size());
   header.key = key_in_header(key);
-  std::vector<CacheEntry::Row> rows;
-  std::uint64_t end = sizeof header + arrays.size() * sizeof(CacheEntry::Row);
+  std::vector<CacheEntry::StoredArray> rows;
+  std::uint64_t end = sizeof header + arrays.size() * sizeof(CacheEntry::StoredArray);
   std::vector<std::string_view> pieces = {as_bytes(&header, sizeof header), {}};
   for (const EntryArray& array : arrays) {
     const std::uint64_t offset = aligned(end);
-    CacheEntry::Row row{{}, array.type, array.columns, array.rows, offset};
+    CacheEntry::StoredArray row{{}, array.type, array.columns, array.rows, offset};
     require(array.name.size() < sizeof row.name, "cache: the name of an array is too long");
     std::ranges::copy(array.name, row.name);
     rows.push_back(row);
@@ -75,7 +75,7 @@ void write_entry(const fs::path& cache, const CacheKey& key,
     pieces.push_back(as_bytes(array.data, array.bytes));
     end = offset + array.bytes;
   }
-  pieces[1] = as_bytes(rows.data(), rows.size() * sizeof(CacheEntry::Row));
+  pieces[1] = as_bytes(rows.data(), rows.size() * sizeof(CacheEntry::StoredArray));
   Hasher hasher;
   for (const std::string_view piece : pieces) hasher.add_raw(piece);
   const Digest checksum = hasher.digest();
@@ -103,12 +103,12 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
   EntryHeader expected;
   expected.arrays = header.arrays;
   expected.key = key_in_header(key);
-  entry.require_same(bytes.starts_with(as_bytes(&expected, sizeof expected)));
-  std::uint64_t end = sizeof header + header.arrays * sizeof(Row);
+  entry.require_match(bytes.starts_with(as_bytes(&expected, sizeof expected)));
+  std::uint64_t end = sizeof header + header.arrays * sizeof(StoredArray);
   entry.require_size(end <= size);
   entry.arrays_.resize(header.arrays);
   std::memcpy(entry.arrays_.data(), bytes.data() + sizeof header, end - sizeof header);
-  for (const Row& row : entry.arrays_) {
+  for (const StoredArray& row : entry.arrays_) {
     end = aligned(end);
     entry.require_size(row.offset == end && end <= size && row.name[sizeof row.name - 1] == 0);
     const auto number = static_cast<std::uint64_t>(row.type[1] - '0');
@@ -121,10 +121,11 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
   return entry;
 }
 
-const CacheEntry::Row& CacheEntry::find(std::string_view name,
-                                        const std::array<char, 4>& type) const {
-  const auto row = std::ranges::find_if(arrays_, [&](const Row& at) { return name == at.name; });
-  require_same(row != arrays_.end() && row->type == type);
+const CacheEntry::StoredArray& CacheEntry::find_array(std::string_view name,
+                                                      const std::array<char, 4>& type) const {
+  const auto row =
+      std::ranges::find_if(arrays_, [&](const StoredArray& at) { return name == at.name; });
+  require_match(row != arrays_.end() && row->type == type);
   return *row;
 }
 
@@ -140,8 +141,8 @@ void CacheEntry::require_whole() const {
     throw InvalidInput(concat(path_.string(), ": cache entry is being truncated"));
 }
 
-void CacheEntry::require_same(bool same) const {
-  if (!same) {
+void CacheEntry::require_match(bool matches) const {
+  if (!matches) {
     throw InvalidInput(
         concat(path_.string(), ": cache entry is of another version or for other data"));
   }
@@ -163,7 +164,7 @@ bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end) {
   return std::ranges::all_of(numbers, [&](std::uint32_t number) { return number < end; });
 }
 
-bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end) {
+bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end) {
   return std::ranges::all_of(
       numbers, [&](std::uint32_t number) { return number < end || number == kNoIndex; });
 }

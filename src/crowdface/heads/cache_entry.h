@@ -23,7 +23,7 @@
 namespace crowdface {
 
 /// File name extension of cache entries.
-inline constexpr std::string_view kCacheEnding = ".cfcache";
+inline constexpr std::string_view kCacheExtension = ".cfcache";
 
 /// Identifies a cache entry. The file is called `kind-digest.cfcache`; its header holds a hash of
 /// both parts, so that a renamed entry is detected.
@@ -40,17 +40,17 @@ namespace detail {
 template <class T>
 struct Element {
   using Number = T;
-  static constexpr std::uint32_t kNumbers = 1;
+  static constexpr std::uint32_t kNumbersPerElement = 1;
 };
 template <class T, std::size_t N>
 struct Element<std::array<T, N>> {
   using Number = T;
-  static constexpr std::uint32_t kNumbers = N;
+  static constexpr std::uint32_t kNumbersPerElement = N;
 };
 template <>
 struct Element<Digest> {
   using Number = std::uint64_t;
-  static constexpr std::uint32_t kNumbers = 2;
+  static constexpr std::uint32_t kNumbersPerElement = 2;
 };
 
 /// The number type as written in the file: "f4", "u8", "i2".
@@ -111,7 +111,7 @@ class ArrayWriter {
   template <class T>
   void add(std::string_view name, std::span<const T> values) {
     using Element = detail::Element<T>;
-    add<typename Element::Number>(name, Element::kNumbers, values.size(), values.data());
+    add<typename Element::Number>(name, Element::kNumbersPerElement, values.size(), values.data());
   }
   template <class Number>
   void add(std::string_view name, auto columns, auto rows, const void* data) {
@@ -129,9 +129,9 @@ void write_entry(const std::filesystem::path& cache, const CacheKey& key,
 /// displacements that smoothing adds.
 bool are_coordinates(std::span<const float> values);
 bool are_coordinates(std::span<const double> values);
-/// `all_below`: whether all numbers are below `end`. `are_rows` also accepts kNoIndex.
+/// `all_below`: whether all numbers are below `end`. `are_indices` also accepts kNoIndex.
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
-bool are_rows(std::span<const std::uint32_t> numbers, std::uint64_t end);
+bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end);
 
 /// A memory-mapped cache entry. Its arrays lie in the mapped file and are valid while `file()`
 /// lives.
@@ -151,33 +151,33 @@ class CacheEntry {
   template <class T>
   std::span<const T> get(std::string_view name) const {
     using Element = detail::Element<T>;
-    const Row& row = find<typename Element::Number>(name);
-    require_same(row.columns == Element::kNumbers);
+    const StoredArray& row = find_array<typename Element::Number>(name);
+    require_match(row.columns == Element::kNumbersPerElement);
     return {reinterpret_cast<const T*>(at(row)), row.rows};
   }
   template <class Matrix>
   Eigen::Map<const Matrix> matrix(std::string_view name) const {
     using Number = typename Matrix::Scalar;
-    const Row& row = find<Number>(name);
+    const StoredArray& row = find_array<Number>(name);
     auto rows = static_cast<Index>(row.rows), columns = static_cast<Index>(row.columns);
     if (!Matrix::IsRowMajor) std::swap(rows, columns);
     constexpr Index kRows = Matrix::RowsAtCompileTime, kColumns = Matrix::ColsAtCompileTime;
-    require_same((kRows == Eigen::Dynamic || kRows == rows) &&
-                 (kColumns == Eigen::Dynamic || kColumns == columns));
+    require_match((kRows == Eigen::Dynamic || kRows == rows) &&
+                  (kColumns == Eigen::Dynamic || kColumns == columns));
     return {reinterpret_cast<const Number*>(at(row)), rows, columns};
   }
 
-  /// The checksum only proves that the file is as it was written; its numbers may still be
-  /// anything. Readers must therefore validate every number that they use as an index or a size.
+  /// The checksum only proves that the file has not changed since it was written; its numbers may
+  /// still be wrong. Readers must validate every number that they use as an index or a size.
   /// \throws InvalidInput unless `holds`.
   void require(bool holds) const;
-  /// \throws InvalidInput if the file was truncated since it was opened: the missing numbers read
-  ///         as zeros.
+  /// \throws InvalidInput if the file was truncated after it was opened. Arrays in the missing part
+  ///         read as zeros.
   void require_whole() const;
 
  private:
   /// An array as the file describes it.
-  struct Row {
+  struct StoredArray {
     char name[24];
     std::array<char, 4> type;
     std::uint32_t columns;
@@ -187,22 +187,22 @@ class CacheEntry {
                           const std::vector<EntryArray>&);
 
   template <class Number>
-  const Row& find(std::string_view name) const {
-    const Row& row = find(name, detail::number_type<Number>());
+  const StoredArray& find_array(std::string_view name) const {
+    const StoredArray& row = find_array(name, detail::number_type<Number>());
     if constexpr (std::is_floating_point_v<Number>) {
       require(are_coordinates({reinterpret_cast<const Number*>(at(row)), row.rows * row.columns}));
     }
     return row;
   }
-  const Row& find(std::string_view name, const std::array<char, 4>& type) const;
-  const char* at(const Row& row) const { return file_->bytes().data() + row.offset; }
-  void require_same(bool same) const;
+  const StoredArray& find_array(std::string_view name, const std::array<char, 4>& type) const;
+  const char* at(const StoredArray& row) const { return file_->bytes().data() + row.offset; }
+  void require_match(bool matches) const;
   void require_size(bool fits) const;
 
   std::filesystem::path path_;
   std::shared_ptr<const MappedFile> file_;
   Digest checksum_;
-  std::vector<Row> arrays_;
+  std::vector<StoredArray> arrays_;
 };
 
 /// Reads values from an entry: `arrays("name", value)` accepts the same types as ArrayWriter. A

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 bool has_name_of_entry(const fs::path& path) {
   constexpr std::size_t kDigits = 32;
   const std::string stem = path.stem().string();
-  return path.extension().string() == kCacheEnding && stem.size() > kDigits &&
+  return path.extension().string() == kCacheExtension && stem.size() > kDigits &&
          parse_digest(std::string_view(stem).substr(stem.size() - kDigits));
 }
 
@@ -59,8 +59,8 @@ CacheContents list_cache(const fs::path& cache) {
       contents.bytes += fs::file_size(file, ignored);
     }
     const std::string name = entry.filename().string();
-    contents.prepared += name.starts_with(kPreparedKind) ? 1U : 0U;
-    contents.read += name.starts_with(kReadKind) ? 1U : 0U;
+    contents.prepared_count += name.starts_with(kPreparedKind) ? 1U : 0U;
+    contents.read_count += name.starts_with(kReadKind) ? 1U : 0U;
   }
   return contents;
 }

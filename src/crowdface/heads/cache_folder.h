@@ -16,8 +16,8 @@ std::filesystem::path cache_directory();
 /// A cache folder, and whether files that were read before count as unchanged.
 struct CacheFolder {
   std::filesystem::path path;  ///< empty: no cache
-  /// Whether a head file or cache entry is accepted without being hashed again, if it has not been
-  /// written to since it was last read completely (see FileFingerprint).
+  /// Whether a head file or cache entry that was read completely before, and has not been written
+  /// to since, is accepted without hashing (see FileFingerprint).
   bool trusts_seen_files = false;
 
   CacheFolder() = default;
@@ -31,8 +31,8 @@ inline constexpr std::string_view kPreparedKind = "prepared", kReadKind = "read"
 /// The entries of a cache, their number and their total size.
 struct CacheContents {
   std::vector<std::filesystem::path> entries;
-  std::size_t prepared = 0;  ///< number of prepared heads
-  std::size_t read = 0;      ///< number of heads as read from their files
+  std::size_t prepared_count = 0;  ///< number of prepared heads
+  std::size_t read_count = 0;      ///< number of heads as read from their files
   std::uintmax_t bytes = 0;
 };
 CacheContents list_cache(const std::filesystem::path& cache);

@@ -15,7 +15,7 @@ std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& k
   return entry;
 }
 
-void warn_of_entry(const RecoverableError& error) {
+void warn_of_unusable_entry(const RecoverableError& error) {
   log_warning(concat(error.what(), "; it is created again"));
 }
 

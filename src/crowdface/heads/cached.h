@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values held in the cache: read from their entries, or computed and stored. If an entry is damaged
-// or has another version or other content, a warning is logged and the value is computed again. A
-// cache that cannot be written only causes a warning.
+// Reads values from the cache, or computes and stores them. If an entry is damaged or has another
+// version or other content, these functions log a warning and compute the value again. If the cache
+// cannot be written, they only log a warning.
 //
 // One function lists the arrays of a value, for reading and for writing: `visit(arrays, value)`
 // calls `arrays("name", member)` for each array, with an ArrayReader or an ArrayWriter.
@@ -24,7 +24,7 @@ namespace crowdface {
 std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& key);
 
 /// Warns that a value is computed again because its entry cannot be used.
-void warn_of_entry(const RecoverableError& error);
+void warn_of_unusable_entry(const RecoverableError& error);
 
 /// Reads a value from the cache.
 /// \param is_sound  called with the value and its entry: returns whether the value is valid.
@@ -43,7 +43,7 @@ std::optional<Value> find_cached(const CacheFolder& cache, const CacheKey& key, 
     entry->require_whole();
     return value;
   } catch (const RecoverableError& error) {
-    warn_of_entry(error);
+    warn_of_unusable_entry(error);
     return std::nullopt;
   }
 }
@@ -64,8 +64,8 @@ bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<Entr
 
 /// Returns the value from the cache; if it is not there, calls `make()` and stores the result.
 template <class Make, class Visit, class IsSound>
-auto cached(const CacheFolder& cache, const CacheKey& key, const Make& make, const Visit& visit,
-            const IsSound& is_sound, decltype(make()) value = {}) {
+auto read_or_make(const CacheFolder& cache, const CacheKey& key, const Make& make,
+                  const Visit& visit, const IsSound& is_sound, decltype(make()) value = {}) {
   auto found = find_cached(cache, key, visit, is_sound, std::move(value));
   if (found) return *std::move(found);
   auto made = make();

@@ -30,7 +30,7 @@ CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index 
     const bool path_exists =
         find_cached<PatchLists>(cache, entry_key, kPatchArrays,
                                 [&](PatchLists& lists, const CacheEntry& entry) {
-                                  lists.owner = kept.mapped = entry.file();
+                                  lists.owner = kept.mapped_file = entry.file();
                                   auto patches =
                                       FieldPatches::from_lists(lists, vertex_count, ranks);
                                   if (!patches) return false;

@@ -16,7 +16,7 @@ namespace crowdface {
 struct CachedPatches {
   FieldPatches patches;
   /// the file that holds the patches; null if they lie in memory
-  std::shared_ptr<const MappedFile> mapped;
+  std::shared_ptr<const MappedFile> mapped_file;
 };
 
 /// Returns the patches from the cache; if they are not there, calls `make()` and stores the result.

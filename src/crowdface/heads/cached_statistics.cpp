@@ -60,7 +60,7 @@ SurfaceStatistics cached_statistics(const CacheFolder& cache, const Digest& key,
   SurfaceStatistics room;
   room.coarse_values.resize(heads);
   room.pairs = heads * (heads + 1) / 2;
-  return cached(
+  return read_or_make(
       cache, {"texture-statistics", key}, make, kStatisticsArrays,
       [&](const SurfaceStatistics& found, const CacheEntry&) {
         const auto has_all = [&](const SurfaceStatistics::Colours& colours) {

@@ -125,7 +125,7 @@ std::optional<VertexMatch> match_vertices(const HeadFile& first, const HeadFile&
     std::iota(same.begin(), same.end(), 0U);
     return VertexMatch{std::move(same)};
   }
-  auto vertices = vertices_of_corners(expected, found, head.file.positions);
+  auto vertices = match_vertices_by_corners(expected, found, head.file.positions);
   if (!vertices) return match_graphs(first, head);
   return VertexMatch{std::move(*vertices), !has_same_corner_uvs(*first.mesh, *head.mesh)};
 }
@@ -279,7 +279,7 @@ const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& m
   if (std::ranges::all_of(heads, has_first)) return heads[0];
   std::vector<const HeadFile*> read, joined;
   for (const HeadFile* head : heads_like_most(heads)) {
-    (head->is_joined ? joined : read).push_back(head);
+    (head->has_joined_vertices ? joined : read).push_back(head);
   }
   return read.empty() ? find_separate_mesh(joined, made) : find_whole_mesh(read, made);
 }
@@ -325,9 +325,9 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours)
   head.mesh_digest = other.mesh_digest;
 }
 
-std::optional<std::vector<std::uint32_t>> vertices_of_corners(const Topology& expected,
-                                                              const Topology& found,
-                                                              const Positions& there) {
+std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(const Topology& expected,
+                                                                    const Topology& found,
+                                                                    const Positions& there) {
   if (expected.face_offsets != found.face_offsets) return std::nullopt;
   const double near = same_place(there);
   Vertices vertices(static_cast<std::size_t>(expected.vertex_count), kNoIndex);

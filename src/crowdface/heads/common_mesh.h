@@ -19,9 +19,9 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours 
 /// \param there  positions of `found`
 /// \return #V, a vertex of `found` for each vertex of `expected`; nothing if the corners of an
 ///         expected vertex have several positions, or if the meshes differ otherwise.
-std::optional<std::vector<std::uint32_t>> vertices_of_corners(const Topology& expected,
-                                                              const Topology& found,
-                                                              const Positions& there);
+std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(const Topology& expected,
+                                                                    const Topology& found,
+                                                                    const Positions& there);
 
 /// Gives heads a common mesh if their meshes differ only by their export: in the order of vertices
 /// and polygons, by triangulation, or by vertices that are split at seams or joined where they

@@ -15,7 +15,7 @@ namespace crowdface {
 /// because an outlier cannot be determined.
 /// \param skin  #V, whether each vertex is skin
 /// \param mm    millimetres per file unit
-std::vector<std::string> odd_expressions(const HeadSet& faces, const std::vector<bool>& skin,
+std::vector<std::string> odd_expressions(const HeadSet& heads, const std::vector<bool>& skin,
                                          const HeadAxes& axes, double mm);
 
 }  // namespace crowdface

@@ -40,25 +40,25 @@ FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs,
 void FaceAttachments::bind(const Config& config, const std::vector<bool>& wanted) {
   const AttachmentSet& set = inputs_.attachments;
   std::vector<const Attachment*> meshes;
-  bound_of_item_.resize(set.items.size());
+  mesh_of_item_.resize(set.items.size());
   for (std::size_t i = 0; i < set.items.size(); ++i) {
     if (!wanted[i]) continue;
     const auto known = std::ranges::find_if(
         meshes, [&](const Attachment* mesh) { return equal_meshes(*mesh, set.items[i]); });
-    bound_of_item_[i] = static_cast<std::size_t>(known - meshes.begin());
+    mesh_of_item_[i] = static_cast<std::size_t>(known - meshes.begin());
     if (known == meshes.end()) meshes.push_back(&set.items[i]);
   }
   if (meshes.empty()) return;
   skin_ =
       std::make_unique<const FittedSkin>(inputs_.faces.topology, set.fitted_to,
                                          skin_vertices(inputs_), 1 / mm_per(config.faces.units));
-  bound_.resize(meshes.size());
+  bound_meshes_.resize(meshes.size());
   parallel_for_each(meshes.size(), [&](std::size_t m) {
     const ObjFile& file = meshes[m]->file;
-    bound_[m].carrier = std::make_unique<const AttachmentCarrier>(*skin_, file.topology,
-                                                                  file.positions, meshes[m]->moves);
+    bound_meshes_[m].carrier = std::make_unique<const AttachmentCarrier>(
+        *skin_, file.topology, file.positions, meshes[m]->moves);
     if (inputs_.shapes.shapes.empty() || meshes[m]->moves != AttachmentMove::kBend) return;
-    bound_[m].bend =
+    bound_meshes_[m].bend =
         std::make_unique<const ShapeBend>(*skin_, inputs_.adjacency, file.topology, file.positions);
   });
 }
@@ -69,7 +69,8 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   if (face.attachments.empty() || skin_ == nullptr) return placed;
   const Positions normals = skin_->normals(positions);
   for (const AttachmentLook& look : inputs_.attachments.looks(face)) {
-    const Bound& bound = bound_[bound_of_item_[inputs_.attachments.index(look.item->name)]];
+    const BoundMesh& bound =
+        bound_meshes_[mesh_of_item_[inputs_.attachments.index(look.item->name)]];
     placed.push_back({look.item, look.colour, bound.carrier->carry(positions, normals)});
     PlacedAttachment& one = placed.back();
     for (const Displacements& shape : moves) {
@@ -83,7 +84,7 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
 
 std::size_t FaceAttachments::memory_bytes() const {
   std::size_t bytes = 0;
-  for (const Bound& bound : bound_) {
+  for (const BoundMesh& bound : bound_meshes_) {
     bytes += bound.carrier->memory_bytes() + (bound.bend ? bound.bend->memory_bytes() : 0);
   }
   return bytes;

@@ -25,8 +25,8 @@ struct PlacedAttachment {
   std::vector<Displacements> moves = {};
   /// For a body with a separate texture for each face: the face's id, and the content of a PNG
   /// file. Otherwise empty.
-  std::string face = {};
-  std::string_view texture = {};
+  std::string face_id = {};
+  std::string_view texture_png = {};
 
   AttachmentLook look() const { return {item, colour}; }
 };
@@ -53,7 +53,7 @@ class FaceAttachments {
 
  private:
   /// An attachment mesh bound to the fitted head.
-  struct Bound {
+  struct BoundMesh {
     std::unique_ptr<const AttachmentCarrier> carrier;
     /// null unless the attachment bends and there are shapes
     std::unique_ptr<const ShapeBend> bend;
@@ -62,8 +62,8 @@ class FaceAttachments {
 
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< null if there are no attachments
-  std::vector<Bound> bound_;
-  std::vector<std::size_t> bound_of_item_;  ///< #items, index into `bound_`
+  std::vector<BoundMesh> bound_meshes_;
+  std::vector<std::size_t> mesh_of_item_;  ///< #items, index into `bound_meshes_`
 };
 
 }  // namespace crowdface

@@ -84,8 +84,8 @@ std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
   return shares;
 }
 
-std::vector<Displacements> FaceShapes::of_face(const Recipe& recipe, const Positions& face,
-                                               std::vector<Index>* crossing) const {
+std::vector<Displacements> FaceShapes::shapes_of_face(const Recipe& recipe, const Positions& face,
+                                                      std::vector<Index>* crossing) const {
   if (!transfer_) return {};
   return transfer_->carry(recipe.target, face, shares_of(recipe), crossing);
 }
@@ -94,7 +94,7 @@ std::optional<std::size_t> FaceShapes::companion(std::size_t shape) const {
   return transfer_->companion(shape);
 }
 
-std::vector<Displacements> FaceShapes::of_head(Index head) const {
+std::vector<Displacements> FaceShapes::shapes_of_head(Index head) const {
   if (!transfer_) return {};
   const SetShares own = {{static_cast<std::uint32_t>(head), 1}};
   const RegionShares everywhere(static_cast<std::size_t>(inputs_.regions.alpha.cols()), own);

@@ -21,11 +21,11 @@ class FaceShapes {
   /// The shapes of a face built from a recipe: one per shape of the inputs, or none if there are no
   /// shapes. If the heads have shapes of their own, each region blends the shapes of the recipe's
   /// source heads with the recipe's weights.
-  /// \param crossing  passed to ShapeTransfer::carry
-  std::vector<Displacements> of_face(const Recipe& recipe, const Positions& face,
-                                     std::vector<Index>* crossing = nullptr) const;
+  /// \param crossing  optional output, see ShapeTransfer::carry
+  std::vector<Displacements> shapes_of_face(const Recipe& recipe, const Positions& face,
+                                            std::vector<Index>* crossing = nullptr) const;
   /// The shapes of an input head.
-  std::vector<Displacements> of_head(Index head) const;
+  std::vector<Displacements> shapes_of_head(Index head) const;
 
   /// Returns the shape that `shape` corrects when both are applied together, if there is one (see
   /// companions_of).

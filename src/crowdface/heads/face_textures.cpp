@@ -30,7 +30,7 @@ Recipe recipe_of_head(Index head) {
   return recipe;
 }
 
-std::vector<PictureName> own_pictures(const Inputs& inputs) {
+std::vector<PictureName> face_picture_names(const Inputs& inputs) {
   std::vector<PictureName> pictures = inputs.textures.names;
   for (const HeadTextures& maps : inputs.maps) {
     pictures.insert(pictures.end(), maps.names.begin(), maps.names.end());
@@ -43,7 +43,7 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
   blend_textures(config);
   if (!inputs.neck) return;
   SeamColours seam(inputs, inputs.textures.blend() ? blenders_.front().get() : nullptr);
-  if (!seam.any()) return;
+  if (!seam.has_colours()) return;
   seam_.emplace(std::move(seam));
   if (!config.neck.show_body && config.neck.body_texture.empty()) return;
   body_ = std::make_unique<const BodyPainter>(*inputs.neck, config.neck.falloff_mm,
@@ -93,7 +93,7 @@ void FaceTextures::blend_textures(const Config& config) {
 }
 
 BlendedPicture FaceTextures::blend(const Recipe& recipe, std::size_t picture) const {
-  return pictures_[picture].blender->blend(recipe, pictures_[picture].number);
+  return pictures_[picture].blender->blend(recipe, pictures_[picture].index);
 }
 
 ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
@@ -114,12 +114,12 @@ std::vector<double> FaceTextures::colour_shares(const Recipe& recipe) const {
 }
 
 BlendedPicture FaceTextures::paint_body(const Recipe& recipe) const {
-  return body_->paint(seam_->at_ring(colour_shares(recipe)));
+  return body_->paint(seam_->ring_densities(colour_shares(recipe)));
 }
 
 std::optional<Eigen::Array3d> FaceTextures::seam_colour(const Recipe& recipe) const {
   if (!seam_) return std::nullopt;
-  return seam_->mean(colour_shares(recipe));
+  return seam_->mean_colour(colour_shares(recipe));
 }
 
 std::uint64_t FaceTextures::memory_bytes() const {

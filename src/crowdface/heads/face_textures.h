@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// Names of the images that are made for each face: first the colour images, then the images of
 /// each other kind.
-std::vector<PictureName> own_pictures(const Inputs& inputs);
+std::vector<PictureName> face_picture_names(const Inputs& inputs);
 
 inline bool has_own_textures(const Inputs& inputs) {
   return inputs.textures.blend() || !inputs.maps.empty();
@@ -27,12 +27,12 @@ class FaceTextures {
  public:
   /// \param inputs  must outlive this object.
   FaceTextures(const Config& config, const Inputs& inputs);
-  bool any() const { return !pictures_.empty(); }
-  /// Number of images in own_pictures.
+  bool has_textures() const { return !pictures_.empty(); }
+  /// Number of images in face_picture_names.
   std::size_t picture_count() const { return pictures_.size(); }
   /// Blends a single image of a face, so that callers need not hold all its images in memory.
   /// Thread-safe.
-  /// \param picture  index into own_pictures
+  /// \param picture  index into face_picture_names
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
   /// Vertex colours of a face; no rows if the heads have none. Thread-safe.
@@ -43,8 +43,8 @@ class FaceTextures {
   std::optional<Eigen::Array3d> seam_colour(const Recipe& recipe) const;
   /// Paints the body's texture for each face. Null if faces have no colours, or if neither renders
   /// nor files show the body.
-  const BodyPainter* body() const { return body_.get(); }
-  /// The body's texture for a face. Requires body(). Thread-safe.
+  const BodyPainter* body_painter() const { return body_.get(); }
+  /// The body's texture for a face. Requires body_painter(). Thread-safe.
   BlendedPicture paint_body(const Recipe& recipe) const;
 
   /// Memory of this object, and the memory needed to blend the largest image, in bytes.
@@ -59,7 +59,7 @@ class FaceTextures {
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
   struct Picture {
     const TextureBlender* blender;
-    std::size_t number;  ///< index among the blender's images
+    std::size_t index;  ///< index among the blender's images
   };
   std::vector<Picture> pictures_;
   const Inputs& inputs_;

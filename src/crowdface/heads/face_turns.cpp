@@ -50,9 +50,9 @@ SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
 /// Turns heads about the middle of the ring into the common pose. Smoothing commutes with rotations.
 void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
   for (std::size_t h = 0; h < heads.heads.size(); ++h) {
-    if (neck.heads[h].turn.isZero(0)) continue;
+    if (neck.heads[h].pose_rotation.isZero(0)) continue;
     const Positions before = heads.heads[h];
-    const RigidMotion motion = turn_about(neck.middle, neck.heads[h].turn);
+    const RigidMotion motion = rotation_about(neck.seam_centre, neck.heads[h].pose_rotation);
     move_rows(motion, heads.heads[h]);
     heads.mean += (heads.heads[h] - before) / static_cast<double>(heads.heads.size());
     Trajectory& moves = heads.owned_trajectories[h];
@@ -67,7 +67,7 @@ void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
 
 Eigen::Matrix3d product(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   Eigen::Matrix3d result;
-  for (Index c = 0; c < 3; ++c) result.col(c) = apply3(a, b.col(c));
+  for (Index c = 0; c < 3; ++c) result.col(c) = multiply3(a, b.col(c));
   return result;
 }
 
@@ -80,12 +80,12 @@ RigidMotion after(const RigidMotion& a, const RigidMotion& b) {
 
 /// Returns the motion m′ for mirror images: applying m′ after mirroring is the same as applying
 /// `motion` before mirroring.
-RigidMotion image_of(const RigidMotion& motion, const MirrorPlane& plane) {
+RigidMotion motion_of_mirror_image(const RigidMotion& motion, const MirrorPlane& plane) {
   const MirrorPlane directions{plane.normal, 0};
   Eigen::Matrix3d rotation;
   for (Index c = 0; c < 3; ++c) {
     const Eigen::Vector3d moved =
-        apply3(motion.rotation, directions.image(Eigen::Vector3d::Unit(c)));
+        multiply3(motion.rotation, directions.image(Eigen::Vector3d::Unit(c)));
     rotation.col(c) = directions.image(moved);
   }
   return {.rotation = rotation,
@@ -101,41 +101,46 @@ RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
     return Eigen::Vector3d(of_a + w * (of_b - of_a));
   };
   return nudged({}, pivot, mixed(a.apply(pivot), b.apply(pivot)) - pivot,
-                mixed(turn_vector(a.rotation), turn_vector(b.rotation)), 0);
+                mixed(rotation_vector(a.rotation), rotation_vector(b.rotation)), 0);
 }
 
 }  // namespace
 
-FaceTurns::FaceTurns(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions)
-    : neck_(*inputs.neck), placed_(heads_above(inputs, prepared, regions)), turned_(placed_) {
-  turned_.trajectories = turned_.owned_trajectories;
-  turn_heads(neck_, turned_);
-  mean_ = head_motion(placed_.mean, turned_.mean);
+FacePoses::FacePoses(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions)
+    : neck_(*inputs.neck),
+      placed_heads_(heads_above(inputs, prepared, regions)),
+      turned_heads_(placed_heads_) {
+  turned_heads_.trajectories = turned_heads_.owned_trajectories;
+  turn_heads(neck_, turned_heads_);
+  mean_motion_ = head_motion(placed_heads_.mean, turned_heads_.mean);
 }
 
-std::optional<RigidMotion> FaceTurns::motion_of(const Recipe& recipe,
+std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
                                                 const MirrorPlane* plane) const {
-  const bool is_turned = has_turned_head(recipe);
+  const bool is_turned = uses_other_pose(recipe);
   if (!is_turned && is_unmirrored(recipe)) return std::nullopt;
   Recipe plain = recipe;
   plain.asymmetry = 1;
   plain.mirrored = false;
   RigidMotion motion;
-  if (is_turned) motion = head_motion(sample_face(placed_, plain), sample_face(turned_, plain));
+  if (is_turned)
+    motion = head_motion(sample_face(placed_heads_, plain), sample_face(turned_heads_, plain));
   if (is_unmirrored(recipe)) return motion;
   // `plane` mirrors the mean head as placed. A face has to be mirrored in the plane of the common
-  // pose, which is the image of `plane` under `mean_`.
-  const RigidMotion back = inverse(mean_);
+  // pose, which is the image of `plane` under `mean_motion_`.
+  const RigidMotion back = inverse(mean_motion_);
   if (recipe.asymmetry != 1) {
-    const RigidMotion of_image = after(mean_, image_of(after(back, motion), *plane));
-    motion = between(motion, of_image, mirror_share(recipe.asymmetry, false), neck_.middle);
+    const RigidMotion of_image =
+        after(mean_motion_, motion_of_mirror_image(after(back, motion), *plane));
+    motion = between(motion, of_image, mirror_share(recipe.asymmetry, false), neck_.seam_centre);
   }
-  return recipe.mirrored ? after(image_of(mean_, *plane), after(back, motion)) : motion;
+  return recipe.mirrored ? after(motion_of_mirror_image(mean_motion_, *plane), after(back, motion))
+                         : motion;
 }
 
-bool FaceTurns::has_turned_head(const Recipe& recipe) const {
+bool FacePoses::uses_other_pose(const Recipe& recipe) const {
   const auto is_turned = [&](const SourceWeight& part) {
-    return !neck_.heads[static_cast<std::size_t>(part.head)].turn.isZero(0);
+    return !neck_.heads[static_cast<std::size_t>(part.head)].pose_rotation.isZero(0);
   };
   if (std::ranges::any_of(target_shares(recipe), is_turned)) return true;
   for (const RegionRecipe& region : recipe.regions) {

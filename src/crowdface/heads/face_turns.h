@@ -9,16 +9,15 @@
 
 namespace crowdface {
 
-/// The poses of faces on a body (config section `neck`), if some heads have another pose than the
-/// others. The pose of a blended face lies between the pose of its target and the poses of its
-/// sources, because the sources' detail keeps their poses. The smoother the target, the less the
-/// target's pose counts.
-class FaceTurns {
+/// The poses of faces on a body (config section `neck`), if the poses of the heads differ. The pose
+/// of a blended face lies between the poses of its target and of its sources, because detail keeps
+/// the pose of the head that it comes from. The smoother the target, the less its pose counts.
+class FacePoses {
  public:
   /// \param inputs  must outlive this object; its heads are placed on a body
-  FaceTurns(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions);
-  FaceTurns(const FaceTurns&) = delete;
-  FaceTurns& operator=(const FaceTurns&) = delete;
+  FacePoses(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions);
+  FacePoses(const FacePoses&) = delete;
+  FacePoses& operator=(const FacePoses&) = delete;
 
   /// Returns the rigid motion that aligns a blended face, before it is mirrored, with the face that
   /// the same recipe gives for heads in the common pose. Returns nothing if the recipe uses no head
@@ -27,11 +26,12 @@ class FaceTurns {
   std::optional<RigidMotion> motion_of(const Recipe& recipe, const MirrorPlane* plane) const;
 
  private:
-  bool has_turned_head(const Recipe& recipe) const;
+  bool uses_other_pose(const Recipe& recipe) const;
 
   const HeadsOnBody& neck_;
-  SampledHeads placed_, turned_;  ///< above the bend, in file units: as placed, in the common pose
-  RigidMotion mean_;              ///< the mean head's motion from its placed to the common pose
+  SampledHeads placed_heads_,
+      turned_heads_;         ///< above the bend, in file units: as placed, in the common pose
+  RigidMotion mean_motion_;  ///< the mean head's motion from its placed to the common pose
 };
 
 }  // namespace crowdface

@@ -17,7 +17,7 @@ namespace crowdface {
 /// gigabytes before it could show anything.
 class FileFingerprint {
  public:
-  /// \param cache  its folder keeps the records of seen files
+  /// \param cache  its folder stores the fingerprints of files that were read before
   FileFingerprint(const CacheFolder& cache, const std::filesystem::path& file);
 
   /// Hash of the file's bytes, if seen files are trusted and this one has not changed.

@@ -30,8 +30,8 @@ Positions weighted(const Positions& mean, const PartList& parts) {
   constexpr double kEyes = 0.8, kTeeth = 0.3;
   Positions sizes = mean;
   for (const Part& part : parts.parts) {
-    if (part.eyeball) {
-      const ComponentShape& ball = parts.shapes[part.ball];
+    if (part.is_eyeball) {
+      const ComponentShape& ball = parts.shapes[part.ball_component];
       for (Index v = 0; v < mean.rows(); ++v) {
         const Eigen::Vector3d away = row3(mean, v) - ball.centre;
         const double fall = 1 + away.squaredNorm() / (4 * ball.radius * ball.radius);
@@ -133,7 +133,7 @@ bool is_sound(const DetailLevel& level, const Topology& whole) {
          level.topology.corner_vertices.size() == 3 * level.faces.size() &&
          all_below(level.topology.corner_vertices, level.vertices.size()) &&
          (uvs.empty() || uvs.size() == 3 * level.faces.size()) &&
-         are_rows(uvs, end(level.uvs.rows()));
+         are_indices(uvs, end(level.uvs.rows()));
 }
 
 constexpr auto kLevelArrays = [](auto& arrays, auto& measured) {
@@ -174,7 +174,7 @@ void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs)
   inputs.levels.resize(config.output.lods.size());
   parallel_for_each(inputs.levels.size(), [&](std::size_t l) {
     const double share = config.output.lods[l] / 100;
-    inputs.levels[l] = cached(
+    inputs.levels[l] = read_or_make(
         cache, {"level", key_of(inputs, typical, share, mm)},
         [&] { return measured_level(inputs, typical, share, mm); }, kLevelArrays,
         [&](MeasuredLevel& found, const CacheEntry&) {

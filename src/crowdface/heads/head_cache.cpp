@@ -62,11 +62,11 @@ bool is_head(PreparedHead& head, const HeadCacheSizes& shape) {
 
 std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
                                           const HeadCacheSizes& shape) {
-  return find_cached<PreparedHead>(cache, prepared_key(key), kPreparedArrays,
-                                   [&](PreparedHead& head, const CacheEntry& entry) {
-                                     head.levels.fields.owner = head.levels.mapped = entry.file();
-                                     return is_head(head, shape);
-                                   });
+  return find_cached<PreparedHead>(
+      cache, prepared_key(key), kPreparedArrays, [&](PreparedHead& head, const CacheEntry& entry) {
+        head.levels.fields.owner = head.levels.mapped_file = entry.file();
+        return is_head(head, shape);
+      });
 }
 
 CacheKey prepared_key(const Digest& digest) {

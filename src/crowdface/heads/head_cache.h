@@ -21,7 +21,7 @@ namespace crowdface {
 struct StoredLevels {
   LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
-  std::shared_ptr<const MappedFile> mapped;
+  std::shared_ptr<const MappedFile> mapped_file;
   Eigen::MatrixXd mixing;  ///< `levels: basis`: #nodes by rank, see LevelBasis
   BasisError error;        ///< `levels: basis`
 };

@@ -117,7 +117,7 @@ std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head
 
 }  // namespace
 
-void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) {
+void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& problems) {
   for (const HeadFile& head : heads) {
     if (head.mesh == heads[0].mesh) continue;
     const HeadMesh &first = *heads[0].mesh, &mesh = *head.mesh;
@@ -142,7 +142,7 @@ void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems) 
   }
 }
 
-std::optional<std::string> check_stance(const Config& config, const Inputs& inputs) {
+std::optional<std::string> check_orientation_and_size(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return std::nullopt;
   // skin only: eyeballs are not used to find the face
   const HeadShape head{inputs.mean, skin_of(inputs), {}};
@@ -152,7 +152,7 @@ std::optional<std::string> check_stance(const Config& config, const Inputs& inpu
   if (!marks) {
     const auto found = find_orientation(topology, head);
     if (!found || *found == asked) {
-      const auto coarse = edges_too_long_for_a_face(topology, head, axes_of(asked));
+      const auto coarse = long_edges_message(topology, head, axes_of(asked));
       if (!coarse) return std::nullopt;
       return concat("no face is found on the mean head, so units, up and front are not checked: ",
                     *coarse);
@@ -184,7 +184,7 @@ std::optional<std::string> check_stance(const Config& config, const Inputs& inpu
              name_of(fitting), " (faces.align: none skips this check)"));
 }
 
-std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
+std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
   // kMaxMm: distance up to which two heads may be the same person. kMaxOfOthers: the same as a
   // fraction of the median distance between a head and its nearest head. kIdenticalMm: copies of
@@ -240,7 +240,7 @@ std::vector<std::string> same_persons(const Inputs& inputs, double mm) {
   return warnings;
 }
 
-std::optional<std::string> far_from_origin(const Config& config, const Inputs& inputs) {
+std::optional<std::string> far_from_origin_warning(const Config& config, const Inputs& inputs) {
   constexpr double kMinMm = 0.01, kHalfStep = 0x1p-24;
   double farthest = 0;
   for (const Head& head : inputs.faces.heads) {

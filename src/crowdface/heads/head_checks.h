@@ -15,20 +15,20 @@ namespace crowdface {
 
 /// Adds a problem for each head whose mesh differs from the mesh of the first head: the difference,
 /// and the export setting that probably caused the difference.
-void compare_with_first(const std::vector<HeadFile>& heads, Problems& problems);
+void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& problems);
 
 /// Warns if the heads face the configured direction, but contain too little of a human face for
 /// measurements.
 /// \throws InvalidInput if the heads face another direction than the config says, or have an
 ///         impossible size: every measurement would then be wrong.
-std::optional<std::string> check_stance(const Config& config, const Inputs& inputs);
+std::optional<std::string> check_orientation_and_size(const Config& config, const Inputs& inputs);
 
 /// Warns about each pair of heads whose shapes suggest that they belong to the same person.
 /// \param mm  millimetres per file unit
-std::vector<std::string> same_persons(const Inputs& inputs, double mm);
+std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm);
 
 /// Warns if the heads are so far from the origin that single precision, in which meshes are
 /// written, cannot represent a hundredth of a millimetre there.
-std::optional<std::string> far_from_origin(const Config& config, const Inputs& inputs);
+std::optional<std::string> far_from_origin_warning(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

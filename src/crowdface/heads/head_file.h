@@ -13,11 +13,11 @@ namespace crowdface {
 /// `mesh`; those of `file` are empty.
 struct HeadFile {
   ObjFile file;
-  Digest text;  ///< hash of the file's bytes
+  Digest text_digest;  ///< hash of the file's bytes
   Digest mesh_digest;
-  std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
-  bool is_kept = false;            ///< whether the cache has the head
-  bool is_joined = false;          ///< whether reading joined vertices at the same position
+  std::shared_ptr<HeadMesh> mesh;    ///< shared by all heads with the same mesh
+  bool is_cached = false;            ///< whether the cache has the head
+  bool has_joined_vertices = false;  ///< whether reading joined vertices at the same position
 };
 
 }  // namespace crowdface

@@ -40,8 +40,8 @@ FoundMirror find_mirror(const Config& config, const Inputs& inputs) {
   return find_cached_mirror(inputs, head_axes(config).side());
 }
 
-std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& inputs,
-                                            const std::string& key) {
+std::shared_ptr<const MirrorMap> required_mirror_map(const Config& config, const Inputs& inputs,
+                                                     const std::string& key) {
   if (inputs.mirror != nullptr) return inputs.mirror;
   FoundMirror found = find_mirror(config, inputs);
   if (found.partner_fraction() < kMinShare) {
@@ -55,13 +55,13 @@ std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& 
 std::string describe_mirror(const Config& config, const FoundMirror& mirror) {
   const double mm = mm_per(config.faces.units);
   const auto all = static_cast<Index>(mirror.map.corners.size());
-  std::string text = concat(mirror.vertices + mirror.surface_partners, " of ", all,
+  std::string text = concat(mirror.mutual_vertex_count + mirror.surface_partner_count, " of ", all,
                             " vertices with a mirror image");
-  if (mirror.surface_partners > 0) {
-    text += concat(", ", mirror.surface_partners, " of them on the surface between vertices");
+  if (mirror.surface_partner_count > 0) {
+    text += concat(", ", mirror.surface_partner_count, " of them on the surface between vertices");
   }
-  return concat(text, "; the mean head is ", format_fixed(mm * mirror.rms, 2),
-                " mm from its mirror image (rms), ", format_fixed(mm * mirror.largest, 2),
+  return concat(text, "; the mean head is ", format_fixed(mm * mirror.rms_distance, 2),
+                " mm from its mirror image (rms), ", format_fixed(mm * mirror.max_distance, 2),
                 " at most");
 }
 

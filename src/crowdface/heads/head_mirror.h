@@ -19,8 +19,8 @@ FoundMirror find_mirror(const Config& config, const Inputs& inputs);
 /// The mirror map of the inputs; computed now if they have none.
 /// \param key  the config key that needs the map, for messages
 /// \throws InvalidInput if too few vertices have a mirror partner.
-std::shared_ptr<const MirrorMap> mirror_for(const Config& config, const Inputs& inputs,
-                                            const std::string& key);
+std::shared_ptr<const MirrorMap> required_mirror_map(const Config& config, const Inputs& inputs,
+                                                     const std::string& key);
 
 /// A readable summary: how many vertices have a mirror partner.
 std::string describe_mirror(const Config& config, const FoundMirror& mirror);

@@ -94,12 +94,12 @@ Texture texture_of(const BlendedPicture& colours, int max_px) {
   return texture_of(colours.width, colours.height, colours.srgb, max_px);
 }
 
-int shown_texels(const Config::ContactSheet& sheet) {
+int max_rendered_texels(const Config::ContactSheet& sheet) {
   constexpr int kMin = 1024;
   return std::max(kMin, 2 * sheet.cell);
 }
 
-bool any_is_shown(const std::vector<HeadTextures>& maps) {
+bool are_any_rendered(const std::vector<HeadTextures>& maps) {
   return std::ranges::any_of(
       maps, [](const HeadTextures& of_kind) { return is_shown(of_kind.names.front().kind); });
 }
@@ -135,8 +135,8 @@ void FaceTextureSet::add(std::size_t picture, const BlendedPicture& blended) {
                 : finish_of(blended, kind == TextureKind::kNormal, finish_texels(max_px_)));
 }
 
-std::uint64_t FaceTextureSet::bytes(const HeadTextures& colours,
-                                    const std::vector<HeadTextures>& maps, int max_px) {
+std::uint64_t FaceTextureSet::memory_bytes(const HeadTextures& colours,
+                                           const std::vector<HeadTextures>& maps, int max_px) {
   std::uint64_t texels = 0;
   const auto add_kind = [&](const HeadTextures& textures, int most) {
     for (const TextureLayout::Picture& picture : textures.blended.layout.pictures) {
@@ -190,15 +190,15 @@ std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Inde
   return texture_set;
 }
 
-HeadTextures load_render_textures(HeadsTextures found, int max_px) {
+HeadTextures load_render_textures(FoundTextureFiles found, int max_px) {
   HeadTextures result;
   result.warnings = std::move(found.warnings);
   std::map<fs::path, TextureFile> shelf;  // each file is read once, even if several heads name it
   Hasher hasher;
-  for (AttachmentTextures& placed : found.heads) {
+  for (HeadTextureFiles& placed : found.heads) {
     TextureSet texture_set;
     hasher.add(placed.files.size());
-    for (const AttachmentTextures::File& file : placed.files) {
+    for (const HeadTextureFiles::File& file : placed.files) {
       const auto [known, is_new] = shelf.try_emplace(file.path);
       if (is_new) known->second = read_texture(file.path, max_px);
       texture_set.textures.push_back(known->second.texture);

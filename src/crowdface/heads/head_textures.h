@@ -22,7 +22,7 @@ struct PictureName {
   int tile = 0;      ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
   /// Whether all heads' files hold 8-bit channels, and whether any holds floats.
-  bool of_bytes = true, of_floats = false;
+  bool has_only_bytes = true, holds_floats = false;
 };
 
 /// The heads' textures of one kind, for blending or for renders.
@@ -39,15 +39,15 @@ struct HeadTextures {
   std::vector<std::string> warnings;  ///< messages about missing files
 
   bool blend() const { return !names.empty(); }
-  bool any() const { return blend() || !texture_sets.empty(); }
+  bool has_textures() const { return blend() || !texture_sets.empty(); }
 };
 
 /// Maximum side length, in texels, of textures for renders: contact sheets cannot show finer
 /// detail.
-int shown_texels(const Config::ContactSheet& sheet);
+int max_rendered_texels(const Config::ContactSheet& sheet);
 
 /// Whether renders show any of these kinds of textures.
-bool any_is_shown(const std::vector<HeadTextures>& maps);
+bool are_any_rendered(const std::vector<HeadTextures>& maps);
 
 /// Colours as a texture for renders. \param max_px  maximum side length
 Texture texture_of(const BlendedPicture& colours, int max_px);
@@ -69,13 +69,13 @@ class FaceTextureSet {
   const TextureSet& texture_set() const { return texture_set_; }
 
   /// Memory of a texture set made from these textures, in bytes.
-  static std::uint64_t bytes(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
-                             int max_px);
+  static std::uint64_t memory_bytes(const HeadTextures& colours,
+                                    const std::vector<HeadTextures>& maps, int max_px);
 
  private:
   struct ImageIndex {
     TextureKind kind = TextureKind::kColour;
-    std::size_t number = 0;  ///< index among the images of its kind
+    std::size_t index = 0;  ///< index among the images of its kind
   };
   TextureSet texture_set_;
   std::vector<ImageIndex> image_indices_;  ///< one per image, see `add`
@@ -93,7 +93,7 @@ std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Inde
 /// JPEG files count as sRGB, floats as linear light.
 /// \param max_px  maximum side length; larger textures are downscaled
 /// \throws InvalidInput that names the file if a file is damaged.
-HeadTextures load_render_textures(HeadsTextures found, int max_px);
+HeadTextures load_render_textures(FoundTextureFiles found, int max_px);
 
 /// Loads textures of one kind for blending and converts all textures to the layout of the first
 /// head with a texture. For each head, merges the files of an image into one image, whose longer
@@ -103,8 +103,8 @@ HeadTextures load_render_textures(HeadsTextures found, int max_px);
 ///                 left for images
 /// \throws InvalidInput if a file is damaged, or is not of the kind that its material says, such as
 ///     a grey image as a normal map.
-HeadTextures load_blended_textures(const HeadSet& faces, const FaceMaterials& materials,
-                                   HeadsTextures found, std::optional<std::uint64_t> size,
+HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& materials,
+                                   FoundTextureFiles found, std::optional<std::uint64_t> size,
                                    const std::filesystem::path& scratch);
 
 }  // namespace crowdface

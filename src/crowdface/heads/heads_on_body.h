@@ -12,39 +12,40 @@
 
 namespace crowdface {
 
-/// All heads on one body (config section `neck`). Each head is translated, and all heads get the
-/// same rotation; each finished face is rotated and its neck bent, so that above the bend the face
-/// has the same shape as without a body.
+/// All heads on one body (config section `neck`). All heads get the same rotation, and each head
+/// its own translation. Each finished face is rotated and its neck is bent, so that the face has
+/// the same shape above the bend as without a body.
 struct HeadsOnBody {
   /// How a head was placed.
   struct Head {
-    RigidMotion placed;  ///< from the head's file to its place on the body; scale 1
-    /// The rotation of the placed head into the common pose of all heads, see turn_vector; zero if
-    /// the head has that pose.
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-    double moved_mm = 0;        ///< rms distance by which placement and turn together move the ring
-    double turned_degrees = 0;  ///< angle of placement and turn together
-    double bent_mm = 0;         ///< largest distance of the placed and turned ring from the body's
+    RigidMotion placement;  ///< from the head's file to its place on the body; scale 1
+    /// The rotation of the placed head into the common pose of all heads, see rotation_vector; zero
+    /// if the head has that pose.
+    Eigen::Vector3d pose_rotation = Eigen::Vector3d::Zero();
+    double shift_mm = 0;  ///< rms distance by which placement and turn together move the ring
+    double rotation_degrees = 0;  ///< angle of placement and turn together
+    double max_bend_mm = 0;  ///< largest distance of the placed and turned ring from the body's
   };
   Seam seam;
   std::vector<Head> heads;
-  Eigen::Vector3d middle;   ///< centre of the seam between heads and body
-  Positions unplaced_mean;  ///< mean of the heads before they were placed
+  Eigen::Vector3d seam_centre;  ///< centre of the seam between heads and body
+  Positions unplaced_mean;      ///< mean of the heads before they were placed
   double mm_per_unit = 1;
   /// The body; null unless renders or mesh files contain the body, or faces get a texture for it.
   std::shared_ptr<const Attachment> body;
   Rim body_rim;  ///< the body's vertex for each vertex of the ring; empty without `body`
   bool is_body(const Attachment& item) const { return body.get() == &item; }
 
-  bool any_turned() const {
-    return std::ranges::any_of(heads, [](const Head& head) { return !head.turn.isZero(0); });
+  bool has_differing_poses() const {
+    return std::ranges::any_of(heads,
+                               [](const Head& head) { return !head.pose_rotation.isZero(0); });
   }
 
   Digest digest;  ///< hash of the seam, of `falloff`, and of the body if there is one
 };
 
-/// A rotation about a point. \param turn  see turn_vector
-inline RigidMotion turn_about(const Eigen::Vector3d& middle, const Eigen::Vector3d& turn) {
+/// A rotation about a point. \param turn  see rotation_vector
+inline RigidMotion rotation_about(const Eigen::Vector3d& middle, const Eigen::Vector3d& turn) {
   return nudged({}, middle, Eigen::Vector3d::Zero(), turn, 0);
 }
 

@@ -35,7 +35,7 @@ struct Attachment {
   std::string name, kind;
   AttachmentMove moves = AttachmentMove::kBend;
   ObjFile file;
-  Digest text;  ///< hash of the file's bytes
+  Digest text_digest;  ///< hash of the file's bytes
   MaterialFiles materials;
   Tint tint = Tint::kNone;
 };
@@ -93,9 +93,9 @@ struct MeasuredLevel {
 struct Inputs {
   std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
   HeadSet faces;
-  Positions mean;              ///< the mean head
-  std::vector<ObjFile> files;  ///< #heads; topology and positions have moved to `faces`
-  std::vector<Digest> texts;   ///< #heads, hashes of the files' bytes
+  Positions mean;                    ///< the mean head
+  std::vector<ObjFile> files;        ///< #heads; topology and positions have moved to `faces`
+  std::vector<Digest> text_digests;  ///< #heads, hashes of the files' bytes
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has any.
   std::vector<ColourRows> colours;
   Digest colours_digest;

@@ -32,7 +32,7 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
 }
 
 Attachment item_of(const Config::Attachment& asked, HeadFile read) {
-  Attachment item{asked.name, asked.kind, asked.moves, std::move(read.file), read.text, {}};
+  Attachment item{asked.name, asked.kind, asked.moves, std::move(read.file), read.text_digest, {}};
   item.file.topology = read.mesh->topology;
   item.file.uvs = read.mesh->uvs;
   item.tint = asked.tint;
@@ -63,7 +63,7 @@ Digest digest_of_attachments(const AttachmentSet& set) {
   Hasher hasher;
   hasher.add_array(numbers_of(set.fitted_to));
   for (const Attachment& item : set.items) {
-    hasher.add(item.name).add(static_cast<int>(item.moves)).add(item.text);
+    hasher.add(item.name).add(static_cast<int>(item.moves)).add(item.text_digest);
     if (item.tint != Tint::kNone) hasher.add(static_cast<int>(item.tint));
     for (const MaterialFile& file : item.materials.files) {
       throw_if_interrupted();
@@ -126,7 +126,7 @@ void load_attachments(const Config& config, const CacheFolder& cache, Inputs& in
   for (auto& file : read_mesh_files(paths, "attachments", cache, problems, Winding::kAsItIs)) {
     if (file) files.push_back(std::move(*file));
   }
-  keep_heads(files, cache);
+  cache_heads(files, cache);
   if (problems.size() > before) return;
   std::vector<std::optional<Attachment>> items(asked.size());
   std::vector<std::optional<Error>> errors(asked.size());

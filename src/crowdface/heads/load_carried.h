@@ -21,8 +21,8 @@ void load_neck(const Config& config, Inputs& inputs, Problems& problems);
 void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
                  Problems& problems);
 
-/// Loads the points; requires the shapes. A value that is not a position, a missing head, or a
-/// template with another topology is a problem, reported with its line.
+/// Loads the points; requires the shapes. Reports these problems with their line: a value that is
+/// not a position, a missing head, a template with another topology.
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the rig; requires the shapes. Its vertices are matched to the heads' vertices by

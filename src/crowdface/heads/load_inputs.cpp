@@ -59,7 +59,7 @@ void take_heads(const Config& config, std::vector<HeadFile> heads, Inputs& input
     file.corner_normals = heads[h].mesh->corner_normals;
     inputs.faces.heads.push_back({config.faces.names[h], std::move(file.positions)});
     inputs.files.push_back(std::move(file));
-    inputs.texts.push_back(heads[h].text);
+    inputs.text_digests.push_back(heads[h].text_digest);
   }
   inputs.faces.topology = std::move(heads[0].mesh->topology);
   inputs.faces.uvs = std::move(heads[0].mesh->uvs);
@@ -108,20 +108,20 @@ Digest digest_of_topology(const Topology& topology) {
       .digest();
 }
 
-std::vector<Digest> hash_heads(const HeadSet& faces) {
-  std::vector<Digest> digests(faces.heads.size());
+std::vector<Digest> hash_heads(const HeadSet& heads) {
+  std::vector<Digest> digests(heads.heads.size());
   parallel_for_each(digests.size(), [&](std::size_t h) {
-    digests[h] = Hasher().add_array(numbers_of(faces.heads[h].positions)).digest();
+    digests[h] = Hasher().add_array(numbers_of(heads.heads[h].positions)).digest();
   });
   return digests;
 }
 
 /// Returns a message if some heads have a texture and other heads have none. Applies only if all
 /// textured heads name the same files: their texture is then not blended.
-std::optional<std::string> told_of_single(const HeadsTextures& textures, const HeadSet& faces) {
+std::optional<std::string> told_of_single(const FoundTextureFiles& textures, const HeadSet& heads) {
   std::vector<std::string> with, without;
   for (std::size_t h = 0; h < textures.heads.size(); ++h) {
-    (textures.heads[h].files.empty() ? without : with).push_back(faces.heads[h].name);
+    (textures.heads[h].files.empty() ? without : with).push_back(heads.heads[h].name);
   }
   if (with.empty() || without.empty()) return std::nullopt;
   return concat("the ", statement_of(textures.kind).name, " texture of ", join(with),
@@ -132,7 +132,7 @@ std::optional<std::string> told_of_single(const HeadsTextures& textures, const H
 /// Loads textures. After each damaged image, loads again as if that file were missing.
 /// \param load  called with the textures found; returns them loaded. Throws DamagedImage.
 template <class Load>
-HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) {
+HeadTextures load_sound(FoundTextureFiles& found, Inputs& inputs, const Load& load) {
   // sorted, so that the order of messages is fixed
   std::map<std::filesystem::path, std::string> damaged;
   for (;;) {
@@ -144,7 +144,7 @@ HeadTextures load_sound(HeadsTextures& found, Inputs& inputs, const Load& load) 
       return loaded;
     } catch (const DamagedImage& error) {
       damaged.emplace(error.path, error.what());
-      leave_out(found, {error.path});
+      remove_files(found, {error.path});
     }
   }
 }
@@ -157,28 +157,29 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
       config.textures.blend == TextureBlend::kAuto && (shown || !config.output.meshes.empty());
   if (config.textures.blend == TextureBlend::kNone || !(shown || blend)) return;
   try {
-    std::vector<HeadsTextures> kinds = find_attachment_textures(inputs.faces, inputs.files);
-    HeadsTextures& found = kinds.front();
+    std::vector<FoundTextureFiles> kinds = find_texture_files(inputs.faces, inputs.files);
+    FoundTextureFiles& found = kinds.front();
     const bool asked_for = sheet && sheet->texture == SheetTexture::kYes;
-    if (asked_for && !found.any()) {
+    if (asked_for && !found.has_files()) {
       throw MissingInput(
           concat(config.faces.files.front().string(),
                  ": output.contact_sheet.texture is true, but no head has texture coordinates and "
                  "a material with an existing texture (map_Kd in the mtllib file)"));
     }
     if (!asked_for) {
-      for (std::string& text : leave_out_unreadable(found)) inputs.warn(std::move(text));
+      for (std::string& text : remove_unreadable_files(found)) inputs.warn(std::move(text));
     }
-    const auto load_blended = [&](const HeadsTextures& textures) {
+    const auto load_blended = [&](const FoundTextureFiles& textures) {
       return load_blended_textures(inputs.faces, inputs.materials, textures, config.textures.size,
                                    cache);
     };
-    const auto load_colours = [&](const HeadsTextures& textures) {
-      if (textures.any() && blend && textures.differ()) return load_blended(textures);
-      if (textures.any() && shown)
-        return load_render_textures(textures, shown_texels(sheet.value_or(Config::ContactSheet{})));
+    const auto load_colours = [&](const FoundTextureFiles& textures) {
+      if (textures.has_files() && blend && textures.heads_differ()) return load_blended(textures);
+      if (textures.has_files() && shown)
+        return load_render_textures(textures,
+                                    max_rendered_texels(sheet.value_or(Config::ContactSheet{})));
       HeadTextures none;
-      if (!textures.any()) none.warnings = textures.warnings;
+      if (!textures.has_files()) none.warnings = textures.warnings;
       return none;
     };
     inputs.textures = asked_for ? load_colours(found) : load_sound(found, inputs, load_colours);
@@ -186,11 +187,11 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
     for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
       const bool pictured = shown && is_shown(kinds[k].kind);
       if (!pictured && config.output.meshes.empty()) continue;
-      for (std::string& text : leave_out_unreadable(kinds[k])) inputs.warn(std::move(text));
-      HeadTextures maps = load_sound(kinds[k], inputs, [&](const HeadsTextures& textures) {
-        return textures.differ() ? load_blended(textures) : HeadTextures();
+      for (std::string& text : remove_unreadable_files(kinds[k])) inputs.warn(std::move(text));
+      HeadTextures maps = load_sound(kinds[k], inputs, [&](const FoundTextureFiles& textures) {
+        return textures.heads_differ() ? load_blended(textures) : HeadTextures();
       });
-      if (!kinds[k].differ()) {
+      if (!kinds[k].heads_differ()) {
         if (auto text = told_of_single(kinds[k], inputs.faces)) inputs.warn(std::move(*text));
         continue;
       }
@@ -215,7 +216,7 @@ void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Proble
   if (reading.heads_known) {
     std::vector<std::filesystem::path> heads = reading.config.faces.files;
     std::erase_if(heads, is_missing);
-    compare_with_first(read_heads(heads, cache, problems), problems);
+    compare_meshes_with_first(read_heads(heads, cache, problems), problems);
   }
   if (reading.regions_known) {
     std::vector<std::string> masks = reading.config.regions.mask;
@@ -224,11 +225,11 @@ void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Proble
   }
 }
 
-std::optional<HeadSet> load_faces(const Config::Faces& faces, const CacheFolder& cache,
-                                  Problems& problems) {
+std::optional<HeadSet> load_head_set(const Config::Faces& faces, const CacheFolder& cache,
+                                     Problems& problems) {
   const std::size_t before = problems.size();
   std::vector<HeadFile> heads = read_heads(faces.files, cache, problems);
-  compare_with_first(heads, problems);
+  compare_meshes_with_first(heads, problems);
   if (problems.size() > before) return std::nullopt;
   HeadSet set;
   set.topology = heads[0].mesh->topology;
@@ -242,13 +243,13 @@ std::optional<HeadSet> load_faces(const Config::Faces& faces, const CacheFolder&
 std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache,
                                   Problems& problems) {
   std::vector<HeadFile> heads = read_heads(config.faces.files, cache, problems);
-  compare_with_first(heads, problems);
+  compare_meshes_with_first(heads, problems);
   if (!problems.empty()) {
     check_masks(config.regions.mask, problems);
     return std::nullopt;
   }
 
-  keep_heads(heads, cache);
+  cache_heads(heads, cache);
   Inputs inputs;
   take_heads(config, std::move(heads), inputs);
   take_colours(inputs);
@@ -272,16 +273,16 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
   try {
-    if (auto text = check_stance(config, inputs)) inputs.warn(std::move(*text));
+    if (auto text = check_orientation_and_size(config, inputs)) inputs.warn(std::move(*text));
     const std::string key = mirroring_key(config);
-    if (!key.empty()) inputs.mirror = mirror_for(config, inputs, key);
+    if (!key.empty()) inputs.mirror = required_mirror_map(config, inputs, key);
   } catch (const RecoverableError& error) {
     problems.add(error);
   }
   if (problems.size() > before) return std::nullopt;
-  for (std::string& text : lone_masks(config, inputs)) inputs.warn(std::move(text));
-  if (auto text = far_from_origin(config, inputs)) inputs.warn(std::move(*text));
-  for (std::string& text : same_persons(inputs, mm_per(config.faces.units))) {
+  for (std::string& text : single_image_mask_warnings(config, inputs)) inputs.warn(std::move(text));
+  if (auto text = far_from_origin_warning(config, inputs)) inputs.warn(std::move(*text));
+  for (std::string& text : same_person_warnings(inputs, mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
   for (std::string& text : odd_expressions(
@@ -307,10 +308,11 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
                        " vertices are covered by no mask and belong to the last region, ",
                        config.region_names().back()));
   }
-  for (std::string& text : odd_masks(config, inputs)) inputs.warn(std::move(text));
+  for (std::string& text : ineffective_mask_warnings(config, inputs)) inputs.warn(std::move(text));
   inputs.mask_digest = Hasher().add_array(numbers_of(inputs.regions.alpha)).digest();
   read_textures(config, cache, inputs, problems);
-  if (!config.neck.body_texture.empty() && inputs.colours.empty() && !inputs.textures.any()) {
+  if (!config.neck.body_texture.empty() && inputs.colours.empty() &&
+      !inputs.textures.has_textures()) {
     problems.add(ExitCode::kUsage, concat(config.file.string(),
                                           ": neck.body_texture: the heads have neither textures "
                                           "nor vertex colours to which the body can be tinted"));

@@ -18,8 +18,8 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
 
 /// Reads only the heads and compares them with each other, without alignment. Adds every problem.
 /// \return nothing if there is any problem.
-std::optional<HeadSet> load_faces(const Config::Faces& faces, const CacheFolder& cache,
-                                  Problems& problems);
+std::optional<HeadSet> load_head_set(const Config::Faces& faces, const CacheFolder& cache,
+                                     Problems& problems);
 
 /// Adds the problems of the heads and masks that a config names, even if the config itself has
 /// errors, so that users see all problems at once.

@@ -82,28 +82,28 @@ struct Poses {
   Vector3d across;              ///< the axis through the ears
   std::vector<Matrix3d> turns;  ///< rotation of each head into the common pose
 
-  Poses(const Config& config, const HeadSet& faces, std::vector<std::uint32_t> vertices)
+  Poses(const Config& config, const HeadSet& heads, std::vector<std::uint32_t> vertices)
       : skin(std::move(vertices)),
         across(unit_vector(config.faces.up).cross(unit_vector(config.faces.front))) {
     std::vector<Positions> points;
-    for (const Head& head : faces.heads) points.emplace_back(head.positions(skin, kAllColumns));
+    for (const Head& head : heads.heads) points.emplace_back(head.positions(skin, kAllColumns));
     turns = rotations_to_median(points, across);
   }
 
   /// The mean of the heads at some vertices, after each head is rotated by its turn and translated
   /// so that the centre of its rim lies at the mean of all rim centres.
-  Positions mean(const HeadSet& faces, const Rim& rim,
+  Positions mean(const HeadSet& heads, const Rim& rim,
                  std::span<const std::uint32_t> vertices) const {
     std::vector<Vector3d> middles;
     Vector3d to = Vector3d::Zero();
-    for (const Head& head : faces.heads) {
+    for (const Head& head : heads.heads) {
       middles.push_back(ring_middle(head.positions(rim, kAllColumns)));
-      to += middles.back() / static_cast<double>(faces.heads.size());
+      to += middles.back() / static_cast<double>(heads.heads.size());
     }
     Positions sum = Positions::Zero(static_cast<Index>(vertices.size()), 3);
     for (std::size_t h = 0; h < turns.size(); ++h) {
       const RigidMotion motion{.rotation = turns[h], .pivot = middles[h], .moved_pivot = to};
-      Positions own = faces.heads[h].positions(vertices, kAllColumns);
+      Positions own = heads.heads[h].positions(vertices, kAllColumns);
       move_rows(motion, own);
       sum += own;
     }
@@ -112,8 +112,9 @@ struct Poses {
 
   /// Returns the rotation from the heads' common pose into the pose of `mesh`, which has the heads'
   /// vertices.
-  Matrix3d rotation_to(const HeadSet& faces, const Rim& rim, const Positions& mesh) const {
-    return pose_part(head_motion(mean(faces, rim, skin), mesh(skin, kAllColumns)).rotation, across);
+  Matrix3d rotation_to(const HeadSet& heads, const Rim& rim, const Positions& mesh) const {
+    return pose_difference(head_motion(mean(heads, rim, skin), mesh(skin, kAllColumns)).rotation,
+                           across);
   }
 };
 
@@ -129,17 +130,17 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
   if (!config.neck.body.empty()) {
     const Positions ring = poses.mean(faces, rim, rim);
     goal.body = read_neck_body(config, inputs, rim, ring);
-    goal.rotation = goal.body.is_head ? poses.rotation_to(faces, rim, goal.body.skin)
-                                      : rotation_of_rim(ring, goal.body.rim);
+    goal.rotation = goal.body.is_head ? poses.rotation_to(faces, rim, goal.body.skin_positions)
+                                      : rotation_of_rim(ring, goal.body.rim_positions);
     return goal;
   }
-  goal.body.areas = Positions::Zero(static_cast<Index>(rim.size()), 3);
+  goal.body.area_vectors = Positions::Zero(static_cast<Index>(rim.size()), 3);
   if (!config.neck.like) {
-    goal.body.rim = poses.mean(faces, rim, rim);
+    goal.body.rim_positions = poses.mean(faces, rim, rim);
     return goal;
   }
   const Positions& head = faces.heads[static_cast<std::size_t>(*config.neck.like)].positions;
-  goal.body.rim = head(rim, kAllColumns);
+  goal.body.rim_positions = head(rim, kAllColumns);
   goal.rotation = poses.rotation_to(faces, rim, head);
   return goal;
 }
@@ -153,9 +154,9 @@ void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& he
   const double most = config.neck.falloff_mm / 3;
   std::vector<std::string> bent;
   for (std::size_t h = 0; h < heads.size(); ++h) {
-    if (heads[h].bent_mm <= most) continue;
+    if (heads[h].max_bend_mm <= most) continue;
     bent.push_back(
-        concat(inputs.faces.heads[h].name, " (", format_fixed(heads[h].bent_mm, 1), " mm)"));
+        concat(inputs.faces.heads[h].name, " (", format_fixed(heads[h].max_bend_mm, 1), " mm)"));
   }
   if (bent.empty()) return;
   inputs.warn(concat("neck: the rings of ", join(bent), " are farther from the body's ring than ",
@@ -170,30 +171,31 @@ HeadsOnBody::Head place(const Rim& rim, const Goal& goal, const Matrix3d& turn, 
                         Positions& head) {
   HeadsOnBody::Head placed;
   const Positions before = head(rim, kAllColumns);
-  placed.turned_degrees = Similarity{goal.rotation * turn}.angle_degrees();
-  placed.turn = apply3(goal.rotation, turn_vector(turn));
-  const Vector3d middle = ring_middle(goal.body.rim);
-  if (before != goal.body.rim || !goal.rotation.isIdentity(0)) {
-    placed.placed = {
+  placed.rotation_degrees = Similarity{goal.rotation * turn}.angle_degrees();
+  placed.pose_rotation = multiply3(goal.rotation, rotation_vector(turn));
+  const Vector3d middle = ring_middle(goal.body.rim_positions);
+  if (before != goal.body.rim_positions || !goal.rotation.isIdentity(0)) {
+    placed.placement = {
         .rotation = goal.rotation, .pivot = ring_middle(before), .moved_pivot = middle};
-    move_rows(placed.placed, head);
+    move_rows(placed.placement, head);
   }
   Positions after = head(rim, kAllColumns);
-  if (!placed.turn.isZero(0)) move_rows(turn_about(middle, placed.turn), after);
-  placed.moved_mm = mm * rms_length(after - before);
-  placed.bent_mm = mm * (goal.body.rim - after).rowwise().norm().maxCoeff();
+  if (!placed.pose_rotation.isZero(0))
+    move_rows(rotation_about(middle, placed.pose_rotation), after);
+  placed.shift_mm = mm * rms_length(after - before);
+  placed.max_bend_mm = mm * (goal.body.rim_positions - after).rowwise().norm().maxCoeff();
   return placed;
 }
 
 /// The mean of the placed and turned heads.
-Positions turned_mean(const HeadSet& faces, const std::vector<HeadsOnBody::Head>& heads,
+Positions turned_mean(const HeadSet& heads, const std::vector<HeadsOnBody::Head>& placements,
                       const Vector3d& middle) {
-  Positions mean = mean_head(faces);
-  for (std::size_t h = 0; h < heads.size(); ++h) {
-    if (heads[h].turn.isZero(0)) continue;
-    Positions turned = faces.heads[h].positions;
-    move_rows(turn_about(middle, heads[h].turn), turned);
-    mean += (turned - faces.heads[h].positions) / static_cast<double>(heads.size());
+  Positions mean = mean_head(heads);
+  for (std::size_t h = 0; h < placements.size(); ++h) {
+    if (placements[h].pose_rotation.isZero(0)) continue;
+    Positions turned = heads.heads[h].positions;
+    move_rows(rotation_about(middle, placements[h].pose_rotation), turned);
+    mean += (turned - heads.heads[h].positions) / static_cast<double>(placements.size());
   }
   return mean;
 }
@@ -205,10 +207,12 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
       .add_array(numbers_of(neck.seam.normals))
       .add(config.neck.falloff_mm);
   for (const HeadsOnBody::Head& head : neck.heads) {
-    for (Index c = 0; c < 3; ++c) hasher.add(head.turn[c]);
+    for (Index c = 0; c < 3; ++c) hasher.add(head.pose_rotation[c]);
   }
   if (neck.body) {
-    hasher.add(neck.body->text).add(int{config.neck.show_body}).add(int{config.neck.write_body});
+    hasher.add(neck.body->text_digest)
+        .add(int{config.neck.show_body})
+        .add(int{config.neck.write_body});
     hasher.add_array(std::span(neck.body_rim));
     for (const MaterialFile& file : neck.body->materials.files) {
       hasher.add(hash_file(file.from).digest);
@@ -237,13 +241,16 @@ void place_heads(const Config& config, Inputs& inputs) {
     heads[h] = place(rim, goal, poses.turns[h], mm, faces.heads[h].positions);
   });
   warn_of_bent(config, heads, inputs);
-  const Vector3d middle = ring_middle(goal.body.rim);
+  const Vector3d middle = ring_middle(goal.body.rim_positions);
   Positions mean = turned_mean(faces, heads, middle);
-  Seam seam{rim, goal.body.rim, {}, NeckBend(faces.topology, inputs.adjacency, mean, rim, falloff)};
+  Seam seam{rim,
+            goal.body.rim_positions,
+            {},
+            NeckBend(faces.topology, inputs.adjacency, mean, rim, falloff)};
   seam.fit(mean);
-  const Positions areas = areas_around(faces.topology, mean, rim);
+  const Positions areas = area_vectors_around(faces.topology, mean, rim);
   goal.body.face_outward(areas);
-  seam.normals = normals_of(areas, goal.body.areas);
+  seam.normals = normals_of(areas, goal.body.area_vectors);
   HeadsOnBody neck{std::move(seam), std::move(heads),   middle, std::move(unplaced_mean), mm,
                    goal.body.mesh,  goal.body.mesh_rim, {}};
   neck.digest = neck_digest(config, neck);

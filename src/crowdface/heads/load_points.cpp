@@ -77,7 +77,7 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
     }
     points.positions.push_back(read_set(entry->value, points.names, complaints));
     if (inputs.neck) {
-      const RigidMotion& placed = inputs.neck->heads[points.meshes.size()].placed;
+      const RigidMotion& placed = inputs.neck->heads[points.meshes.size()].placement;
       Positions& own = points.positions.back();
       for (Index p = 0; p < own.rows(); ++p) own.row(p) = placed.apply(row3(own, p)).transpose();
     }

@@ -76,7 +76,7 @@ Match match_by_id(const GltfRig& rig, Index vertices) {
 Match match_by_place(const PointGrid& grid, const Positions& mesh, double reach) {
   Match match;
   for (Index v = 0; v < mesh.rows(); ++v) {
-    const PointGrid::Nearest nearest = grid.nearest(row3(mesh, v));
+    const PointGrid::NearestVertex nearest = grid.nearest(row3(mesh, v));
     match.points.push_back(nearest.vertex);
     if (nearest.distance <= reach) continue;
     ++match.missing;

@@ -56,8 +56,8 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
     if (known->second.empty()) {
       fitting.push_back(std::move(*read[i]));
       numbers.push_back(places[i]);
-    } else if (const auto vertices =
-                   vertices_of_corners(source.topology, mesh->topology, read[i]->file.positions)) {
+    } else if (const auto vertices = match_vertices_by_corners(source.topology, mesh->topology,
+                                                               read[i]->file.positions)) {
       take(places[i], read[i]->file.positions(*vertices, kAllColumns));
     } else {
       problems.add(ExitCode::kBadData,
@@ -65,14 +65,14 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
                           source.config.faces.files.front().string(), ": ", known->second));
     }
   }
-  keep_heads(fitting, source.cache);
+  cache_heads(fitting, source.cache);
   parallel_for_each(fitting.size(),
                     [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
 /// Sets a shape's displacements to zero at the ring in which all faces end.
 void hold_ring(const Inputs& inputs, Displacements& moves) {
-  if (inputs.neck) inputs.neck->seam.fix_rim(moves);
+  if (inputs.neck) inputs.neck->seam.keep_rim_still(moves);
 }
 
 /// Loads the template's shapes; skips shapes that the template lacks.
@@ -173,7 +173,7 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
 
 /// Removes shapes that move no vertex of any head: either the shape is the neutral pose, or a head
 /// model lists the shape but has no data for it.
-void leave_out_still_shapes(Inputs& inputs) {
+void remove_shapes_without_motion(Inputs& inputs) {
   ShapeSet& set = inputs.shapes;
   for (std::size_t s = set.shapes.size(); s-- > 0;) {
     if (!set.shapes[s].moves.vertices.empty()) continue;
@@ -212,7 +212,7 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
   } else {
     load_heads(source, inputs, problems);
   }
-  if (problems.size() == before) leave_out_still_shapes(inputs);
+  if (problems.size() == before) remove_shapes_without_motion(inputs);
   if (problems.size() == before) inputs.shapes_digest = digest_of_shapes(inputs.shapes);
 }
 

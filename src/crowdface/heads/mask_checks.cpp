@@ -28,7 +28,7 @@ void check_masks(const std::vector<std::string>& files, Problems& problems) {
   }
 }
 
-std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs) {
+std::vector<std::string> single_image_mask_warnings(const Config& config, const Inputs& inputs) {
   std::set<std::pair<double, double>> tiles;
   const Topology& topology = inputs.faces.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -58,7 +58,7 @@ std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs) 
   return warnings;
 }
 
-std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs) {
+std::vector<std::string> ineffective_mask_warnings(const Config& config, const Inputs& inputs) {
   const std::vector<std::string>& names = config.regions.names;
   if (names.empty() || config.regions.mask.empty()) return {};
   if (names.size() == 1) {

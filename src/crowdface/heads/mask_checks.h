@@ -15,9 +15,9 @@ namespace crowdface {
 void check_masks(const std::vector<std::string>& files, Problems& problems);
 
 /// Warns about each mask that is a single image although the skin lies in several UDIM tiles.
-std::vector<std::string> lone_masks(const Config& config, const Inputs& inputs);
+std::vector<std::string> single_image_mask_warnings(const Config& config, const Inputs& inputs);
 
 /// Warns about masks without a useful effect.
-std::vector<std::string> odd_masks(const Config& config, const Inputs& inputs);
+std::vector<std::string> ineffective_mask_warnings(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

@@ -123,7 +123,7 @@ PartOverrides overrides_of(const Config& config, const Inputs& inputs, Problems&
 
 std::string part_name(const Part& part) {
   if (part.part_class == PartClass::kBound) return "bound";
-  return part.eyeball ? "eyeball" : "rigid";
+  return part.is_eyeball ? "eyeball" : "rigid";
 }
 
 }  // namespace
@@ -176,7 +176,7 @@ std::string describe_parts(const Config& config, const Inputs& inputs) {
   std::vector<Line> lines = {{"skin", {}, 0}};
   const auto add = [&](Line& line, std::uint32_t c) {
     line.components.push_back(c);
-    line.vertices += inputs.parts.shapes[c].vertices;
+    line.vertices += inputs.parts.shapes[c].vertex_count;
   };
   for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(inputs.parts.classes.size()); ++c) {
     if (inputs.parts.classes[c] == PartClass::kSkin) add(lines[0], c);

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Sorts the components of the heads into the parts that the config names; fills `inputs.parts` and
-/// `inputs.skin`. A name without a matching component is a problem.
+/// Assigns the components of the heads to the parts that the config names, and stores the result in
+/// `inputs.parts` and `inputs.skin`. A name without a matching component is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
 
 /// `skin_of`: #V, whether each vertex is skin. `skin_vertices`: the skin vertices, ascending.

@@ -82,7 +82,7 @@ void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
   auto kept = std::make_shared<Attachment>();
   kept->name = kept->kind = "body";
   kept->materials = find_material_files(mesh.material_path(), mesh.material_libraries);
-  kept->text = Hasher().add(mesh.file.bytes()).digest();
+  kept->text_digest = Hasher().add(mesh.file.bytes()).digest();
   kept->file = std::move(mesh);
   body.mesh = std::move(kept);
   body.mesh_rim = rim;
@@ -93,7 +93,7 @@ void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
 Rim find_neck_rim(const Config& config, const Inputs& inputs) {
   if (!config.neck.rim.empty()) return read_rim(config.neck.rim, inputs.adjacency);
   const Components& components = inputs.components;
-  std::vector<Rim> rims = open_rims(inputs.faces.topology, inputs.adjacency);
+  std::vector<Rim> rims = find_open_rims(inputs.faces.topology, inputs.adjacency);
   std::erase_if(rims, [&](const Rim& rim) {
     return components.of_vertex[rim.front()] != components.largest();
   });
@@ -101,7 +101,8 @@ Rim find_neck_rim(const Config& config, const Inputs& inputs) {
                     mm_per(config.faces.units));
 }
 
-Positions areas_around(const Topology& topology, const Positions& positions, const Rim& rim) {
+Positions area_vectors_around(const Topology& topology, const Positions& positions,
+                              const Rim& rim) {
   const VertexFaces around(topology);
   Positions areas = Positions::Zero(static_cast<Index>(rim.size()), 3);
   for (std::size_t i = 0; i < rim.size(); ++i) {
@@ -113,8 +114,8 @@ Positions areas_around(const Topology& topology, const Positions& positions, con
 }
 
 void NeckBody::face_outward(const Positions& head_areas) {
-  if (head_areas.cwiseProduct(areas).sum() >= 0) return;
-  areas = -areas;
+  if (head_areas.cwiseProduct(area_vectors).sum() >= 0) return;
+  area_vectors = -area_vectors;
   if (!mesh) return;
   Topology& topology = mesh->file.topology;
   turn_faces(topology);
@@ -138,19 +139,19 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
   if (!neck.body_rim.empty()) {
     rims = {read_rim(neck.body_rim, build_adjacency(mesh.topology))};
   } else if (!body.is_head) {
-    rims = open_rims(mesh.topology, build_adjacency(mesh.topology));
+    rims = find_open_rims(mesh.topology, build_adjacency(mesh.topology));
   }
   try {
-    Rim found = matching_rim(head, rims, mm * mesh.positions, neck.falloff_mm,
-                             is_order_known ? RimOrder::kGiven : RimOrder::kFree);
-    body.rim = mesh.positions(found, kAllColumns);
+    Rim found = find_matching_rim(head, rims, mm * mesh.positions, neck.falloff_mm,
+                                  is_order_known ? RimOrder::kGiven : RimOrder::kFree);
+    body.rim_positions = mesh.positions(found, kAllColumns);
     if (!neck.body_rim.empty()) {
       const std::vector<bool> below =
           polygons_below(mesh.topology, mesh.positions, found, unit_vector(config.faces.up));
       mesh = with_polygons(below, std::move(mesh), found);
     }
-    body.areas = areas_around(mesh.topology, mesh.positions, found);
-    if (body.is_head) body.skin = mesh.positions;
+    body.area_vectors = area_vectors_around(mesh.topology, mesh.positions, found);
+    if (body.is_head) body.skin_positions = mesh.positions;
     if (neck.needs_body_mesh()) keep_body(std::move(mesh), found, body);
   } catch (const InvalidInput& error) {
     refuse_file(neck.body, error.what());

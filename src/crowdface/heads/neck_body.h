@@ -14,14 +14,14 @@ namespace crowdface {
 Rim find_neck_rim(const Config& config, const Inputs& inputs);
 
 /// The sum of the area vectors of the polygons around each vertex of a rim, #rim by 3.
-Positions areas_around(const Topology& topology, const Positions& positions, const Rim& rim);
+Positions area_vectors_around(const Topology& topology, const Positions& positions, const Rim& rim);
 
 /// The body whose file the config names as `neck.body`.
 struct NeckBody {
-  Positions rim;    ///< #rim by 3, in the order of the heads' rim
-  Positions areas;  ///< area vectors of its polygons around the rim, #rim by 3
+  Positions rim_positions;  ///< #rim by 3, in the order of the heads' rim
+  Positions area_vectors;   ///< area vectors of its polygons around the rim, #rim by 3
   bool is_head = false;
-  Positions skin = {};  ///< positions of the whole mesh if it is a head; else empty
+  Positions skin_positions = {};  ///< positions of the whole mesh if it is a head; else empty
   /// The mesh and its vertices in the order of the rim, if the config needs it; else null.
   std::shared_ptr<Attachment> mesh = {};
   Rim mesh_rim = {};

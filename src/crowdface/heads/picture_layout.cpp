@@ -25,7 +25,7 @@ std::string part_name(const std::string& material) {
 
 }  // namespace
 
-std::vector<PictureSource> lay_out_pictures(const HeadsTextures& found, TextureLayout& layout) {
+std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, TextureLayout& layout) {
   layout.tile = found.tile;
   layout.of_face.assign(found.tile.size(), kNoIndex);
   std::vector<PictureSource> first;
@@ -45,7 +45,7 @@ std::vector<PictureSource> lay_out_pictures(const HeadsTextures& found, TextureL
   return first;
 }
 
-std::vector<PictureName> picture_names(const HeadsTextures& found,
+std::vector<PictureName> picture_names(const FoundTextureFiles& found,
                                        const std::vector<PictureSource>& pictures,
                                        const FaceMaterials& materials) {
   std::map<fs::path, std::string> parts;

@@ -20,11 +20,11 @@ struct PictureSource {
 /// Assigns to each polygon the image of the first head that has a texture at this polygon. The
 /// images have no size yet.
 /// \return #images
-std::vector<PictureSource> lay_out_pictures(const HeadsTextures& found, TextureLayout& layout);
+std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, TextureLayout& layout);
 
 /// Names the images after their materials and tiles.
 /// \param pictures  result of lay_out_pictures
-std::vector<PictureName> picture_names(const HeadsTextures& found,
+std::vector<PictureName> picture_names(const FoundTextureFiles& found,
                                        const std::vector<PictureSource>& pictures,
                                        const FaceMaterials& materials);
 

@@ -67,7 +67,7 @@ class HeadPreparation {
     const LevelNodes& nodes = *prepared_.nodes;
     PreparedHead result;
     const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
-    result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.traced);
+    result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.traced_samples);
     if (config_.smoothing.levels == Levels::kCubic) {
       result.levels.fields = fit_cubic(filter(), head.positions, inputs_.max_level).fields;
     }
@@ -102,10 +102,10 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
   const auto chosen = [&](Index count) { return choose_samples(config, inputs, count); };
   if (inputs.mirror == nullptr) {
-    prepared.traced = prepared.samples = chosen(kSampleCount);
+    prepared.traced_samples = prepared.samples = chosen(kSampleCount);
   } else {
     prepared.samples = with_partners(chosen(kSampleCount / 2), *inputs.mirror);
-    prepared.traced = with_corners(prepared.samples, *inputs.mirror);
+    prepared.traced_samples = with_corners(prepared.samples, *inputs.mirror);
   }
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
                                                       inputs.max_level, missed_by_nodes(config));
@@ -114,7 +114,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
 
 HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   return {inputs.faces.topology.vertex_count,
-          static_cast<Index>(prepared.traced.size()),
+          static_cast<Index>(prepared.traced_samples.size()),
           static_cast<Index>(trajectory_levels(inputs.max_level).size()),
           static_cast<Index>(prepared.nodes->levels().size()),
           inputs.max_level,
@@ -150,8 +150,8 @@ CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepa
 
 }  // namespace
 
-void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                  const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted) {
+void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                   const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted) {
   Prepared prepared = shared_by_heads(config, inputs);
   const HeadCacheSizes shape = cache_shape(config, inputs, prepared);
   clean(cache);
@@ -159,7 +159,7 @@ void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOpe
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
     if (!is_wanted(h)) continue;
     throw_if_interrupted();
-    const Digest key = key_of(config, inputs, prepared.traced, h);
+    const Digest key = key_of(config, inputs, prepared.traced_samples, h);
     if (find_prepared(cache, key, shape)) continue;
     write_entry(cache, prepared_key(key), arrays_of(preparation.prepare(inputs.faces.heads[h])));
   }
@@ -178,14 +178,14 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   std::vector<std::optional<PreparedHead>> heads(keys.size());
   parallel_for_each(keys.size(), [&](std::size_t h) {
     throw_if_interrupted();
-    keys[h] = key_of(config, inputs, prepared.traced, h);
+    keys[h] = key_of(config, inputs, prepared.traced_samples, h);
     heads[h] = find_prepared(cache, keys[h], shape);
   });
   for (std::size_t h = 0; h < heads.size(); ++h) {
     throw_if_interrupted();
     std::optional<PreparedHead>& head = heads[h];
     if (head) {
-      ++prepared.from_cache;
+      ++prepared.cached_head_count;
     } else {
       head = preparation.prepare(inputs.faces.heads[h]);
       // After one failure, more warnings would not help.
@@ -207,8 +207,8 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
     prepared.filter.reset();
     prepared.patches = patches_of(config, inputs, prepared, keys, cache);
   }
-  if (prepared.from_cache > 0) {
-    log_info(concat(prepared.from_cache, " of ", inputs.faces.heads.size(),
+  if (prepared.cached_head_count > 0) {
+    log_info(concat(prepared.cached_head_count, " of ", inputs.faces.heads.size(),
                     " prepared heads came from the cache"));
   }
   return prepared;
@@ -218,9 +218,9 @@ void require_whole(const Prepared& prepared) {
   const auto was_truncated = [](const std::shared_ptr<const MappedFile>& mapped) {
     return mapped && mapped->was_truncated();
   };
-  if (was_truncated(prepared.patches.mapped) ||
+  if (was_truncated(prepared.patches.mapped_file) ||
       std::ranges::any_of(prepared.levels,
-                          [&](const auto& head) { return was_truncated(head.mapped); })) {
+                          [&](const auto& head) { return was_truncated(head.mapped_file); })) {
     throw TruncatedWhileInUse("a cache entry was truncated while it was in use");
   }
 }

@@ -24,13 +24,13 @@ namespace crowdface {
 struct Prepared {
   FaceSamples samples;
   /// the samples, followed by the other vertices that their mirror images depend on
-  FaceSamples traced;
-  std::vector<Trajectory> trajectories;     ///< #heads, trajectories of the vertices `traced`
-  std::vector<StoredLevels> levels;         ///< #heads; no fields with `levels: exact`
+  FaceSamples traced_samples;
+  std::vector<Trajectory> trajectories;  ///< #heads, trajectories of the vertices `traced_samples`
+  std::vector<StoredLevels> levels;      ///< #heads; no fields with `levels: exact`
   std::shared_ptr<const LevelNodes> nodes;  ///< the nodes on which the mixing matrices are defined
   CachedPatches patches;                    ///< all heads' fields; empty with `levels: exact`
   std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`
-  std::size_t from_cache = 0;               ///< number of heads found in the cache
+  std::size_t cached_head_count = 0;        ///< number of heads found in the cache
 };
 
 /// A cache entry was truncated while its fields were in use. Results computed from it must be
@@ -51,8 +51,8 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
 /// Prepares heads that the cache lacks and stores them there.
 /// \param is_wanted  called with the index of a head: whether to prepare it
 /// \throws CannotCreate, IoError if a head cannot be stored.
-void prepare_some(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                  const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);
+void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
+                   const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);
 
 /// The fitted levels in the form that blending needs.
 std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);
@@ -61,12 +61,12 @@ std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepar
 /// three times in all. `work` must prepare the heads anew and skip what it has already finished.
 template <class Work>
 void retry_if_truncated(const Work& work) {
-  constexpr int kMaxTimes = 3;
-  for (int times = 1;; ++times) {
+  constexpr int kMaxTries = 3;
+  for (int tries = 1;; ++tries) {
     try {
       return work();
     } catch (const TruncatedWhileInUse& error) {
-      if (times == kMaxTimes) throw;
+      if (tries == kMaxTries) throw;
       log_warning(concat(error.what(), "; it is created again, and the run continues"));
     }
   }

@@ -95,11 +95,11 @@ bool is_mesh(const HeadMesh& mesh) {
   return is_topology(topology) &&
          static_cast<std::uint64_t>(topology.face_count()) <= input_limits().faces &&
          has_all_or_none(topology.corner_uvs) && has_all_or_none(mesh.corner_normals) &&
-         are_rows(topology.corner_uvs, static_cast<std::uint64_t>(mesh.uvs.rows()));
+         are_indices(topology.corner_uvs, static_cast<std::uint64_t>(mesh.uvs.rows()));
 }
 
-CacheKey mesh_key(const Digest& mesh) {
-  return {"mesh", mesh};
+CacheKey mesh_key(const Digest& mesh_digest) {
+  return {"mesh", mesh_digest};
 }
 
 }  // namespace
@@ -115,16 +115,17 @@ Digest HeadMesh::digest() const {
       .digest();
 }
 
-CacheKey read_key(const Digest& text) {
+CacheKey read_key(const Digest& text_digest) {
   // The cache may hold a file that exceeds the current limits.
   const InputLimits& limits = input_limits();
   return {kReadKind,
-          Hasher().add(kVersion).add(text).add(limits.vertices).add(limits.faces).digest()};
+          Hasher().add(kVersion).add(text_digest).add(limits.vertices).add(limits.faces).digest()};
 }
 
-std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head) {
+std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text_digest,
+                                ObjFile& head) {
   auto kept = find_cached<KeptHead>(
-      cache, read_key(text), kHeadArrays, [](const KeptHead& found, const CacheEntry&) {
+      cache, read_key(text_digest), kHeadArrays, [](const KeptHead& found, const CacheEntry&) {
         return found.libraries.are_sound() && found.materials.are_sound() &&
                found.groups.are_sound();
       });
@@ -139,23 +140,24 @@ std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, Ob
   return kept->mesh;
 }
 
-std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh) {
-  return find_cached<HeadMesh>(cache, mesh_key(mesh), kMeshArrays,
+std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_digest) {
+  return find_cached<HeadMesh>(cache, mesh_key(mesh_digest), kMeshArrays,
                                [&](const HeadMesh& found, const CacheEntry&) {
-                                 return is_mesh(found) && found.digest() == mesh;
+                                 return is_mesh(found) && found.digest() == mesh_digest;
                                });
 }
 
-void keep_head(const fs::path& cache, const Digest& text, const Digest& mesh, const ObjFile& head) {
-  KeptHead kept{mesh, head.positions, {}, {}, {}};
+void cache_head(const fs::path& cache, const Digest& text_digest, const Digest& mesh_digest,
+                const ObjFile& head) {
+  KeptHead kept{mesh_digest, head.positions, {}, {}, {}};
   for (const std::string& library : head.material_libraries) kept.libraries.add(library, 0);
   for (const MaterialRange& range : head.materials)
     kept.materials.add(range.name, range.first_face);
   for (const MaterialRange& range : head.groups) kept.groups.add(range.name, range.first_face);
-  write_entry(cache, read_key(text), arrays_of(kept, kHeadArrays));
+  write_entry(cache, read_key(text_digest), arrays_of(kept, kHeadArrays));
 }
 
-void keep_mesh(const fs::path& cache, const HeadMesh& mesh) {
+void cache_mesh(const fs::path& cache, const HeadMesh& mesh) {
   write_entry(cache, mesh_key(mesh.digest()), arrays_of(mesh, kMeshArrays));
 }
 

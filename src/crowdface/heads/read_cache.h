@@ -22,17 +22,17 @@ struct HeadMesh {
 };
 
 /// Fills in positions, materials and groups of a head from the cache.
-/// \param text  hash of the whole file
+/// \param text_digest  hash of the whole file
 /// \return the hash of the head's mesh, or nothing if the cache has no entry for the file.
-std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text, ObjFile& head);
-/// \param mesh  hash of the mesh
-std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh);
+std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text_digest, ObjFile& head);
+/// \param mesh_digest  hash of the mesh
+std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_digest);
 
 /// Write cache entries. \throws CannotCreate, IoError.
-void keep_head(const std::filesystem::path& cache, const Digest& text, const Digest& mesh,
-               const ObjFile& head);
-void keep_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);
+void cache_head(const std::filesystem::path& cache, const Digest& text_digest,
+                const Digest& mesh_digest, const ObjFile& head);
+void cache_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);
 
-CacheKey read_key(const Digest& text);
+CacheKey read_key(const Digest& text_digest);
 
 }  // namespace crowdface

@@ -99,7 +99,7 @@ bool fits(const ObjFile& head, const HeadMesh& mesh) {
 }
 
 bool is_worth_keeping(const ObjFile& file) {
-  return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kMinKeptBytes;
+  return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kMinCachedBytes;
 }
 
 /// Undoes the flip of mirrored heads, so that the alignment check reports these heads. A head is
@@ -141,12 +141,12 @@ void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
 
 /// Fills in a head from the cache. \return false if the cache does not have it.
 bool read_from_cache(HeadFile& head, const CacheFolder& cache, MeshShelf& shelf) {
-  const auto mesh = find_head(cache, head.text, head.file);
+  const auto mesh = find_head(cache, head.text_digest, head.file);
   if (!mesh) return false;
   head.mesh_digest = *mesh;
   head.mesh = shelf.find(*mesh);
   if (!head.mesh || fits(head.file, *head.mesh)) return head.mesh != nullptr;
-  warn_of_entry(InvalidInput(
+  warn_of_unusable_entry(InvalidInput(
       concat(head.file.path.string(), ": its cache entry is damaged (it is of another mesh)")));
   return false;
 }
@@ -187,7 +187,7 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
                                                const FileMesh& mesh) {
   if (mesh.textures.empty()) return {};
   Hasher hasher;
-  hasher.add(head.text);
+  hasher.add(head.text_digest);
   for (const MeshTexture& texture : mesh.textures) hasher.add(texture.bytes);
   const CacheKey key{"textures", hasher.digest()};
   const fs::path stem = head.file.path.stem();
@@ -210,7 +210,7 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
 void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
   FileMesh mesh = read_mesh(file.path);
-  reading.head.is_joined = join_split_vertices(mesh);
+  reading.head.has_joined_vertices = join_split_vertices(mesh);
   if (mesh.topology.face_count() > 0) {
     auto [textures_at, library] = keep_textures(reading.head, cache, mesh);
     take_mesh(reading, as_obj(std::move(mesh), fs::path(file.path), library), shelf);
@@ -229,16 +229,16 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   head.file.path = path;
   const FileFingerprint seen(cache, path);
   head.file.file = MappedFile(path);
-  head.text = seen.digest() ? *seen.digest() : hash_bytes(head.file.file.bytes());
+  head.text_digest = seen.digest() ? *seen.digest() : hash_bytes(head.file.file.bytes());
   if (is_obj(path)) {
     if (auto text = polypaint_at_vertices(head.file.file.bytes())) {
       head.file.file = MappedFile::of_text(std::move(*text));
     }
   }
-  head.is_kept =
+  head.is_cached =
       !cache.path.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
-  if (head.is_kept) {
-    seen.remember(head.text);
+  if (head.is_cached) {
+    seen.remember(head.text_digest);
     return reading;
   }
   if (!is_obj(path)) {
@@ -329,7 +329,7 @@ std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const Cache
   std::size_t kept = 0;
   for (std::optional<HeadFile>& head : read_mesh_files(paths, "heads", cache, problems)) {
     if (!head) continue;
-    kept += head->is_kept ? 1U : 0U;
+    kept += head->is_cached ? 1U : 0U;
     read.push_back(std::move(*head));
   }
   if (!read.empty()) give_common_mesh(read);
@@ -341,26 +341,26 @@ Positions read_positions(const fs::path& file, const Topology& topology, std::st
   ObjFile mesh = read_mesh_as_obj(file);
   const std::string difference = first_difference(topology, mesh.topology);
   if (difference.empty()) return std::move(mesh.positions);
-  if (const auto vertices = vertices_of_corners(topology, mesh.topology, mesh.positions)) {
+  if (const auto vertices = match_vertices_by_corners(topology, mesh.topology, mesh.positions)) {
     return mesh.positions(*vertices, kAllColumns);
   }
   refuse_file(file, concat("not the same mesh as ", others, ": ", difference));
 }
 
-void keep_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
+void cache_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {
   if (cache.empty()) return;
   try {
     std::vector<Digest> meshes;
     std::vector<const HeadFile*> lacking;
     for (const HeadFile& head : heads) {
-      if (head.is_kept || !is_worth_keeping(head.file)) continue;
+      if (head.is_cached || !is_worth_keeping(head.file)) continue;
       lacking.push_back(&head);
       if (std::ranges::find(meshes, head.mesh_digest) != meshes.end()) continue;
       meshes.push_back(head.mesh_digest);
-      keep_mesh(cache, *head.mesh);
+      cache_mesh(cache, *head.mesh);
     }
     parallel_for_each(lacking.size(), [&](std::size_t i) {
-      keep_head(cache, lacking[i]->text, lacking[i]->mesh_digest, lacking[i]->file);
+      cache_head(cache, lacking[i]->text_digest, lacking[i]->mesh_digest, lacking[i]->file);
     });
   } catch (const RecoverableError& error) {
     log_warning(concat("heads cannot be stored in the cache: ", error.what()));

@@ -17,7 +17,7 @@
 namespace crowdface {
 
 /// Smaller files are not cached: reading them takes no longer than reading their cache entry.
-inline constexpr std::uint64_t kMinKeptBytes = 1'000'000;
+inline constexpr std::uint64_t kMinCachedBytes = 1'000'000;
 
 /// What to do with meshes whose polygons face inward.
 enum class Winding { kAsItIs, kOutward };
@@ -42,6 +42,6 @@ Positions read_positions(const std::filesystem::path& file, const Topology& topo
                          std::string_view others);
 
 /// Stores large files that the cache lacks. A cache that cannot be written only causes a warning.
-void keep_heads(const std::vector<HeadFile>& heads, const std::filesystem::path& cache);
+void cache_heads(const std::vector<HeadFile>& heads, const std::filesystem::path& cache);
 
 }  // namespace crowdface

@@ -16,7 +16,7 @@ constexpr double kBandMm = 20;  ///< height of the band, along the skin
 
 /// The optical densities of a head's texture around each vertex, #vertices by 3: the mean of one
 /// sample in each adjacent polygon. No rows if some vertex has no textured polygon.
-Positions sampled(const TextureSet& textures, const HeadSet& faces, const VertexFaces& around,
+Positions sampled(const TextureSet& textures, const HeadSet& heads, const VertexFaces& around,
                   const std::vector<std::uint32_t>& vertices) {
   constexpr float kOwn = 0.75F;  // weight of the vertex in a sample; the centroid has 1 − kOwn
   Positions densities(static_cast<Index>(vertices.size()), 3);
@@ -27,13 +27,13 @@ Positions sampled(const TextureSet& textures, const HeadSet& faces, const Vertex
       const std::uint32_t texture =
           textures.of_face.empty() ? TextureSet::kNone : textures.of_face[face];
       if (texture == TextureSet::kNone) continue;
-      const auto corners = faces.topology.face(face);
-      const auto uvs = faces.topology.face_uvs(face);
+      const auto corners = heads.topology.face(face);
+      const auto uvs = heads.topology.face_uvs(face);
       Eigen::Vector2f place = Eigen::Vector2f::Zero();
       for (std::size_t c = 0; c < corners.size(); ++c) {
         const float share = (1 - kOwn) / static_cast<float>(corners.size()) +
                             (corners[c] == vertices[i] ? kOwn : 0.0F);
-        place += share * faces.uvs.row(uvs[c]).transpose().cast<float>();
+        place += share * heads.uvs.row(uvs[c]).transpose().cast<float>();
       }
       const Light light = colour_at(*textures.textures[texture], place);
       for (int c = 0; c < 3; ++c) sum[c] += density_of_light(light[c]);
@@ -79,60 +79,62 @@ std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const Textur
 }  // namespace
 
 SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
-  const HeadSet& faces = inputs.faces;
+  const HeadSet& heads = inputs.faces;
   const Rim& rim = inputs.neck->seam.rim;
   vertices_ = rim;
-  ring_ = static_cast<Index>(rim.size());
+  ring_size_ = static_cast<Index>(rim.size());
   EdgeDistances distances(inputs.adjacency, inputs.mean);
   distances.search(rim, kBandMm / inputs.neck->mm_per_unit);
   for (const std::uint32_t v : distances.reached()) {
     if (distances.distance(v) > 0) vertices_.push_back(v);
   }
   const std::vector<double> areas =
-      face_areas(faces.topology, inputs.skin, inputs.mean, FaceArea::kSkin, {2, 1});
+      face_areas(heads.topology, inputs.skin, inputs.mean, FaceArea::kSkin, {2, 1});
   double total = 0;
   for (const std::uint32_t v : vertices_) total += areas[v];
   for (const std::uint32_t v : vertices_) areas_.push_back(areas[v] / total);
-  of_head_.assign(faces.heads.size(), Positions(0, 3));
-  const VertexFaces around(faces.topology);
+  head_densities_.assign(heads.heads.size(), Positions(0, 3));
+  const VertexFaces around(heads.topology);
   const std::uint32_t picture =
       blended == nullptr ? kNoIndex : picture_at(rim, around, inputs.textures.blended.layout);
-  for (std::size_t h = 0; h < of_head_.size(); ++h) {
+  for (std::size_t h = 0; h < head_densities_.size(); ++h) {
     if (picture != kNoIndex) {
-      if (inputs.textures.blended.maps[picture][h]) of_head_[h] = coarse_of(*blended, h, vertices_);
+      if (inputs.textures.blended.maps[picture][h])
+        head_densities_[h] = coarse_of(*blended, h, vertices_);
     } else if (!inputs.textures.texture_sets.empty()) {
-      of_head_[h] = sampled(inputs.textures.texture_sets[h], faces, around, vertices_);
+      head_densities_[h] = sampled(inputs.textures.texture_sets[h], heads, around, vertices_);
     } else if (!inputs.colours.empty()) {
-      of_head_[h] = densities_at(inputs.colours[h], vertices_);
+      head_densities_[h] = densities_at(inputs.colours[h], vertices_);
     }
   }
 }
 
-bool SeamColours::any() const {
-  return std::ranges::any_of(of_head_, [](const Positions& rows) { return rows.rows() > 0; });
+bool SeamColours::has_colours() const {
+  return std::ranges::any_of(head_densities_,
+                             [](const Positions& rows) { return rows.rows() > 0; });
 }
 
 Positions SeamColours::blend(const std::vector<double>& weights, Index rows) const {
   double sum = 0;
-  for (std::size_t h = 0; h < of_head_.size(); ++h) {
-    if (of_head_[h].rows() > 0) sum += weights[h];
+  for (std::size_t h = 0; h < head_densities_.size(); ++h) {
+    if (head_densities_[h].rows() > 0) sum += weights[h];
   }
   Positions blended = Positions::Zero(rows, 3);
   double total = 0;
-  for (std::size_t h = 0; h < of_head_.size(); ++h) {
+  for (std::size_t h = 0; h < head_densities_.size(); ++h) {
     const double weight = sum > 0 ? weights[h] : 1;
-    if (of_head_[h].rows() == 0 || weight == 0) continue;
-    blended += weight * of_head_[h].topRows(rows);
+    if (head_densities_[h].rows() == 0 || weight == 0) continue;
+    blended += weight * head_densities_[h].topRows(rows);
     total += weight;
   }
   return blended / total;
 }
 
-Positions SeamColours::at_ring(const std::vector<double>& weights) const {
-  return blend(weights, ring_);
+Positions SeamColours::ring_densities(const std::vector<double>& weights) const {
+  return blend(weights, ring_size_);
 }
 
-Eigen::Array3d SeamColours::mean(const std::vector<double>& weights) const {
+Eigen::Array3d SeamColours::mean_colour(const std::vector<double>& weights) const {
   const Positions densities = blend(weights, static_cast<Index>(vertices_.size()));
   Eigen::Array3d light = Eigen::Array3d::Zero();
   for (std::size_t i = 0; i < vertices_.size(); ++i) {

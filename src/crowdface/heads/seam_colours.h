@@ -17,20 +17,21 @@ class SeamColours {
   SeamColours(const Inputs& inputs, const TextureBlender* blended);
 
   /// Whether any head has colours in the band.
-  bool any() const;
+  bool has_colours() const;
   /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
   /// \param weights  #heads; heads without colours are left out. All zero: equal weights
-  Positions at_ring(const std::vector<double>& weights) const;
+  Positions ring_densities(const std::vector<double>& weights) const;
   /// Mean colour of the band, linear light.
-  Eigen::Array3d mean(const std::vector<double>& weights) const;
+  Eigen::Array3d mean_colour(const std::vector<double>& weights) const;
 
  private:
   Positions blend(const std::vector<double>& weights, Index rows) const;
 
   std::vector<std::uint32_t> vertices_;  ///< the ring, then the other vertices of the band
-  Index ring_ = 0;                       ///< number of vertices in the ring
+  Index ring_size_ = 0;                  ///< number of vertices in the ring
   std::vector<double> areas_;            ///< #vertices_, shares of the band; the sum is one
-  std::vector<Positions> of_head_;       ///< #heads: densities, #vertices_ by 3; no rows if unknown
+  std::vector<Positions>
+      head_densities_;  ///< #heads: densities, #vertices_ by 3; no rows if unknown
 };
 
 }  // namespace crowdface

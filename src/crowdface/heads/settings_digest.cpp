@@ -33,7 +33,7 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   for (std::size_t h = 0; h < inputs.own_digests.size(); ++h) {
     // Also hash the file: everything in an output mesh except the positions is copied from the
     // target's file.
-    hasher.add(config.faces.names[h]).add(inputs.own_digests[h]).add(inputs.texts[h]);
+    hasher.add(config.faces.names[h]).add(inputs.own_digests[h]).add(inputs.text_digests[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);
   hasher.add(static_cast<int>(config.smoothing.boundary))

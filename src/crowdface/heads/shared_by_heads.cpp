@@ -23,10 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// For smaller heads, reading from the cache takes as long as computing.
-constexpr Index kMinKeptVertices = 50'000;
+constexpr Index kMinCachedVertices = 50'000;
 
 CacheFolder cache_of(const Inputs& inputs) {
-  return inputs.faces.topology.vertex_count >= kMinKeptVertices ? inputs.cache : fs::path();
+  return inputs.faces.topology.vertex_count >= kMinCachedVertices ? inputs.cache : fs::path();
 }
 
 Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
@@ -111,10 +111,10 @@ constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {
   arrays("added", found.map.unpaired_offsets);
   arrays("normal", found.map.plane.normal);
   arrays("offset", found.map.plane.offset);
-  arrays("at vertices", found.vertices);
-  arrays("on surface", found.surface_partners);
-  arrays("rms", found.rms);
-  arrays("largest", found.largest);
+  arrays("at vertices", found.mutual_vertex_count);
+  arrays("on surface", found.surface_partner_count);
+  arrays("rms", found.rms_distance);
+  arrays("largest", found.max_distance);
 };
 
 bool is_mirror(const FoundMirror& found, std::size_t vertices) {
@@ -132,7 +132,7 @@ void find_neighbours(Inputs& inputs) {
   const Topology& topology = inputs.faces.topology;
   Hasher key;
   begin_key(key, inputs);
-  auto found = cached(
+  auto found = read_or_make(
       cache_of(inputs), {"neighbours", key.digest()},
       [&] {
         Adjacency adjacency = build_adjacency(topology);
@@ -151,7 +151,7 @@ RegionWeights load_regions(const Config& config, const Inputs& inputs) {
   if (config.regions.names.empty()) return whole_head(inputs.faces.topology);
   const auto key = cache_of(inputs).path.empty() ? std::nullopt : key_of_regions(config, inputs);
   if (!key) return weights_of_masks(config, inputs);
-  return cached(
+  return read_or_make(
       cache_of(inputs), {"masks", *key}, [&] { return weights_of_masks(config, inputs); },
       [](auto& arrays, auto& weights) {
         arrays("alpha", weights.alpha);
@@ -172,7 +172,7 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
       .add(config.faces.front.index)
       .add(config.faces.front.sign);
   const Topology& topology = inputs.faces.topology;
-  return cached(
+  return read_or_make(
       cache_of(inputs), {"samples", key.digest()},
       [&] {
         return choose_face_samples(topology, inputs.skin, unplaced_mean(inputs), config.faces.front,
@@ -190,7 +190,7 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
   begin_key(key, inputs).add_array(std::span(samples));
   for (const Digest& head : inputs.own_digests) key.add(head);
-  return cached(
+  return read_or_make(
       cache_of(inputs), {"cells", key.digest()},
       [&] { return find_sample_cells(inputs.adjacency, unplaced_mean(inputs), samples); },
       [](auto& arrays, auto& cells) { arrays("samples", cells.of_vertex); },
@@ -198,7 +198,7 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
         static_assert(SampleCells::kNone == kNoIndex);
         return found.of_vertex.size() ==
                    static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
-               are_rows(found.of_vertex, samples.size());
+               are_indices(found.of_vertex, samples.size());
       });
 }
 
@@ -208,7 +208,7 @@ FoundMirror find_cached_mirror(const Inputs& inputs, const Eigen::Vector3d& side
   for (const Digest& head : inputs.head_digests) key.add(head);
   for (const double value : side) key.add(value);
   const Topology& topology = inputs.faces.topology;
-  return cached(
+  return read_or_make(
       cache_of(inputs), {"mirror", key.digest()},
       [&] { return find_mirror(topology, inputs.components, inputs.mean, side); }, kMirrorArrays,
       [&](const FoundMirror& found, const CacheEntry&) {

@@ -9,7 +9,7 @@
 namespace crowdface {
 
 /// The mean optical density of each head's colour textures, #heads; empty if faces have no blended
-/// colour textures. Samples one texel in each block of 16 by 16.
+/// colour textures. Samples one texel of each 16 by 16 texels.
 std::vector<double> skin_tones(const Inputs& inputs);
 
 /// Computes the weights of the heads in the colours of a face: the mean over the regions, weighted

@@ -29,11 +29,11 @@ double distance_to(const Positions& rows, const Triangle& triangle, const Eigen:
 double walk(const DetailLevel& level, const VertexFaces& around, const Positions& rows,
             std::uint32_t start, const Eigen::Vector3d& point) {
   constexpr int kMaxSteps = 16;
-  SurfacePoint best = nearest_around(level.topology, around, rows, start, point);
+  SurfacePoint best = nearest_point_around(level.topology, around, rows, start, point);
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto most = std::ranges::max_element(best.shares);
     const std::uint32_t vertex = best.corners[static_cast<std::size_t>(most - best.shares.begin())];
-    const SurfacePoint next = nearest_around(level.topology, around, rows, vertex, point);
+    const SurfacePoint next = nearest_point_around(level.topology, around, rows, vertex, point);
     if (!(next.distance < best.distance)) break;
     best = next;
   }
@@ -63,8 +63,8 @@ LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const D
     const Eigen::Vector3d point = row3(typical, map.vertices[i]);
     const std::uint32_t start = starts[map.vertices[i]];
     const SurfacePoint place =
-        nearest_from(level.topology, around, rows,
-                     start == kNoIndex ? grid.nearest(point).vertex : start, point);
+        nearest_point_from(level.topology, around, rows,
+                           start == kNoIndex ? grid.nearest(point).vertex : start, point);
     map.triangles[i] = place.corners;
   });
   return map;

@@ -14,21 +14,21 @@ namespace crowdface {
 /// \param from, to  #points by 3; at least three points that are not collinear
 RigidMotion head_motion(const Positions& from, const Positions& to);
 
-/// The part of a rotation between two heads that is a difference in pose. Heads in the same pose
-/// also differ: by up to 6 degrees about the axis through the ears, because the inclination of
-/// faces varies, and by up to 2 degrees about other axes, because heads are nearly symmetric. This
-/// function removes such differences.
+/// Returns the part of a rotation between two heads that their poses explain. Heads in the same
+/// pose also differ: by up to 6 degrees about the axis through the ears (the inclination of faces
+/// varies) and by up to 2 degrees about other axes (heads are nearly symmetric). This function
+/// removes such differences.
 /// \param across  the axis through the ears, a unit vector
-Eigen::Matrix3d pose_part(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across);
+Eigen::Matrix3d pose_difference(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across);
 
-/// For each head, the rotation into the median pose of all heads, see pose_part. The identity if
-/// there are fewer than three heads.
+/// For each head, the rotation into the median pose of all heads, see pose_difference. The identity
+/// if there are fewer than three heads.
 /// \param heads  the same points of each head, #points by 3
 std::vector<Eigen::Matrix3d> rotations_to_median(const std::vector<Positions>& heads,
                                                  const Eigen::Vector3d& across);
 
 /// The vector of a rotation: its axis times twice the tangent of half its angle. A weighted mean of
 /// these vectors is again the vector of a rotation.
-Eigen::Vector3d turn_vector(const Eigen::Matrix3d& rotation);
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation);
 
 }  // namespace crowdface

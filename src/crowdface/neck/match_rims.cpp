@@ -145,7 +145,8 @@ std::string list_of(const std::vector<RimMatch>& rims) {
   std::vector<std::string> named;
   for (const RimMatch& one : rims) {
     if (named.size() == kNamed) break;
-    named.push_back(concat(one.rim.size(), " vertices, ", mm_text(one.off_mm), " off"));
+    named.push_back(
+        concat(one.rim.size(), " vertices, ", mm_text(one.centroid_distance_mm), " off"));
   }
   const std::size_t more = rims.size() - named.size();
   return join(named, "; ") + (more > 0 ? concat("; and ", more, " more") : "");
@@ -198,13 +199,13 @@ RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body
   RimMatch match;
   match.rim = best->order;
   const Positions points = body(match.rim, kAllColumns);
-  match.off_mm = (centroid(points) - centroid(head)).norm();
+  match.centroid_distance_mm = (centroid(points) - centroid(head)).norm();
   match.fault = fault_of(head, points, best->fit, reach_mm);
   return match;
 }
 
-Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
-                 double reach_mm, RimOrder order) {
+Rim find_matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
+                      double reach_mm, RimOrder order) {
   const auto count = static_cast<std::size_t>(head.rows());
   std::vector<RimMatch> found, fitting;
   for (const Rim& rim : rims) {
@@ -220,10 +221,12 @@ Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Posi
   const std::string expected =
       concat("expected an open rim of ", count, " vertices where the heads' neck ends, found ");
   if (found.empty()) throw InvalidInput(expected + "none");
-  for (auto* matches : {&found, &fitting}) std::ranges::sort(*matches, {}, &RimMatch::off_mm);
+  for (auto* matches : {&found, &fitting})
+    std::ranges::sort(*matches, {}, &RimMatch::centroid_distance_mm);
   if (fitting.size() > 1) {
-    throw InvalidInput(concat(expected, fitting.size(), " that fit, ", mm_text(fitting[0].off_mm),
-                              " and ", mm_text(fitting[1].off_mm), " off"));
+    throw InvalidInput(concat(expected, fitting.size(), " that fit, ",
+                              mm_text(fitting[0].centroid_distance_mm), " and ",
+                              mm_text(fitting[1].centroid_distance_mm), " off"));
   }
   if (!found.front().fault.empty()) {
     throw InvalidInput(concat(expected, "one that ", found.front().fault));

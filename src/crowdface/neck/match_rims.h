@@ -24,9 +24,9 @@ enum class RimOrder {
 
 /// The match of a body's rim with the heads' rim.
 struct RimMatch {
-  Rim rim;            ///< the matching vertex of the body for each vertex of the heads' rim
-  double off_mm = 0;  ///< distance between the centroids of both rims, in mm
-  std::string fault;  ///< why the rims do not match; empty if they do
+  Rim rim;  ///< the matching vertex of the body for each vertex of the heads' rim
+  double centroid_distance_mm = 0;  ///< distance between the centroids of both rims, in mm
+  std::string fault;                ///< why the rims do not match; empty if they do
 };
 
 /// Matches the vertices of two rims of equal length. Tries every start in both directions, and
@@ -41,7 +41,7 @@ RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body
 /// Finds the rim of a body that matches the heads' rim.
 /// \throws InvalidInput if no rim matches or if several match. The message lists the vertex counts
 ///         and offsets of the nearest rims.
-Rim matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
-                 double reach_mm, RimOrder order = RimOrder::kFree);
+Rim find_matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
+                      double reach_mm, RimOrder order = RimOrder::kFree);
 
 }  // namespace crowdface

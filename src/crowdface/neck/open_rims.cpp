@@ -31,7 +31,7 @@ std::vector<Edge> open_edges(const Topology& topology, const Adjacency& adjacenc
 
 }  // namespace
 
-std::vector<Rim> open_rims(const Topology& topology, const Adjacency& adjacency) {
+std::vector<Rim> find_open_rims(const Topology& topology, const Adjacency& adjacency) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> next;
   std::map<std::uint32_t, int> arrivals;
   for (const auto& [a, b] : open_edges(topology, adjacency)) {

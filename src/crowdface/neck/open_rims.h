@@ -14,8 +14,9 @@ namespace crowdface {
 using Rim = std::vector<std::uint32_t>;
 
 /// The open rims of a mesh: closed loops of edges that have exactly one polygon, ordered by their
-/// lowest vertices. Two rims that touch at a vertex are omitted, because neither is a simple loop.
-std::vector<Rim> open_rims(const Topology& topology, const Adjacency& adjacency);
+/// lowest vertices. Rims that touch another rim at a vertex are omitted, because they are not
+/// simple loops.
+std::vector<Rim> find_open_rims(const Topology& topology, const Adjacency& adjacency);
 
 /// The closed loop that the edges between the given vertices form; empty if the edges do not form
 /// exactly one loop.

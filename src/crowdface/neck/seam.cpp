@@ -49,11 +49,11 @@ void Seam::fit(Positions& mesh) const {
   bend_to(*this, positions, mesh);
 }
 
-void Seam::bend_like(const Positions& other, Positions& mesh) const {
+void Seam::bend_to_rim_of(const Positions& other, Positions& mesh) const {
   bend_to(*this, other(rim, kAllColumns), mesh);
 }
 
-void Seam::fix_rim(Displacements& moves) const {
+void Seam::keep_rim_still(Displacements& moves) const {
   Positions at_rim = Positions::Zero(positions.rows(), 3);
   for (std::size_t i = 0; i < rim.size(); ++i) {
     const auto found = std::ranges::lower_bound(moves.vertices, rim[i]);
@@ -70,8 +70,8 @@ void Seam::fix_rim(Displacements& moves) const {
   moves = std::move(held);
 }
 
-void Seam::set_normals(Positions& of_mesh) const {
-  if (of_mesh.rows() > 0) set_rows(rim, normals, of_mesh);
+void Seam::set_normals(Positions& mesh_normals) const {
+  if (mesh_normals.rows() > 0) set_rows(rim, normals, mesh_normals);
 }
 
 }  // namespace crowdface

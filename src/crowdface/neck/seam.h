@@ -15,13 +15,13 @@ struct Seam {
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.
   void fit(Positions& mesh) const;
-  /// Bends the neck of a mesh so that the rim has the positions that it has in `other`.
-  void bend_like(const Positions& other, Positions& mesh) const;
+  /// Bends the neck of a mesh so that its rim gets the positions of the rim of `other`.
+  void bend_to_rim_of(const Positions& other, Positions& mesh) const;
   /// Changes the displacements of a shape smoothly so that the rim does not move.
-  void fix_rim(Displacements& moves) const;
-  /// Sets the normals at the rim to the seam's normals. \param of_mesh #V by 3: normals of a mesh;
-  /// may be empty
-  void set_normals(Positions& of_mesh) const;
+  void keep_rim_still(Displacements& moves) const;
+  /// Sets the normals at the rim to the seam's normals. \param mesh_normals #V by 3: normals of a
+  /// mesh; may be empty
+  void set_normals(Positions& mesh_normals) const;
 };
 
 }  // namespace crowdface

@@ -29,8 +29,8 @@ constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSof
 // kAbove above the eyes and down to kBelow below the mouth. kMinEar is the smallest distance by
 // which an ear protrudes from the head.
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
-/// The ear extends over the heights at which it protrudes by more than this fraction of its maximum
-/// protrusion.
+/// The vertical range of an ear: heights at which it protrudes by more than this fraction of its
+/// maximum protrusion.
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
@@ -125,7 +125,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   return ears;
 }
 
-RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, double mouth) {
+RegionWeights::Alpha horizontal_bands(const Eigen::VectorXd& heights, double eyes, double mouth) {
   if (!(eyes > mouth)) {
     throw InvalidInput(
         concat("expected eyes above the mouth, found eyes at ", eyes, " and the mouth at ", mouth));
@@ -172,7 +172,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
     border.ear_front = ears.front;
     border.ear = ears.bottom - 2 * under;
   }
-  const RegionWeights::Alpha level = level_bands(heights, marks.eyes, marks.mouth);
+  const RegionWeights::Alpha level = horizontal_bands(heights, marks.eyes, marks.mouth);
   RegionWeights::Alpha alpha = RegionWeights::Alpha::Zero(positions.rows(), count);
   const double soft = kNeckSoft * marks.eye_to_mouth();
   for (Index v = 0; v < positions.rows(); ++v) {

@@ -41,10 +41,10 @@ struct EarBox {
 std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
                                 const FaceMarks& marks);
 
-/// Computes weights of brow, nose and mouth (columns 0 to 2) as soft horizontal bands, #V by 3.
-/// \param heights  #V; increase upwards.
+/// Computes the weights of brow, nose and mouth (columns 0 to 2) as horizontal bands with soft
+/// borders, #V by 3. \param heights  #V: height of each vertex, upwards.
 /// \throws InvalidInput unless the eyes are above the mouth.
-RegionWeights::Alpha level_bands(const Eigen::VectorXd& heights, double eyes, double mouth);
+RegionWeights::Alpha horizontal_bands(const Eigen::VectorXd& heights, double eyes, double mouth);
 
 /// Computes the weights of the given bands, with soft borders, from the shape of a head.
 /// \param marks  the result of find_face_marks for this head

@@ -28,7 +28,7 @@ DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square
   }
 }
 
-void DepthMap::soften() {
+void DepthMap::smooth() {
   const std::vector<double> before = depths_;
   for (Index row = 1; row + 1 < rows_; ++row) {
     for (Index column = 1; column + 1 < columns_; ++column) {

@@ -21,7 +21,7 @@ class DepthMap {
   /// Reduces noise: replaces each depth by the mean of the known depths in the three by three
   /// squares around it. Also fills empty squares next to the surface. The outermost squares of the
   /// grid do not change.
-  void soften();
+  void smooth();
 
   const Eigen::AlignedBox2d& box() const { return box_; }
 

@@ -135,18 +135,18 @@ class LandmarkSearch {
   double height(double mark) const { return mark / mm_; }
   void keep(const std::string& name, const std::optional<Hit>& hit, const char* reason) {
     if (hit && hit->is_skin) {
-      found_.places[name] = hit->place;
+      found_.points[name] = hit->place;
     } else {
-      found_.missing[name] = reason;
+      found_.missing_reasons[name] = reason;
     }
   }
   void miss(std::initializer_list<const char*> names, const std::string& reason) {
-    for (const char* name : names) found_.missing[name] = reason;
+    for (const char* name : names) found_.missing_reasons[name] = reason;
   }
   /// Head coordinates of a landmark; nothing if the landmark was not found.
   std::optional<InHead> at(const std::string& name) const {
-    const auto place = found_.places.find(name);
-    if (place == found_.places.end()) return std::nullopt;
+    const auto place = found_.points.find(name);
+    if (place == found_.points.end()) return std::nullopt;
     return rays_.in_head(place->second.position);
   }
 
@@ -222,7 +222,7 @@ class LandmarkSearch {
   }
 
   struct Opening {
-    std::vector<InHead> places;  ///< points of the eyeball between the lids
+    std::vector<InHead> points;  ///< points of the eyeball between the lids
     double radius = 0;
   };
   Opening opening_of(const ComponentShape& ball) const {
@@ -236,7 +236,7 @@ class LandmarkSearch {
         const auto hit = rays_.from_front(centre.across + x, centre.up + y);
         if (hit && !hit->is_skin &&
             (hit->place.position - ball.centre).norm() < kFar * ball.radius) {
-          opening.places.push_back(hit->at);
+          opening.points.push_back(hit->at);
         }
       }
     }
@@ -255,17 +255,17 @@ class LandmarkSearch {
   void eyes() {
     std::array<bool, 2> seen{};
     for (const Part& part : parts_.parts) {
-      if (!part.eyeball) continue;
-      const Opening opening = opening_of(parts_.shapes[part.ball]);
-      if (opening.places.empty()) continue;
-      const bool left = rays_.in_head(parts_.shapes[part.ball].centre).across > 0;
+      if (!part.is_eyeball) continue;
+      const Opening opening = opening_of(parts_.shapes[part.ball_component]);
+      if (opening.points.empty()) continue;
+      const bool left = rays_.in_head(parts_.shapes[part.ball_component].centre).across > 0;
       seen[left ? 0 : 1] = true;
       eye(opening, left);
     }
     for (const bool left : {true, false}) {
       if (seen[left ? 0 : 1]) continue;
       for (const char* name : {"eye_inner", "eye_outer", "lid_upper", "lid_lower"}) {
-        found_.missing[concat(name, left ? "_left" : "_right")] =
+        found_.missing_reasons[concat(name, left ? "_left" : "_right")] =
             "no eyeball shows where the lids are";
       }
     }
@@ -278,13 +278,13 @@ class LandmarkSearch {
     const auto by = [&](double sign) {
       return [=](const InHead& p) { return sign * outwards * p.across; };
     };
-    const InHead outer = *std::ranges::max_element(opening.places, {}, by(1));
-    const InHead inner = *std::ranges::max_element(opening.places, {}, by(-1));
+    const InHead outer = *std::ranges::max_element(opening.points, {}, by(1));
+    const InHead inner = *std::ranges::max_element(opening.points, {}, by(-1));
     keep("eye_outer" + half, skin_beside(outer, outwards, 0), reason);
     keep("eye_inner" + half, inner_corner(skin_beside(inner, -outwards, 0), -outwards), reason);
     const double between = (outer.across + inner.across) / 2;
     std::vector<InHead> slit;
-    for (const InHead& p : opening.places) {
+    for (const InHead& p : opening.points) {
       if (std::abs(p.across - between) <= kHalfSlit) slit.push_back(p);
     }
     if (slit.empty()) return;
@@ -466,7 +466,7 @@ class LandmarkSearch {
   }
   void keep_vertex(const std::string& name, std::optional<std::uint32_t> v) {
     if (!v) return miss({name.c_str()}, "no skin is there");
-    found_.places[name] = {{*v, *v, *v}, {1, 0, 0}, row3(head_.positions, *v), 0};
+    found_.points[name] = {{*v, *v, *v}, {1, 0, 0}, row3(head_.positions, *v), 0};
   }
 
   void skull(const std::optional<EarBox>& ears) {
@@ -527,7 +527,7 @@ FaceLandmarks find_face_landmarks(const Topology& topology, const Components& co
     head.skin.push_back(parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : parts.parts) {
-    if (part.eyeball) head.eyeballs.push_back(parts.shapes[part.ball].centre);
+    if (part.is_eyeball) head.eyeballs.push_back(parts.shapes[part.ball_component].centre);
   }
   const auto face = find_face(topology, head, axes);
   if (!face) return {};

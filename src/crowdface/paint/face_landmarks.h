@@ -14,8 +14,8 @@ namespace crowdface {
 
 /// Landmarks of a face by name: points on the skin, and the reasons why landmarks are missing.
 struct FaceLandmarks {
-  std::map<std::string, SurfacePoint> places;  ///< found landmarks
-  std::map<std::string, std::string> missing;  ///< reasons, as phrases
+  std::map<std::string, SurfacePoint> points;          ///< found landmarks
+  std::map<std::string, std::string> missing_reasons;  ///< reasons, as phrases
 };
 
 /// Finds the landmarks of Farkas' measurements (docs/traits.md) on a head from these parts of its
@@ -28,7 +28,8 @@ FaceLandmarks find_face_landmarks(const Topology& topology, const Components& co
                                   const PartList& parts, const HeadShape& head,
                                   const ReliefMatch& face);
 
-/// Finds the face on a head, #V by 3 positions, and then its landmarks. Empty if there is no face.
+/// Finds the face on a head and then its landmarks; no landmarks if there is no face.
+/// \param positions  #V by 3
 /// \param axes  orientation of the head, accurate to about 35°
 FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,
                                   const PartList& parts, const Positions& positions,

@@ -240,17 +240,17 @@ double edge_length_near(const Topology& topology, const HeadShape& head, const R
 
 }  // namespace
 
-HeadShape shape_of_mean(const HeadSet& faces) {
+HeadShape shape_of_mean(const HeadSet& heads) {
   HeadShape head;
-  head.positions = mean_head(faces);
-  const Adjacency adjacency = build_adjacency(faces.topology);
+  head.positions = mean_head(heads);
+  const Adjacency adjacency = build_adjacency(heads.topology);
   const Components components = find_components(adjacency);
-  const PartList parts = find_parts(faces.topology, adjacency, components, head.positions);
+  const PartList parts = find_parts(heads.topology, adjacency, components, head.positions);
   for (const std::uint32_t c : components.of_vertex) {
     head.skin.push_back(parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : parts.parts) {
-    if (part.eyeball) head.eyeballs.push_back(parts.shapes[part.ball].centre);
+    if (part.is_eyeball) head.eyeballs.push_back(parts.shapes[part.ball_component].centre);
   }
   return head;
 }
@@ -362,11 +362,11 @@ std::optional<Orientation> find_orientation(const Topology& topology, const Head
   const auto match = match_relief(samples, axes, head.eyeballs);
   if (!match || match->score < kMinScore) return std::nullopt;
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
-  return orientations[match->view];
+  return orientations[match->axes_index];
 }
 
-std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
-                                                     const HeadShape& head, const HeadAxes& axes) {
+std::optional<std::string> long_edges_message(const Topology& topology, const HeadShape& head,
+                                              const HeadAxes& axes) {
   const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
   const auto match = match_relief(samples, {axes}, head.eyeballs);
   if (!match || match->score < kMinScore) return std::nullopt;
@@ -377,7 +377,7 @@ std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
                 " mm they do not show a face: use a mesh with more polygons");
 }
 
-std::string reason_of_no_face(const Topology& topology, const HeadShape& head,
+std::string why_no_face_found(const Topology& topology, const HeadShape& head,
                               const HeadAxes& axes) {
   if (const auto found = find_orientation(topology, head)) {
     const HeadAxes other = axes_of(*found);
@@ -386,7 +386,7 @@ std::string reason_of_no_face(const Topology& topology, const HeadShape& head,
                     " up");
     }
   }
-  return edges_too_long_for_a_face(topology, head, axes)
+  return long_edges_message(topology, head, axes)
       .value_or("it has no relief of a face (nose, eye sockets, mouth and chin)");
 }
 

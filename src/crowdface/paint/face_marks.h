@@ -33,7 +33,7 @@ struct HeadShape {
   std::vector<Eigen::Vector3d> eyeballs;  ///< centres of the eyeballs, if the head has eyeballs
 };
 /// Returns the shape of the mean of all heads.
-HeadShape shape_of_mean(const HeadSet& faces);
+HeadShape shape_of_mean(const HeadSet& heads);
 
 /// Offset of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
 double symmetry_offset(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
@@ -66,11 +66,11 @@ std::optional<Orientation> find_orientation(const Topology& topology, const Head
 
 /// Returns a message if the mesh has the relief of a face, but its edges are too long to represent
 /// the features of a face; otherwise nothing.
-std::optional<std::string> edges_too_long_for_a_face(const Topology& topology,
-                                                     const HeadShape& head, const HeadAxes& axes);
+std::optional<std::string> long_edges_message(const Topology& topology, const HeadShape& head,
+                                              const HeadAxes& axes);
 /// Explains why `find_face` found nothing: the axes are wrong, edges are too long, or there is no
 /// face.
-std::string reason_of_no_face(const Topology& topology, const HeadShape& head,
+std::string why_no_face_found(const Topology& topology, const HeadShape& head,
                               const HeadAxes& axes);
 
 }  // namespace crowdface

@@ -183,7 +183,7 @@ class Refinement {
   std::vector<double> asymmetry(const HeadAxes& axes, const Eigen::Vector3d& middle) const {
     constexpr double kHighMm = 40, kLowMm = -100, kAsideMm = 60, kStepMm = 4;
     DepthMap map(near_, axes, square_);
-    map.soften();
+    map.smooth();
     const double mm = best_.scale, across = middle.dot(axes.side()), height = middle.dot(axes.up);
     std::vector<double> differences;
     for (double y = kLowMm; y <= kHighMm; y += kStepMm) {
@@ -296,7 +296,7 @@ class Refinement {
   /// Keeps a match if it agrees better than the best match and its stretch is plausible.
   void try_match(const ReliefMatch& match) {
     if (!map_ || match.frame.front != map_axes_.front || match.frame.up != map_axes_.up) {
-      map_.emplace(near_, match.frame, square_).soften();
+      map_.emplace(near_, match.frame, square_).smooth();
       map_axes_ = match.frame;
     }
     Candidate candidate{match.between_eyes.dot(match.frame.side()),
@@ -391,11 +391,11 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
     // Of the requested axes, choose the axes nearest to those of the face.
-    match.view = static_cast<std::size_t>(
+    match.axes_index = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
         all_axes.begin());
-    const HeadAxes& asked = all_axes[match.view];
+    const HeadAxes& asked = all_axes[match.axes_index];
     match.degrees_off = angle_between(match.axes, asked);
     // Remove a small pitch.
     const double pitch =

@@ -29,7 +29,7 @@ struct ReliefMatch {
   /// the eyeballs are elsewhere.
   double score = -1;
   /// index in the list of requested axes: the axes nearest to the face's axes
-  std::size_t view = 0;
+  std::size_t axes_index = 0;
   double degrees_off = 0;  ///< angle between the nearest requested axes and the face's axes
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
   /// Axes of the face: in these axes the face is symmetric and as upright as the mean face. Small

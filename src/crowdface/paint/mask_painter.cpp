@@ -69,7 +69,7 @@ Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index
 CompressedRows<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
                                             const std::vector<Touched>& touched) {
   CompressedRows<std::uint32_t> neighbours;
-  for (const Touched& t : touched) neighbours.add_group(surface.around(t.vertex));
+  for (const Touched& t : touched) neighbours.add_group(surface.adjacent_vertices(t.vertex));
   return neighbours;
 }
 
@@ -148,7 +148,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
   std::vector<Touched> touched;
   std::vector<std::uint32_t> rows;
   const double core = (1 - brush.falloff) * brush.radius;
-  for (const auto& [vertex, distance] : surface_.within(all, brush.radius)) {
+  for (const auto& [vertex, distance] : surface_.vertices_within(all, brush.radius)) {
     const double soft = core < brush.radius ? smooth_step(brush.radius, core, distance) : 1;
     touched.push_back({vertex, brush.strength * soft});
     rows.push_back(vertex);
@@ -211,7 +211,7 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
     std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;
     for (const std::uint32_t v : unassigned) {
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(rest.cols());
-      for (const std::uint32_t n : surface_.around(v)) sum += rest.row(n);
+      for (const std::uint32_t n : surface_.adjacent_vertices(v)) sum += rest.row(n);
       if (sum.sum() > 0) {
         filled.emplace_back(v, sum);
       } else {

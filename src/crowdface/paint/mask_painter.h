@@ -50,7 +50,7 @@ class MaskPainter {
   ///                 reverts both.
   /// \return the vertices that may have changed, ascending.
   /// \throws BrokenPrecondition for numbers outside their ranges.
-  std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& places,
+  std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& points,
                                    const Brush& brush, bool continues_stroke = false);
 
   /// The weights after removal of a region. At each vertex, the weight of the region goes to the

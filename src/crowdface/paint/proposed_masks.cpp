@@ -44,7 +44,7 @@ std::vector<std::string> names_of(const std::vector<Band>& bands) {
   return names;
 }
 
-int mask_size(Index vertices) {
+int mask_texels(Index vertices) {
   constexpr Index kMany = 100'000;
   return vertices > kMany ? 2048 : 1024;
 }
@@ -56,22 +56,22 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
   if (!marks) {
     throw InvalidInput(concat("no face is found that looks along ", name_of(orientation.front),
                               " with ", name_of(orientation.up), " up on the mean head: ",
-                              reason_of_no_face(topology, mean, axes_of(orientation)),
+                              why_no_face_found(topology, mean, axes_of(orientation)),
                               "; or paint the mask by hand"));
   }
   return propose_bands(topology, mean, *marks, bands);
 }
 
-PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean,
+PaintedMasks propose_masks(const HeadSet& heads, const HeadShape& mean,
                            const Orientation& orientation, const std::vector<Band>& bands,
                            int size) {
-  if (faces.topology.corner_uvs.empty()) {
+  if (heads.topology.corner_uvs.empty()) {
     throw InvalidInput(
         "the heads have no texture coordinates (vt lines), which a mask image needs: unwrap the "
         "mesh, the same way for all heads, or blend without regions");
   }
-  return paint_masks(faces.topology, faces.uvs,
-                     propose_regions(faces.topology, mean, orientation, bands), mean.skin, size);
+  return paint_masks(heads.topology, heads.uvs,
+                     propose_regions(heads.topology, mean, orientation, bands), mean.skin, size);
 }
 
 }  // namespace crowdface

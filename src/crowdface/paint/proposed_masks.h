@@ -18,7 +18,7 @@ std::vector<std::string> names_of(const std::vector<Band>& bands);
 
 /// Width and height in texels that are sufficient for masks of soft regions on a mesh with this
 /// number of vertices: 1024 or 2048.
-int mask_size(Index vertices);
+int mask_texels(Index vertices);
 
 /// Computes regions from the shape of the mean head: #V by #bands.
 /// \throws InvalidInput as propose_bands does, and if no face is found in the front direction; the
@@ -30,7 +30,7 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
 /// Computes the regions of propose_regions as images in the layout of the heads' texture.
 /// \param size  width and height in texels.
 /// \throws InvalidInput as propose_regions and paint_masks do.
-PaintedMasks propose_masks(const HeadSet& faces, const HeadShape& mean,
+PaintedMasks propose_masks(const HeadSet& heads, const HeadShape& mean,
                            const Orientation& orientation, const std::vector<Band>& bands,
                            int size);
 

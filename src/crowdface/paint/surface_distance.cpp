@@ -41,16 +41,16 @@ std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Position
   std::vector<std::uint32_t> twins(static_cast<std::size_t>(positions.rows()));
   std::iota(twins.begin(), twins.end(), 0U);
   const Components components = find_components(adjacency);
-  std::map<std::array<double, 3>, std::vector<std::uint32_t>> places;
+  std::map<std::array<double, 3>, std::vector<std::uint32_t>> vertices_at;
   for (std::uint32_t v = 0; v < twins.size(); ++v) {
     if (!adjacency.boundary[v]) continue;
-    auto& there = places[{positions(v, 0), positions(v, 1), positions(v, 2)}];
+    auto& there = vertices_at[{positions(v, 0), positions(v, 1), positions(v, 2)}];
     const auto is_of_same = [&](std::uint32_t other) {
       return components.of_vertex[other] == components.of_vertex[v];
     };
     if (std::ranges::none_of(there, is_of_same)) there.push_back(v);
   }
-  for (const auto& [place, there] : places) {
+  for (const auto& [place, there] : vertices_at) {
     for (std::size_t i = 0; i < there.size(); ++i) {
       twins[there[i]] = there[(i + 1) % there.size()];
     }
@@ -78,10 +78,10 @@ SurfaceDistance::SurfaceDistance(const Topology& topology, const Positions& posi
       grid_(positions, used_vertices(adjacency_)) {}
 
 SurfacePoint SurfaceDistance::nearest(const Eigen::Vector3d& point) const {
-  return nearest_around(topology_, faces_, positions_, grid_.nearest(point).vertex, point);
+  return nearest_point_around(topology_, faces_, positions_, grid_.nearest(point).vertex, point);
 }
 
-std::vector<std::uint32_t> SurfaceDistance::around(std::uint32_t vertex) const {
+std::vector<std::uint32_t> SurfaceDistance::adjacent_vertices(std::uint32_t vertex) const {
   std::vector<std::uint32_t> out;
   std::uint32_t at = vertex;
   do {
@@ -92,8 +92,8 @@ std::vector<std::uint32_t> SurfaceDistance::around(std::uint32_t vertex) const {
   return out;
 }
 
-std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::within(
-    const std::vector<SurfacePoint>& places, double reach) const {
+std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::vertices_within(
+    const std::vector<SurfacePoint>& points, double reach) const {
   std::vector<double> distance(twins_.size(), kFar);
   std::vector<bool> done(twins_.size(), false);
   using Front = std::pair<double, std::uint32_t>;
@@ -103,7 +103,7 @@ std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::within(
     distance[vertex] = way;
     front.emplace(way, vertex);
   };
-  for (const SurfacePoint& place : places) {
+  for (const SurfacePoint& place : points) {
     // Start from all corners of the polygon that contains the place's triangle, so that both
     // triangles of a quad are treated alike.
     for (const std::uint32_t f : faces_.of(place.corners[0])) {

@@ -24,10 +24,11 @@ class SurfaceDistance {
     std::uint32_t vertex;
     double distance;
   };
-  /// Returns the vertices at a distance of at most `reach` from the nearest of `places`, ascending
+  /// Returns the vertices at a distance of at most `reach` from the nearest of `points`, ascending
   /// by vertex. Uses fast marching (Novotni & Klein 2002, "Computing geodesic distances on
   /// triangular meshes"); paths may follow both diagonals of a quad.
-  std::vector<ReachedVertex> within(const std::vector<SurfacePoint>& places, double reach) const;
+  std::vector<ReachedVertex> vertices_within(const std::vector<SurfacePoint>& points,
+                                             double reach) const;
 
   /// The point on the surface that is nearest to `point`.
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
@@ -35,7 +36,7 @@ class SurfaceDistance {
   const Positions& positions() const { return positions_; }
   /// Returns the neighbours of a vertex and of its twins (see twins_); the list may contain
   /// duplicates.
-  std::vector<std::uint32_t> around(std::uint32_t vertex) const;
+  std::vector<std::uint32_t> adjacent_vertices(std::uint32_t vertex) const;
 
  private:
   const Topology& topology_;

@@ -36,10 +36,10 @@ Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Posit
   for (const std::uint32_t v : bound_) {
     const Eigen::Vector3d point = positions.row(v).transpose();
     const SurfacePoint place =
-        nearest_around(topology, faces, positions, skin.nearest(point).vertex, point);
+        nearest_point_around(topology, faces, positions, skin.nearest(point).vertex, point);
     const auto [entry, is_new] =
         known.emplace(place.corners, static_cast<std::uint32_t>(sites_.size()));
-    site_indices_.push_back(entry->second);
+    triangle_indices_.push_back(entry->second);
     shares_.push_back(place.shares);
     if (!is_new) continue;
     const std::vector<std::uint32_t> ring = ring_of(topology, faces, place.corners);
@@ -72,7 +72,7 @@ Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) c
 }
 
 Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const {
-  return point_on(positions, sites_[site_indices_[i]], shares_[i]);
+  return point_on(positions, sites_[triangle_indices_[i]], shares_[i]);
 }
 
 bool Anchors::is_unmoved(std::size_t site, const Positions& before, const Positions& after) const {
@@ -87,7 +87,7 @@ std::vector<Eigen::Vector3d> Anchors::offsets(const Positions& head) const {
   std::vector<Eigen::Vector3d> result;
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const Eigen::Vector3d offset = head.row(bound_[i]).transpose() - origin(i, head);
-    const Frame& frame = frames[site_indices_[i]];
+    const Frame& frame = frames[triangle_indices_[i]];
     result.emplace_back(offset.dot(frame[0]), offset.dot(frame[1]), offset.dot(frame[2]));
   }
   return result;
@@ -103,11 +103,11 @@ void Anchors::place_vertices(const Positions& target, std::span<const Eigen::Vec
   }
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const std::uint32_t v = bound_[i];
-    if (still[site_indices_[i]]) {
+    if (still[triangle_indices_[i]]) {
       result.row(v) = target.row(v);
       continue;
     }
-    const Frame& frame = frames[site_indices_[i]];
+    const Frame& frame = frames[triangle_indices_[i]];
     const Eigen::Vector3d offset =
         offsets[i].x() * frame[0] + offsets[i].y() * frame[1] + offsets[i].z() * frame[2];
     result.row(v) = (origin(i, result) + offset).transpose();

@@ -31,7 +31,7 @@ class Anchors {
 
   /// Returns the vertices' offsets in their frames on a head, #bound.
   std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
-  /// Moves the bound vertices of `result` to the offsets that `offsets` returned for the target.
+  /// Moves the bound vertices of `result` to the target's offsets in the frames of `result`.
   /// Where the surrounding skin has not moved, a vertex gets exactly the target's position.
   void place_vertices(const Positions& target, std::span<const Eigen::Vector3d> offsets,
                       Positions& result) const;
@@ -47,11 +47,11 @@ class Anchors {
   Eigen::Vector3d origin(std::size_t i, const Positions& positions) const;
   bool is_unmoved(std::size_t site, const Positions& before, const Positions& after) const;
 
-  std::vector<std::uint32_t> bound_;           ///< ascending
-  std::vector<std::uint32_t> site_indices_;    ///< #bound: index into `sites_`
-  std::vector<std::array<double, 3>> shares_;  ///< #bound: barycentric coordinates of each anchor
-  std::vector<Triangle> sites_;                ///< triangles of the skin
-  CompressedRows<RingVertex> rings_;           ///< #sites: the skin around each triangle
+  std::vector<std::uint32_t> bound_;             ///< ascending
+  std::vector<std::uint32_t> triangle_indices_;  ///< #bound: index into `sites_`
+  std::vector<std::array<double, 3>> shares_;    ///< #bound: barycentric coordinates of each anchor
+  std::vector<Triangle> sites_;                  ///< triangles of the skin
+  CompressedRows<RingVertex> rings_;             ///< #sites: the skin around each triangle
 };
 
 /// Ties bound vertices to nearby rigid parts: gums follow the teeth.
@@ -61,8 +61,9 @@ class Ties {
   /// \param positions  The head on which distances are measured.
   /// \param rigid      Vertices of each rigid part.
   /// \param bound      Vertices that may be tied.
-  /// \param reach      Distance from a part at which ties end. Vertices at the part follow the part
-  ///                   completely; vertices farther than `reach` are free.
+  /// \param reach      Distance from a part beyond which vertices are not tied. The nearer a
+  ///                   vertex, the more it follows the part; a vertex at the part follows it
+  ///                   completely.
   Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
        std::span<const std::uint32_t> bound, double reach);
 

@@ -19,7 +19,7 @@ double radius_along(const Topology& topology, const VertexFaces& faces, const Po
   double along = radius;
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::Vector3d point = centre + along * direction;
-    const SurfacePoint place = nearest_from(topology, faces, head, nearest, point);
+    const SurfacePoint place = nearest_point_from(topology, faces, head, nearest, point);
     nearest = place.corners[0];
     Eigen::Vector3d outward = normal_at(head, place);
     if (outward.dot(place.position - centre) < 0) outward = -outward;
@@ -38,21 +38,21 @@ BallMap::BallMap(const Topology& topology, const VertexFaces& faces, const Posit
       side_(axes.side()),
       centre_(centre),
       radius_(radius),
-      radii_(kNodes * kNodes, static_cast<float>(radius)) {
+      radii_(kNodesPerSide * kNodesPerSide, static_cast<float>(radius)) {
   const PointGrid grid(head, vertices);
-  for (std::size_t y = 0; y < kNodes; ++y) {
+  for (std::size_t y = 0; y < kNodesPerSide; ++y) {
     std::uint32_t nearest = kNoIndex;
-    for (std::size_t x = 0; x < kNodes; ++x) {
-      constexpr double kStep = 2 * kWidth / (kNodes - 1);
-      const double p = static_cast<double>(x) * kStep - kWidth;
-      const double q = static_cast<double>(y) * kStep - kWidth;
+    for (std::size_t x = 0; x < kNodesPerSide; ++x) {
+      constexpr double kStep = 2 * kHalfWidth / (kNodesPerSide - 1);
+      const double p = static_cast<double>(x) * kStep - kHalfWidth;
+      const double q = static_cast<double>(y) * kStep - kHalfWidth;
       const double square = p * p + q * q;
-      if (square > kWidth * kWidth * 1.1) continue;
+      if (square > kHalfWidth * kHalfWidth * 1.1) continue;
       // Inverse stereographic projection.
       const Eigen::Vector3d direction =
           (2 * p * side_ + 2 * q * axes_.up + (1 - square) * axes_.front) / (1 + square);
       if (nearest == kNoIndex) nearest = grid.nearest(centre + radius * direction).vertex;
-      radii_[y * kNodes + x] = static_cast<float>(
+      radii_[y * kNodesPerSide + x] = static_cast<float>(
           radius_along(topology, faces, head, centre, direction, radius, nearest));
     }
   }
@@ -65,9 +65,10 @@ BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
   const Eigen::Vector3d direction = from / distance;
   const double down = 1 / std::max(1 + direction.dot(axes_.front), 0.1);
   const double p = direction.dot(side_) * down, q = direction.dot(axes_.up) * down;
-  constexpr double kPerWidth = (kNodes - 1) / (2 * kWidth), kLast = kNodes - 1.001;
-  const double x = std::clamp((p + kWidth) * kPerWidth, 0.0, kLast);
-  const double y = std::clamp((q + kWidth) * kPerWidth, 0.0, kLast);
+  constexpr double kPerWidth = (kNodesPerSide - 1) / (2 * kHalfWidth),
+                   kLast = kNodesPerSide - 1.001;
+  const double x = std::clamp((p + kHalfWidth) * kPerWidth, 0.0, kLast);
+  const double y = std::clamp((q + kHalfWidth) * kPerWidth, 0.0, kLast);
   const auto i = static_cast<std::size_t>(x), j = static_cast<std::size_t>(y);
   const double u = x - static_cast<double>(i), v = y - static_cast<double>(j);
   const double a = radius_at_node(i, j), b = radius_at_node(i + 1, j), c = radius_at_node(i, j + 1),

@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// The radius of an eyeball, cornea included, in all directions around its front. A grid over the
-/// stereographic plane stores the radii, so that a table look-up gives the gap to a lid without a
-/// search.
+/// The radius of an eyeball, including the cornea, for each direction around its front. A grid over
+/// the stereographic plane stores the radii, so that a table look-up gives the gap to a lid without
+/// a search.
 class BallMap {
  public:
   BallMap() = default;
@@ -39,16 +39,17 @@ class BallMap {
  private:
   /// Number of nodes along one side of the grid. Nodes are half a millimetre apart at an eyeball's
   /// equator, and one millimetre at its front.
-  static constexpr std::size_t kNodes = 72;
+  static constexpr std::size_t kNodesPerSide = 72;
   /// Half width of the grid in the stereographic plane; reaches 16° behind the equator.
-  static constexpr double kWidth = 1.32;
+  static constexpr double kHalfWidth = 1.32;
 
-  float radius_at_node(std::size_t x, std::size_t y) const { return radii_[y * kNodes + x]; }
+  float radius_at_node(std::size_t x, std::size_t y) const { return radii_[y * kNodesPerSide + x]; }
 
   HeadAxes axes_;
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
   double radius_ = 0, max_radius_ = 0;
-  std::vector<float> radii_;  ///< kNodes by kNodes; x, along the side axis, varies fastest
+  std::vector<float>
+      radii_;  ///< kNodesPerSide by kNodesPerSide; x, along the side axis, varies fastest
 };
 
 }  // namespace crowdface

@@ -84,12 +84,12 @@ void measure_roughness(const Topology& topology, const Components& components,
   }
   for (std::size_t c = 0; c < shapes.size(); ++c) {
     shapes[c].roughness =
-        std::sqrt(sums[c] / static_cast<double>(shapes[c].vertices + shapes[c].faces));
+        std::sqrt(sums[c] / static_cast<double>(shapes[c].vertex_count + shapes[c].polygon_count));
   }
 }
 
-/// Returns the 90th percentile of the distances from the skin, at most `reach`, over an even subset
-/// of the vertices.
+/// Returns the 90th percentile of the distances from the skin over evenly chosen vertices;
+/// distances above `reach` count as `reach`.
 double distance_to(const PointGrid& skin, const Positions& positions,
                    const std::vector<std::uint32_t>& vertices, double reach) {
   std::vector<double> distances;
@@ -102,7 +102,7 @@ double distance_to(const PointGrid& skin, const Positions& positions,
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> members_of(const Components& components) {
+std::vector<std::vector<std::uint32_t>> vertices_of_components(const Components& components) {
   std::vector<std::vector<std::uint32_t>> members(components.sizes.size());
   for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
     members[components.of_vertex[v]].push_back(v);
@@ -147,13 +147,13 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
                                              const Components& components,
                                              const Positions& positions) {
   const auto count = static_cast<std::size_t>(components.count());
-  const std::vector<std::vector<std::uint32_t>> members = members_of(components);
+  const std::vector<std::vector<std::uint32_t>> members = vertices_of_components(components);
   std::vector<ComponentShape> shapes(count);
   std::vector<double> area(count, 0.0), perimeter(count, 0.0);
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = topology.face(f);
     const std::size_t c = components.of_vertex[face[0]];
-    ++shapes[c].faces;
+    ++shapes[c].polygon_count;
     area[c] += face_area_vector(topology, f, positions).norm() / 2;
   }
   // Treat an edge between two boundary vertices as open. This is wrong for a few edges across
@@ -167,7 +167,7 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
   }
   for (std::size_t c = 0; c < count; ++c) {
     ComponentShape& shape = shapes[c];
-    shape.vertices = static_cast<Index>(members[c].size());
+    shape.vertex_count = static_cast<Index>(members[c].size());
     if (area[c] > 0)
       shape.openness = perimeter[c] * perimeter[c] / (4 * std::numbers::pi * area[c]);
     const Eigen::Vector3d sides = bounding_box(positions, members[c]).sizes();
@@ -178,7 +178,7 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
   const PointGrid skin_grid(positions, members[skin]);
   for (std::size_t c = 0; c < count; ++c) {
     throw_if_interrupted();
-    if (c == skin || shapes[c].faces == 0) continue;
+    if (c == skin || shapes[c].polygon_count == 0) continue;
     fit_sphere(positions, members[c], shapes[c]);
     shapes[c].skin_distance =
         distance_to(skin_grid, positions, members[c], kFarFromSkin * shapes[skin].extent);

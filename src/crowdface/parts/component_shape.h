@@ -17,8 +17,8 @@ constexpr double kFarFromSkin = 0.05;
 
 /// Geometric properties of a connected component that distinguish skin, eyes and lashes.
 struct ComponentShape {
-  Index vertices = 0;
-  Index faces = 0;
+  Index vertex_count = 0;
+  Index polygon_count = 0;
   double extent = 0;     ///< diagonal of the bounding box
   double thickness = 0;  ///< shortest side of the bounding box
   /// Perimeter² / (4π · area), where the perimeter is the total length of open edges. 0 for a
@@ -42,7 +42,7 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
                                              const Positions& positions);
 
 /// Returns the vertices of each component, ascending.
-std::vector<std::vector<std::uint32_t>> members_of(const Components& components);
+std::vector<std::vector<std::uint32_t>> vertices_of_components(const Components& components);
 
 /// Returns the index of a vertex in an ascending list, or kNoIndex if it is not in the list.
 std::uint32_t index_in_list(std::span<const std::uint32_t> ascending, std::uint32_t vertex);
@@ -53,7 +53,7 @@ Eigen::AlignedBox3d bounding_box(const Positions& positions,
 /// Returns the mean position of some vertices, at least one.
 Eigen::Vector3d centre_of(const Positions& positions, std::span<const std::uint32_t> vertices);
 /// Returns the root mean square distance of some vertices, at least one, from a point.
-double radius_about(const Eigen::Vector3d& middle, const Positions& positions,
+double radius_about(const Eigen::Vector3d& point, const Positions& positions,
                     std::span<const std::uint32_t> vertices);
 /// Returns the diagonal of the bounding box of some vertices, at least one.
 double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices);

@@ -50,7 +50,8 @@ Contact::Contact(const Topology& topology, const VertexFaces& faces, const Posit
     const Eigen::Vector3d point = positions.row(v).transpose();
     const auto nearest = grid.nearest(point, 2 * reach);
     if (nearest.vertex == kNoIndex) continue;
-    const SurfacePoint place = nearest_around(topology, faces, positions, nearest.vertex, point);
+    const SurfacePoint place =
+        nearest_point_around(topology, faces, positions, nearest.vertex, point);
     if (place.distance > reach) continue;
     const std::uint32_t start = place.corners[0];
     pairs_.push_back({v, place.corners, place.shares, {start, start, start}, 1e300});
@@ -179,9 +180,9 @@ Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
   Starts ends = {};
   SurfacePoint place;
   for (std::size_t s = 0; s < kStarts && (s == 0 || starts[s] != starts[0]); ++s) {
-    ends[s] = descend(*topology_, *faces_, skin, starts[s], point);
+    ends[s] = walk_to_nearest_vertex(*topology_, *faces_, skin, starts[s], point);
     if (std::find(ends.begin(), ends.begin() + s, ends[s]) != ends.begin() + s) continue;
-    const SurfacePoint other = nearest_from(*topology_, *faces_, skin, ends[s], point);
+    const SurfacePoint other = nearest_point_from(*topology_, *faces_, skin, ends[s], point);
     if (s == 0 || other.distance < place.distance) place = other;
   }
   const Eigen::Vector3d normal = normal_near(place, skin);

@@ -36,10 +36,10 @@ class Contact {
   };
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// Returns the nearest motion to `motion` that keeps the part out of the skin. After this motion,
-  /// no vertex is deeper inside the skin than in the head where this vertex is deepest. A vertex
-  /// that is outside the skin in all heads stays outside. The correction is a small translation,
-  /// rotation and scaling.
+  /// Returns the motion that is nearest to `motion` and keeps the part out of the skin. After this
+  /// motion, no vertex is deeper inside the skin than in the head where this vertex is deepest. A
+  /// vertex that is outside the skin in all heads stays outside. The correction is a small
+  /// translation, rotation and scaling.
   ///
   /// \param target  The head with the part before the motion.
   /// \param motion  Motion of the surrounding skin.
@@ -62,8 +62,8 @@ class Contact {
     Starts starts;
     double min_height;  ///< smallest height of the pair in all heads
   };
-  /// Pairs that are close together. The middle pair represents all pairs of the cluster: no pair
-  /// has a height below the height of the middle pair minus `slack`.
+  /// Pairs that are close together. The height of the middle pair, minus `slack`, is a lower bound
+  /// for the heights of all pairs of the cluster.
   struct Cluster {
     std::size_t begin, end;  ///< range of `pairs_`
     double slack;

@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Pairs within kCourse spacings of a place determine the local direction of the group. Pairs
-/// within kUp spacings determine the place's `up`.
+/// Pairs within kCourse spacings of a section determine the local direction of the group. Pairs
+/// within kUp spacings determine the section's `up`.
 constexpr double kCourse = 4, kUp = 1.5;
 
 /// Returns the principal direction of the midpoints near a point, perpendicular to `up`.
@@ -52,17 +52,17 @@ bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoin
 
 }  // namespace
 
-double ContactPlace::gap(const Positions& positions) const {
+double GapSection::gap(const Positions& positions) const {
   double lowest = std::numeric_limits<double>::max(), highest = -lowest;
   for (const EdgePoint& point : high) lowest = std::min(lowest, height_of(point, up, positions));
   for (const EdgePoint& point : low) highest = std::max(highest, height_of(point, up, positions));
   return lowest - highest;
 }
 
-std::vector<ContactPlace> distribute_places(const FacingGroup& group, double spacing) {
+std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double spacing) {
   std::vector<double> nearest(group.size(), std::numeric_limits<double>::max());
-  std::vector<ContactPlace> places;
-  // the pair farthest from all places so far
+  std::vector<GapSection> sections;
+  // the pair farthest from all sections so far
   for (std::size_t next = 0; nearest[next] >= spacing;) {
     const Eigen::Vector3d middle = group[next].middle;
     Eigen::Vector3d up = Eigen::Vector3d::Zero();
@@ -72,17 +72,17 @@ std::vector<ContactPlace> distribute_places(const FacingGroup& group, double spa
       if (distance <= kUp * spacing) up += group[i].up;
     }
     up = up.normalized();
-    places.push_back({middle, up, course(group, middle, kCourse * spacing, up), {}, {}});
+    sections.push_back({middle, up, course(group, middle, kCourse * spacing, up), {}, {}});
     next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
   }
-  return places;
+  return sections;
 }
 
 void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
-                  double reach, ContactPlace& place) {
+                  double reach, GapSection& section) {
   const auto off_cut = [&](std::uint32_t v) {
-    return (row3(mean, v) - place.middle).dot(place.plane_normal);
+    return (row3(mean, v) - section.middle).dot(section.plane_normal);
   };
   for (const std::uint32_t a : vertices) {
     const double at = off_cut(a);
@@ -93,16 +93,16 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
       if ((at > 0) == (bt > 0)) continue;
       const EdgePoint point{a, b, at / (at - bt)};
       const Eigen::Vector3d position =
-          ((1 - point.share) * mean.row(a) + point.share * mean.row(b)).transpose();
-      if ((position - place.middle).norm() > reach) continue;
-      (side[a] > 0 ? place.high : place.low).push_back(point);
+          ((1 - point.fraction) * mean.row(a) + point.fraction * mean.row(b)).transpose();
+      if ((position - section.middle).norm() > reach) continue;
+      (side[a] > 0 ? section.high : section.low).push_back(point);
     }
   }
 }
 
-Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
-    : points_(place.low), up_(place.up), inward_(place.inward()) {
-  points_.insert(points_.end(), place.high.begin(), place.high.end());
+Clearance::Clearance(const GapSection& section, const Adjacency& adjacency)
+    : points_(section.low), up_(section.up), inward_(section.inward()) {
+  points_.insert(points_.end(), section.high.begin(), section.high.end());
   const auto add_pieces = [&](std::size_t begin, std::size_t end, std::vector<Segment>& pieces) {
     for (std::size_t i = begin; i < end; ++i) {
       bool alone = true;
@@ -114,8 +114,8 @@ Clearance::Clearance(const ContactPlace& place, const Adjacency& adjacency)
       if (alone) pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i)});
     }
   };
-  add_pieces(0, place.low.size(), low_);
-  add_pieces(place.low.size(), points_.size(), high_);
+  add_pieces(0, section.low.size(), low_);
+  add_pieces(section.low.size(), points_.size(), high_);
 }
 
 std::vector<double> Clearance::coordinates(const Eigen::Vector3d& direction,
@@ -128,8 +128,9 @@ std::vector<double> Clearance::coordinates(const Eigen::Vector3d& direction,
   return heights;
 }
 
-std::vector<Clearance::OppositePoints> Clearance::opposites(std::span<const double> depths) const {
-  const auto shares_at = [&](const Segment& piece, double depth) {
+std::vector<Clearance::OppositePoints> Clearance::opposite_points(
+    std::span<const double> depths) const {
+  const auto weights_at = [&](const Segment& piece, double depth) {
     const double span = depths[piece[1]] - depths[piece[0]];
     const double of_second =
         span == 0 ? 0.0 : std::clamp((depth - depths[piece[0]]) / span, 0.0, 1.0);
@@ -151,7 +152,7 @@ std::vector<Clearance::OppositePoints> Clearance::opposites(std::span<const doub
       const auto [high_from, high_to] = ranges_of_high[h];
       const double from = std::max(low_from, high_from), to = std::min(low_to, high_to);
       const auto at = [&](double depth) {
-        return OppositePoints{low, high, shares_at(low, depth), shares_at(high, depth)};
+        return OppositePoints{low, high, weights_at(low, depth), weights_at(high, depth)};
       };
       if (from <= to) {
         opposites.push_back(at(from));
@@ -173,7 +174,7 @@ double Clearance::gap(std::span<const OppositePoints> opposites, std::span<const
 }
 
 double Clearance::gap(const Positions& positions) const {
-  return gap(opposites(depths(positions)), heights(positions));
+  return gap(opposite_points(depths(positions)), heights(positions));
 }
 
 }  // namespace crowdface

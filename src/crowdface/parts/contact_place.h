@@ -18,12 +18,12 @@ namespace crowdface {
 /// A point on an edge of a mesh, at the same fraction of the edge in every head.
 struct EdgePoint {
   std::uint32_t a, b;
-  double share;  ///< weight of b; the weight of a is 1 − share
+  double fraction;  ///< from a (0) to b (1)
 };
 
-/// A place at which the gap between two facing sides is measured. A plane cuts a short profile of
+/// A section at which the gap between two facing sides is measured. A plane cuts a short profile of
 /// each side on the mean head.
-struct ContactPlace {
+struct GapSection {
   /// `middle`: position on the mean head. `up`: unit vector from the low side to the high side.
   Eigen::Vector3d middle, up;
   Eigen::Vector3d plane_normal;  ///< unit normal of the cutting plane
@@ -36,48 +36,48 @@ struct ContactPlace {
   Eigen::Vector3d inward() const { return plane_normal.cross(up); }
 };
 
-/// Returns places spread evenly over a group. The profiles of the places are empty; `cut_profiles`
-/// fills them.
+/// Returns sections spread evenly over a group. The profiles of the sections are empty;
+/// `cut_profiles` fills them.
 ///
-/// \param spacing  Minimum distance between two places; every pair of the group is within this
-///                 distance of some place.
-std::vector<ContactPlace> distribute_places(const FacingGroup& group, double spacing);
+/// \param spacing  Minimum distance between two sections; every pair of the group is within this
+///                 distance of some section.
+std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double spacing);
 
-/// Cuts the two profiles of a place; one or both may stay empty.
+/// Cuts the two profiles of a section; one or both may stay empty.
 ///
 /// \param vertices  Vertices around the group.
 /// \param side      #V: positive on the high side, negative on the low side.
-/// \param reach     Largest distance of the profiles from the place's middle.
+/// \param reach     Largest distance of the profiles from the section's middle.
 void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
-                  double reach, ContactPlace& place);
+                  double reach, GapSection& section);
 
 /// Returns the coordinate of an edge point along the direction `up`.
 inline double height_of(const EdgePoint& point, const Eigen::Vector3d& up,
                         const Positions& positions) {
-  return (1 - point.share) * row3(positions, point.a).dot(up) +
-         point.share * row3(positions, point.b).dot(up);
+  return (1 - point.fraction) * row3(positions, point.a).dot(up) +
+         point.fraction * row3(positions, point.b).dot(up);
 }
 
-/// Measures the smallest gap between the two profiles of a place, at depths where both profiles
+/// Measures the smallest gap between the two profiles of a section, at depths where both profiles
 /// have points. If the inner rim of the upper lip hangs behind the lower lip, the lowest point of
 /// the rim is hidden, and the gap is that of the visible slit in front.
 class Clearance {
  public:
-  Clearance(const ContactPlace& place, const Adjacency& adjacency);
+  Clearance(const GapSection& section, const Adjacency& adjacency);
 
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two points.
   struct OppositePoints {
     /// indices of points; the points of the low profile come before the points of the high profile
     std::array<std::uint32_t, 2> low, high;
-    std::array<double, 2> low_shares, high_shares;  ///< interpolation weights, with sum one
+    std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 
     /// Returns the height of the high point above the low point.
     /// \param heights  Heights of all points.
     double gap(std::span<const double> heights) const {
-      return high_shares[0] * heights[high[0]] + high_shares[1] * heights[high[1]] -
-             low_shares[0] * heights[low[0]] - low_shares[1] * heights[low[1]];
+      return high_weights[0] * heights[high[0]] + high_weights[1] * heights[high[1]] -
+             low_weights[0] * heights[low[0]] - low_weights[1] * heights[low[1]];
     }
   };
   /// Returns the pairs of opposite points at the depths where a segment of one profile begins or
@@ -86,9 +86,9 @@ class Clearance {
   /// in depth.
   ///
   /// \param depths  Depths of all points.
-  std::vector<OppositePoints> opposites(std::span<const double> depths) const;
-  /// Return the coordinates of all points along the place's `up` and `inward()`, the points of the
-  /// low profile first.
+  std::vector<OppositePoints> opposite_points(std::span<const double> depths) const;
+  /// Return the coordinates of all points along the section's `up` and `inward()`, the points of
+  /// the low profile first.
   std::vector<double> heights(const Positions& positions) const {
     return coordinates(up_, positions);
   }

@@ -168,10 +168,10 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   std::size_t kept = 0;
   // Each lid vertex gives a constraint. Each rim vertex also has a wanted gap.
   for (const LidPoint& lid : lids) {
-    const std::uint32_t r = rim_indices_[lid.number];
+    const std::uint32_t r = rim_indices_[lid.index];
     const Eigen::Vector3d from = lid.point - centre;
     if (r == kNoIndex && from.squaredNorm() > outside * outside) continue;
-    BallMap::Gap gap = map.gap_at(motion.undo(lid.point) - map.centre());
+    BallMap::Gap gap = map.gap_at(motion.apply_inverse(lid.point) - map.centre());
     gap.gap *= motion.scale;
     if (r == kNoIndex && gap.gap > far * radius) continue;
     lids[kept++] = lid;
@@ -189,7 +189,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
       of.missing += missing;
       of.count += 1;
     }
-    const double least = smallest_gaps_[lid.number];
+    const double least = smallest_gaps_[lid.index];
     const bool never = least > kFreeOfLids * map.radius();
     a[never ? kNewLidSlack : kDeepLidSlack] = 1;
     program.add_lower_bound(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);

@@ -61,7 +61,7 @@ class EyeSocket {
   enum class Size { kFree, kKept };
   struct LidPoint {
     Eigen::Vector3d point;
-    std::uint32_t number;
+    std::uint32_t index;
   };
   /// Returns `motion` improved by one step of the optimisation.
   /// \param far  The function removes lid points that are farther away than this fraction of the

@@ -21,8 +21,8 @@ struct MirroredPair {
   std::uint32_t vertex, partner;
 };
 
-/// Walks over two sides of a mesh simultaneously to find mirror partners. The constructor allocates
-/// the work arrays, so each thread needs its own object.
+/// Finds mirror partners by walking over the two sides of a mesh simultaneously. The constructor
+/// allocates the work arrays, so each thread needs its own object.
 class MirroredWalk {
  public:
   /// \param topology  Must outlive this object.

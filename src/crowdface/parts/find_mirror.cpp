@@ -160,7 +160,8 @@ class PlaceFinder {
         distances[i] = near.distance;
         return;
       }
-      const SurfacePoint place = nearest_from(topology_, vertex_faces_, mean_, near.vertex, point);
+      const SurfacePoint place =
+          nearest_point_from(topology_, vertex_faces_, mean_, near.vertex, point);
       found.map.corners[v] = place.corners;
       found.map.shares[v] = place.shares;
       if (place.shares[0] == 1) mark_unpaired(found.map, v);
@@ -254,12 +255,13 @@ void keep_form(const Positions& mean, double reach, MirrorMap& map) {
 }  // namespace
 
 double FoundMirror::partner_fraction() const {
-  return static_cast<double>(vertices + surface_partners) / static_cast<double>(map.corners.size());
+  return static_cast<double>(mutual_vertex_count + surface_partner_count) /
+         static_cast<double>(map.corners.size());
 }
 
 FoundMirror find_mirror(const Topology& topology, const Components& components,
                         const Positions& mean, const Eigen::Vector3d& side) {
-  const std::vector<Vertices> of_component = members_of(components);
+  const std::vector<Vertices> of_component = vertices_of_components(components);
   const Vertices& skin = of_component[components.largest()];
   FoundMirror found;
   MirrorMap& map = found.map;
@@ -301,10 +303,10 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   // Improve the plane with the pairs of partners.
   map.plane = plane_of_partners(map, skin, mean, side);
   keep_form(mean, kMatchReach * extent, map);
-  found.rms = std::sqrt(mean_square(map, mean, &found.largest));
+  found.rms_distance = std::sqrt(mean_square(map, mean, &found.max_distance));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
     if (std::ranges::binary_search(map.unpaired, v)) continue;
-    ++(map.is_vertex(v) ? found.vertices : found.surface_partners);
+    ++(map.is_vertex(v) ? found.mutual_vertex_count : found.surface_partner_count);
   }
   return found;
 }

@@ -10,13 +10,13 @@ namespace crowdface {
 struct FoundMirror {
   MirrorMap map;
   /// number of vertices in mutual pairs: each vertex of a pair is the partner of the other
-  Index vertices = 0;
-  /// number of vertices whose partner is a surface point between vertices; vertices counted in
-  /// neither number have no partner
-  Index surface_partners = 0;
+  Index mutual_vertex_count = 0;
+  /// number of vertices whose partner is a point on the surface instead of a vertex; all vertices
+  /// that neither count includes have no partner
+  Index surface_partner_count = 0;
   /// Distance of the mean head from its mirror image, in the unit of the heads: root mean square
   /// and maximum over all vertices.
-  double rms = 0, largest = 0;
+  double rms_distance = 0, max_distance = 0;
 
   /// Returns the fraction of vertices that have a partner.
   double partner_fraction() const;

@@ -37,7 +37,7 @@ class PlaneSearch {
       for (int step = 0; step < kSteps; ++step) {
         const MirrorPlane tried = plane;
         plane = next(plane, [&](std::uint32_t nearest, const Eigen::Vector3d& image) {
-          return nearest_from(topology_, around_, mean_, nearest, image).position;
+          return nearest_point_from(topology_, around_, mean_, nearest, image).position;
         });
         keep_best(tried);
       }

@@ -19,7 +19,7 @@ namespace {
 /// (about 12 mm). kSocketReach: for other parts, as a fraction of the skin's extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
 /// Largest number of a part's vertices that determine its socket.
-constexpr std::size_t kMaxRough = 4000;
+constexpr std::size_t kMaxSocketVertices = 4000;
 /// Fractions of the skin's extent. kContactReach: largest distance at which skin and part are
 /// tested for contact. kContactMargin: smallest clearance that is kept.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
@@ -50,14 +50,14 @@ struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<double> unit_weights;  ///< #vertices: equal weights, for fits of the part's shape
   Socket socket;
-  bool eyeball = false;
+  bool is_eyeball = false;
   EyeSocket eye;    ///< used for eyeballs
   Contact contact;  ///< used for other parts
 };
 
 /// The mean head and its skin, to which parts are bound.
 struct SkinOfMean {
-  const HeadSet& faces;
+  const HeadSet& heads;
   const VertexFaces& around;
   const HeadAxes& axes;
   const Positions& mean;
@@ -72,7 +72,7 @@ struct SkinOfMean {
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
   // The distance between skin and part needs no higher precision than the spacing of the part's
   // vertices.
-  const PointGrid rough_grid(skin.mean, evenly_spaced_items(part.vertices, kMaxRough));
+  const PointGrid rough_grid(skin.mean, evenly_spaced_items(part.vertices, kMaxSocketVertices));
   Socket socket;
   for (int tries = 0; tries < 8 && socket.vertices.size() < 12; ++tries, reach *= 2) {
     socket = find_socket(skin.mean, rough_grid, skin.vertices, skin.areas, reach);
@@ -82,30 +82,30 @@ Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
 
 EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMean& skin) {
   const std::vector<double> unit_weights(part.vertices.size(), 1.0);
-  std::vector<BallMap> maps(skin.faces.heads.size());
+  std::vector<BallMap> maps(skin.heads.heads.size());
   parallel_for_each(maps.size(), [&](std::size_t i) {
-    const Positions& head = skin.faces.heads[i].positions;
+    const Positions& head = skin.heads.heads[i].positions;
     const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, unit_weights);
-    maps[i] = BallMap(skin.faces.topology, skin.around, head, part.surface,
+    maps[i] = BallMap(skin.heads.topology, skin.around, head, part.surface,
                       motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
   });
   return {find_lids(skin.mean, PointGrid(skin.mean, part.vertices), ball.centre, ball.radius,
                     skin.axes, skin.vertices),
-          std::move(maps), skin.faces.heads};
+          std::move(maps), skin.heads.heads};
 }
 
 RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& skin) {
   RigidPart bound;
   bound.vertices = part.vertices;
   bound.unit_weights.assign(part.vertices.size(), 1.0);
-  bound.eyeball = part.eyeball;
-  if (!part.eyeball) {
+  bound.is_eyeball = part.is_eyeball;
+  if (!part.is_eyeball) {
     bound.socket = socket_of(part, kSocketReach * skin.extent, skin);
-    bound.contact = Contact(skin.faces.topology, skin.around, skin.mean, skin.grid, skin.vertices,
-                            part.vertices, kContactReach * skin.extent, skin.faces.heads);
+    bound.contact = Contact(skin.heads.topology, skin.around, skin.mean, skin.grid, skin.vertices,
+                            part.vertices, kContactReach * skin.extent, skin.heads.heads);
     return bound;
   }
-  const ComponentShape& ball = parts.shapes[part.ball];
+  const ComponentShape& ball = parts.shapes[part.ball_component];
   bound.socket = socket_of(part, kEyeReach * ball.radius, skin);
   bound.eye = bind_eye(part, ball, skin);
   return bound;
@@ -114,7 +114,7 @@ RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& 
 }  // namespace
 
 struct PartFollower::State {
-  const HeadSet& faces;
+  const HeadSet& heads;
   VertexFaces around;
   PartShape shape;
   double extent;  ///< extent of the skin
@@ -135,20 +135,20 @@ struct PartFollower::State {
              Positions& result) const;
 };
 
-PartFollower::PartFollower(const HeadSet& faces, const PartList& parts, const HeadAxes& axes,
+PartFollower::PartFollower(const HeadSet& heads, const PartList& parts, const HeadAxes& axes,
                            PartShape shape) {
   auto state =
-      std::make_unique<State>(State{faces, VertexFaces(faces.topology), shape, 0, {}, {}, {}, {}});
+      std::make_unique<State>(State{heads, VertexFaces(heads.topology), shape, 0, {}, {}, {}, {}});
   for (const ComponentShape& component : parts.shapes) {
     state->extent = std::max(state->extent, component.extent);
   }
-  const Positions mean = mean_head(faces);
+  const Positions mean = mean_head(heads);
   const auto skin_rows = skin_of(parts, state->around);
-  const SkinOfMean skin{faces,
+  const SkinOfMean skin{heads,
                         state->around,
                         axes,
                         mean,
-                        vertex_areas(faces.topology, mean),
+                        vertex_areas(heads.topology, mean),
                         skin_rows,
                         PointGrid(mean, skin_rows),
                         state->extent};
@@ -169,13 +169,13 @@ PartFollower::PartFollower(const HeadSet& faces, const PartList& parts, const He
 
   std::vector<std::span<const std::uint32_t>> tying;
   for (const RigidPart& part : state->rigid) {
-    if (!part.eyeball) tying.emplace_back(part.vertices);
+    if (!part.is_eyeball) tying.emplace_back(part.vertices);
   }
   state->ties = Ties(mean, tying, bound, kTieReach * state->extent);
-  state->anchors = Anchors(faces.topology, state->around, mean, skin.grid, std::move(bound));
-  state->offsets.resize(faces.heads.size());
-  parallel_for_each(faces.heads.size(), [&](std::size_t i) {
-    state->offsets[i] = state->anchors.offsets(faces.heads[i].positions);
+  state->anchors = Anchors(heads.topology, state->around, mean, skin.grid, std::move(bound));
+  state->offsets.resize(heads.heads.size());
+  parallel_for_each(heads.heads.size(), [&](std::size_t i) {
+    state->offsets[i] = state->anchors.offsets(heads.heads[i].positions);
   });
   state_ = std::move(state);
 }
@@ -185,15 +185,15 @@ PartFollower::~PartFollower() = default;
 PartFollower::State::Found PartFollower::State::find_motion(const RigidPart& part,
                                                             std::size_t target,
                                                             const Positions& result) const {
-  const Positions& before = faces.heads[target].positions;
+  const Positions& before = heads.heads[target].positions;
   Found found;
   found.still = have_same_positions(before, result, part.socket.vertices) &&
                 have_same_positions(before, result, part.eye.lids().vertices);
   if (found.still || part.socket.vertices.size() < 3) return found;
   found.skin = fit_rigid_motion(before, result, part.socket.vertices, part.socket.weights);
-  found.part = part.eyeball ? part.eye.fit(target, found.skin, result)
-                            : part.contact.keep_out_of_skin(before, found.skin, result,
-                                                            kContactMargin * extent);
+  found.part = part.is_eyeball ? part.eye.fit(target, found.skin, result)
+                               : part.contact.keep_out_of_skin(before, found.skin, result,
+                                                               kContactMargin * extent);
   return found;
 }
 
@@ -201,14 +201,14 @@ void PartFollower::State::even_sizes(std::size_t target, const Positions& result
                                      std::vector<Found>& found) const {
   double sum = 0, count = 0;
   for (std::size_t p = 0; p < rigid.size(); ++p) {
-    if (!rigid[p].eyeball) continue;
+    if (!rigid[p].is_eyeball) continue;
     if (found[p].still) return;  // an unmoved eyeball keeps its exact positions
     sum += found[p].part.scale;
     count += 1;
   }
   if (count < 2) return;
   parallel_for_each(rigid.size(), [&](std::size_t p) {
-    if (!rigid[p].eyeball) return;
+    if (!rigid[p].is_eyeball) return;
     const Eigen::Vector3d centre = found[p].part.apply(rigid[p].eye.centre(target));
     const double growth = sum / count / found[p].part.scale - 1;
     found[p].part = rigid[p].eye.fit_translation(
@@ -218,7 +218,7 @@ void PartFollower::State::even_sizes(std::size_t target, const Positions& result
 
 void PartFollower::State::place(const RigidPart& part, std::size_t target, const Found& found,
                                 Positions& result) const {
-  const Positions& before = faces.heads[target].positions;
+  const Positions& before = heads.heads[target].positions;
   if (shape == PartShape::kTarget) {
     for (const std::uint32_t v : part.vertices) {
       if (found.still) {
@@ -238,7 +238,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
 
 void PartFollower::follow(Index target, Positions& result) const {
   const auto t = static_cast<std::size_t>(target);
-  const Positions& before = state_->faces.heads[t].positions;
+  const Positions& before = state_->heads.heads[t].positions;
   // Parts can be processed in parallel: each reads only skin, and writes only its own vertices.
   std::vector<State::Found> found(state_->rigid.size());
   std::vector<RigidMotion> motions;
@@ -249,7 +249,7 @@ void PartFollower::follow(Index target, Positions& result) const {
   parallel_for_each(found.size(),
                     [&](std::size_t p) { state_->place(state_->rigid[p], t, found[p], result); });
   for (std::size_t p = 0; p < found.size(); ++p) {
-    if (!state_->rigid[p].eyeball) motions.push_back(found[p].part);
+    if (!state_->rigid[p].is_eyeball) motions.push_back(found[p].part);
   }
   state_->anchors.place_vertices(before, state_->offsets[t], result);
   state_->ties.pull(before, motions, result);

@@ -22,8 +22,8 @@ namespace crowdface {
 /// Where the skin around a part has not moved, the part keeps exactly the positions of the target.
 class PartFollower {
  public:
-  /// \param faces  Must outlive this object.
-  PartFollower(const HeadSet& faces, const PartList& parts, const HeadAxes& axes,
+  /// \param heads  Must outlive this object.
+  PartFollower(const HeadSet& heads, const PartList& parts, const HeadAxes& axes,
                PartShape shape = PartShape::kTarget);
   ~PartFollower();
 

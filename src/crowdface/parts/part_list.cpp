@@ -35,7 +35,7 @@ constexpr double kRound = 0.1;
 static_assert(kBoundDistance < kFarFromSkin);
 
 PartClass class_by_shape(const ComponentShape& shape, double extent) {
-  if (shape.faces == 0 || shape.extent > kSkinExtent * extent) return PartClass::kSkin;
+  if (shape.polygon_count == 0 || shape.extent > kSkinExtent * extent) return PartClass::kSkin;
   const bool open = shape.openness > kOpen;
   return open && shape.skin_distance < kBoundDistance * extent ? PartClass::kBound
                                                                : PartClass::kRigid;
@@ -166,7 +166,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     if (!overrides.classes.empty() && overrides.classes[c]) list.classes[c] = *overrides.classes[c];
   }
 
-  const std::vector<std::vector<std::uint32_t>> members = members_of(components);
+  const std::vector<std::vector<std::uint32_t>> members = vertices_of_components(components);
   DisjointSets grouping(count);
   // Join the components that the user assigned to one part.
   std::vector<bool> by_hand(count, false);
@@ -199,16 +199,17 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     }
     Part& part = list.parts[part_of[root]];
     if (list.classes[c] == PartClass::kRigid) part.part_class = PartClass::kRigid;
-    part.eyeball = part.eyeball || eyeball[c];
-    if (part.ball == kNoIndex || list.shapes[c].radius > list.shapes[part.ball].radius) {
-      part.ball = c;
+    part.is_eyeball = part.is_eyeball || eyeball[c];
+    if (part.ball_component == kNoIndex ||
+        list.shapes[c].radius > list.shapes[part.ball_component].radius) {
+      part.ball_component = c;
     }
     part.components.push_back(c);
     part.vertices.insert(part.vertices.end(), members[c].begin(), members[c].end());
   }
   for (Part& part : list.parts) {
     std::ranges::sort(part.vertices);
-    if (part.eyeball) part.surface = members[part.ball];
+    if (part.is_eyeball) part.surface = members[part.ball_component];
   }
   return list;
 }
@@ -217,7 +218,7 @@ Components join_skin(const Components& components, const PartList& parts) {
   Components joined = components;
   std::uint32_t first = kNoIndex;
   for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(parts.classes.size()); ++c) {
-    if (parts.classes[c] != PartClass::kSkin || parts.shapes[c].faces == 0) continue;
+    if (parts.classes[c] != PartClass::kSkin || parts.shapes[c].polygon_count == 0) continue;
     if (first == kNoIndex) {
       first = c;
       continue;
@@ -226,7 +227,7 @@ Components join_skin(const Components& components, const PartList& parts) {
     joined.sizes[c] = 0;
   }
   for (std::uint32_t& c : joined.of_vertex) {
-    if (parts.classes[c] == PartClass::kSkin && parts.shapes[c].faces > 0) c = first;
+    if (parts.classes[c] == PartClass::kSkin && parts.shapes[c].polygon_count > 0) c = first;
   }
   return joined;
 }

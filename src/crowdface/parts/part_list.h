@@ -21,10 +21,10 @@ enum class PartClass : std::uint8_t {
 /// Components that move together.
 struct Part {
   PartClass part_class = PartClass::kRigid;
-  bool eyeball = false;                   ///< whether the part is round and as large as an eye
-  std::vector<std::uint32_t> components;  ///< ascending
-  std::vector<std::uint32_t> vertices;    ///< vertices of all components, ascending
-  std::uint32_t ball = kNoIndex;          ///< only for an eyeball: index of its largest component
+  bool is_eyeball = false;                  ///< whether the part is round and as large as an eye
+  std::vector<std::uint32_t> components;    ///< ascending
+  std::vector<std::uint32_t> vertices;      ///< vertices of all components, ascending
+  std::uint32_t ball_component = kNoIndex;  ///< only for an eyeball: index of its largest component
   /// only for an eyeball: the vertices of its largest component
   std::vector<std::uint32_t> surface;
 };

@@ -17,20 +17,21 @@ PointGrid::PointGrid(const Positions& positions, std::span<const std::uint32_t> 
     : positions_(positions) {
   Eigen::AlignedBox3d box;
   for (const std::uint32_t vertex : vertices) box.extend(positions.row(vertex).transpose());
-  low_ = box.min();
+  min_corner_ = box.min();
   // The vertices lie on a surface, so about two of them fall into each cell that is not empty.
   const Eigen::Vector3d size = box.sizes();
   const double longest = std::max({size.x(), size.y(), size.z(), 1e-12});
-  width_ = longest / std::max(1.0, std::sqrt(static_cast<double>(vertices.size()) / 8));
-  const auto count = [&](Index axis) { return std::floor(size(axis) / width_) + 1; };
-  while (count(0) * count(1) * count(2) > kMaxCells) width_ *= 1.25;
+  cell_width_ = longest / std::max(1.0, std::sqrt(static_cast<double>(vertices.size()) / 8));
+  const auto count = [&](Index axis) { return std::floor(size(axis) / cell_width_) + 1; };
+  while (count(0) * count(1) * count(2) > kMaxCells) cell_width_ *= 1.25;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    cells_[axis] = static_cast<Index>(count(static_cast<Index>(axis)));
+    cell_counts_[axis] = static_cast<Index>(count(static_cast<Index>(axis)));
   }
-  by_cell_ = compressed_rows<std::uint32_t>(
-      static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]), [&](const auto& put) {
+  vertices_by_cell_ = compressed_rows<std::uint32_t>(
+      static_cast<std::size_t>(cell_counts_[0] * cell_counts_[1] * cell_counts_[2]),
+      [&](const auto& put) {
         for (const std::uint32_t vertex : vertices) {
-          put(number_of(cell_of(positions.row(vertex).transpose())), vertex);
+          put(index_of(cell_of(positions.row(vertex).transpose())), vertex);
         }
       });
 }
@@ -39,37 +40,41 @@ PointGrid::Cell PointGrid::cell_of(const Eigen::Vector3d& point) const {
   Cell cell;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<Index>(axis);
-    const double at = std::floor((point(a) - low_(a)) / width_);
-    cell[axis] = static_cast<Index>(std::clamp(at, 0.0, static_cast<double>(cells_[axis] - 1)));
+    const double at = std::floor((point(a) - min_corner_(a)) / cell_width_);
+    cell[axis] =
+        static_cast<Index>(std::clamp(at, 0.0, static_cast<double>(cell_counts_[axis] - 1)));
   }
   return cell;
 }
 
-std::size_t PointGrid::number_of(const Cell& cell) const {
-  return static_cast<std::size_t>((cell[2] * cells_[1] + cell[1]) * cells_[0] + cell[0]);
+std::size_t PointGrid::index_of(const Cell& cell) const {
+  return static_cast<std::size_t>((cell[2] * cell_counts_[1] + cell[1]) * cell_counts_[0] +
+                                  cell[0]);
 }
 
-bool PointGrid::may_be_in_reach(const Eigen::Vector3d& point, double reach) const {
+bool PointGrid::may_have_vertex_within(const Eigen::Vector3d& point, double reach) const {
   double outside = 0;
   for (Index c = 0; c < 3; ++c) {
-    const double high = low_(c) + static_cast<double>(cells_[static_cast<std::size_t>(c)]) * width_;
-    const double gap = std::max({low_(c) - point(c), point(c) - high, 0.0});
+    const double high =
+        min_corner_(c) +
+        static_cast<double>(cell_counts_[static_cast<std::size_t>(c)]) * cell_width_;
+    const double gap = std::max({min_corner_(c) - point(c), point(c) - high, 0.0});
     outside += gap * gap;
   }
-  return std::sqrt(outside) <= reach + width_;
+  return std::sqrt(outside) <= reach + cell_width_;
 }
 
-PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach) const {
+PointGrid::NearestVertex PointGrid::nearest(const Eigen::Vector3d& point, double reach) const {
   const Cell middle = cell_of(point);
-  Nearest best;
+  NearestVertex best;
   best.distance = reach;
-  if (!may_be_in_reach(point, reach)) return best;
-  const Index farthest = std::max({cells_[0], cells_[1], cells_[2]});
+  if (!may_have_vertex_within(point, reach)) return best;
+  const Index farthest = std::max({cell_counts_[0], cell_counts_[1], cell_counts_[2]});
   // Searches shells of cells around the cell of the point. A cell of shell s is at least s − 1 cell
   // widths away from the point, whether the point is inside or outside the grid.
   const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {
     for (const std::uint32_t v :
-         vertices_in_cells(number_of({low_x, y, z}), number_of({high_x, y, z}))) {
+         vertices_in_cells(index_of({low_x, y, z}), index_of({high_x, y, z}))) {
       const double dx = positions_(v, 0) - point.x();
       const double dy = positions_(v, 1) - point.y();
       const double dz = positions_(v, 2) - point.z();
@@ -82,22 +87,24 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
   // A lower bound of the distance to a layer of cells, safe against rounding.
   const auto gap_to = [&](Index axis, Index cell) {
     constexpr double kRounding = 1e-9;
-    const double low = low_(axis) + static_cast<double>(cell) * width_;
-    return std::max({low - point(axis), point(axis) - (low + width_), 0.0}) - kRounding * width_;
+    const double low = min_corner_(axis) + static_cast<double>(cell) * cell_width_;
+    return std::max({low - point(axis), point(axis) - (low + cell_width_), 0.0}) -
+           kRounding * cell_width_;
   };
   for (Index shell = 0; shell <= farthest; ++shell) {
-    if (static_cast<double>(shell - 1) * width_ > best.distance) break;
+    if (static_cast<double>(shell - 1) * cell_width_ > best.distance) break;
     const Index left = middle[0] - shell, right = middle[0] + shell;
     for (Index z = middle[2] - shell; z <= middle[2] + shell; ++z) {
-      if (z < 0 || z >= cells_[2] || gap_to(2, z) > best.distance) continue;
+      if (z < 0 || z >= cell_counts_[2] || gap_to(2, z) > best.distance) continue;
       for (Index y = middle[1] - shell; y <= middle[1] + shell; ++y) {
-        if (y < 0 || y >= cells_[1] || gap_to(1, y) > best.distance) continue;
+        if (y < 0 || y >= cell_counts_[1] || gap_to(1, y) > best.distance) continue;
         if (std::abs(z - middle[2]) == shell || std::abs(y - middle[1]) == shell) {
-          look_at(std::max<Index>(left, 0), std::min(right, cells_[0] - 1), y, z);
+          look_at(std::max<Index>(left, 0), std::min(right, cell_counts_[0] - 1), y, z);
           continue;
         }
         if (left >= 0 && gap_to(0, left) <= best.distance) look_at(left, left, y, z);
-        if (right < cells_[0] && gap_to(0, right) <= best.distance) look_at(right, right, y, z);
+        if (right < cell_counts_[0] && gap_to(0, right) <= best.distance)
+          look_at(right, right, y, z);
       }
     }
   }
@@ -107,12 +114,12 @@ PointGrid::Nearest PointGrid::nearest(const Eigen::Vector3d& point, double reach
 std::vector<std::uint32_t> PointGrid::vertices_near(const Eigen::Vector3d& point,
                                                     double reach) const {
   std::vector<std::uint32_t> found;
-  if (!may_be_in_reach(point, reach)) return found;
+  if (!may_have_vertex_within(point, reach)) return found;
   const Eigen::Vector3d all_sides = Eigen::Vector3d::Constant(reach);
   const Cell low = cell_of(point - all_sides), high = cell_of(point + all_sides);
   for (Index z = low[2]; z <= high[2]; ++z) {
     for (Index y = low[1]; y <= high[1]; ++y) {
-      const auto row = vertices_in_cells(number_of({low[0], y, z}), number_of({high[0], y, z}));
+      const auto row = vertices_in_cells(index_of({low[0], y, z}), index_of({high[0], y, z}));
       found.insert(found.end(), row.begin(), row.end());
     }
   }

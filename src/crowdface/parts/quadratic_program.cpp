@@ -10,7 +10,7 @@ namespace crowdface {
 namespace {
 
 using Vector = QuadraticProgram::Vector;
-using Matrix = std::array<Vector, QuadraticProgram::kMax>;
+using Matrix = std::array<Vector, QuadraticProgram::kMaxUnknowns>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A unit normal of a constraint counts as dependent on the active normals if its squared distance
@@ -34,7 +34,7 @@ Vector backward(const Matrix& l, const Vector& b, std::size_t n) {
 
 /// The active constraints, which hold with equality, and the multiplier of each.
 struct Active {
-  std::array<Vector, QuadraticProgram::kMax> normals = {};
+  std::array<Vector, QuadraticProgram::kMaxUnknowns> normals = {};
   Vector forces = {};
   std::size_t count = 0;
 
@@ -67,7 +67,7 @@ struct Active {
 /// \return  false if x cannot reach the constraint.
 bool move_onto(Active& active, const Vector& a, double lower, Vector& x, std::size_t n) {
   double force = 0;
-  for (std::size_t guard = 0; guard <= QuadraticProgram::kMax; ++guard) {
+  for (std::size_t guard = 0; guard <= QuadraticProgram::kMaxUnknowns; ++guard) {
     const Vector shares = active.shares_in(a, n);
     Vector step = a;
     for (std::size_t j = 0; j < active.count; ++j) {
@@ -160,16 +160,16 @@ class Table {
 
 }  // namespace
 
-void QuadraticProgram::add_target(const Vector& a, double wanted, double weight) {
+void QuadraticProgram::add_target(const Vector& a, double target, double weight) {
   for (std::size_t i = 0; i < unknowns_; ++i) {
     for (std::size_t j = 0; j <= i; ++j) quadratic_[i][j] += weight * a[i] * a[j];
-    linear_[i] += weight * wanted * a[i];
+    linear_[i] += weight * target * a[i];
   }
 }
 
-void QuadraticProgram::add_target(std::size_t unknown, double wanted, double weight) {
+void QuadraticProgram::add_target(std::size_t unknown, double target, double weight) {
   quadratic_[unknown][unknown] += weight;
-  linear_[unknown] += weight * wanted;
+  linear_[unknown] += weight * target;
 }
 
 void QuadraticProgram::add_lower_bound(const Vector& a, double lower) {

@@ -10,27 +10,27 @@ namespace crowdface {
 /// A convex quadratic program in a few unknowns with up to thousands of constraints. Finds the pose
 /// of a part that is nearest to a desired pose and violates no constraint.
 ///
-/// minimise Σ w/2 (a·x − wanted)² + Σ penalty·x_i subject to a·x ≥ lower
+/// minimise Σ w/2 (a·x − target)² + Σ penalty·x_i subject to a·x ≥ lower
 ///
 /// The class uses plain arithmetic in a fixed order, so that the result has the same bits on every
 /// machine.
 class QuadraticProgram {
  public:
-  static constexpr std::size_t kMax = 9;    ///< largest number of unknowns
-  using Vector = std::array<double, kMax>;  ///< entries beyond the number of unknowns are 0
+  static constexpr std::size_t kMaxUnknowns = 9;    ///< largest number of unknowns
+  using Vector = std::array<double, kMaxUnknowns>;  ///< entries beyond the number of unknowns are 0
 
   explicit QuadraticProgram(std::size_t unknowns) : unknowns_(unknowns) {}
 
-  /// Adds the term weight/2 (a·x − wanted)². \param weight  Positive.
-  void add_target(const Vector& a, double wanted, double weight);
-  /// Adds the term weight/2 (x_i − wanted)² for an unknown.
-  void add_target(std::size_t unknown, double wanted, double weight);
+  /// Adds the term weight/2 (a·x − target)². \param weight  Positive.
+  void add_target(const Vector& a, double target, double weight);
+  /// Adds the term weight/2 (x_i − target)² for an unknown.
+  void add_target(std::size_t unknown, double target, double weight);
   /// Adds the constraint a·x ≥ lower.
   void add_lower_bound(const Vector& a, double lower);
   /// Adds the constraints lower ≤ x_i ≤ upper for an unknown.
   void add_bounds(std::size_t unknown, double lower, double upper);
-  /// Makes an unknown a slack variable: not negative, with a penalty per unit. A constraint with a
-  /// coefficient for this unknown may be violated by up to the unknown's value.
+  /// Makes an unknown a slack variable: it is not negative, and each unit costs `penalty`. A
+  /// constraint in which this unknown occurs may be violated, by up to coefficient times unknown.
   void add_slack(std::size_t unknown, double penalty);
 
   /// Returns the solution, by the dual active-set method (Goldfarb & Idnani 1983). Every unknown
@@ -46,7 +46,7 @@ class QuadraticProgram {
     double lower;
   };
   std::size_t unknowns_;
-  std::array<Vector, kMax> quadratic_ = {};
+  std::array<Vector, kMaxUnknowns> quadratic_ = {};
   Vector linear_ = {};
   std::vector<Bound> bounds_;
 };

@@ -37,11 +37,11 @@ Eigen::Matrix3d best_turn(const Eigen::Matrix3d& s) {
 }  // namespace
 
 Eigen::Vector3d RigidMotion::apply_to_direction(const Eigen::Vector3d& direction) const {
-  return scale * apply3(rotation, direction);
+  return scale * multiply3(rotation, direction);
 }
 
-Eigen::Vector3d RigidMotion::undo(const Eigen::Vector3d& point) const {
-  return pivot + apply3(rotation.transpose(), (point - moved_pivot) / scale);
+Eigen::Vector3d RigidMotion::apply_inverse(const Eigen::Vector3d& point) const {
+  return pivot + multiply3(rotation.transpose(), (point - moved_pivot) / scale);
 }
 
 Eigen::Vector3d RigidMotion::apply(const Eigen::Vector3d& point) const {
@@ -70,7 +70,7 @@ RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
       rotation_of(1, rotation_vector.x() / 2, rotation_vector.y() / 2, rotation_vector.z() / 2);
   turned.scale = 1 + growth;
   for (Index c = 0; c < 3; ++c) {
-    result.rotation.col(c) = apply3(turned.rotation, motion.rotation.col(c));
+    result.rotation.col(c) = multiply3(turned.rotation, motion.rotation.col(c));
   }
   result.scale = motion.scale * turned.scale;
   result.moved_pivot = pivot + shift + turned.apply_to_direction(motion.moved_pivot - pivot);

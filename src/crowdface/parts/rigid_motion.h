@@ -11,7 +11,7 @@ namespace crowdface {
 
 /// Matrix times vector, in a fixed order of operations. A library's order may depend on the
 /// machine.
-inline Eigen::Vector3d apply3(const Eigen::Matrix3d& map, const Eigen::Vector3d& v) {
+inline Eigen::Vector3d multiply3(const Eigen::Matrix3d& map, const Eigen::Vector3d& v) {
   return {map(0, 0) * v.x() + map(0, 1) * v.y() + map(0, 2) * v.z(),
           map(1, 0) * v.x() + map(1, 1) * v.y() + map(1, 2) * v.z(),
           map(2, 0) * v.x() + map(2, 1) * v.y() + map(2, 2) * v.z()};
@@ -27,7 +27,7 @@ struct RigidMotion {
 
   Eigen::Vector3d apply(const Eigen::Vector3d& point) const;
   /// Inverse of `apply`.
-  Eigen::Vector3d undo(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d apply_inverse(const Eigen::Vector3d& point) const;
   /// Rotates and scales a direction.
   Eigen::Vector3d apply_to_direction(const Eigen::Vector3d& direction) const;
 };

@@ -14,9 +14,9 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 43 cm.
-constexpr double kPlaceSpacing = 0.008;  // spacing of the places
-constexpr double kProfile = 0.015;       // length of a profile to either side of a place
-constexpr double kMotionReach = 0.07;    // radius of the skin that moves around a place
+constexpr double kSectionSpacing = 0.008;  // spacing of the sections
+constexpr double kProfile = 0.015;         // length of a profile to either side of a section
+constexpr double kMotionReach = 0.07;      // radius of the skin that moves around a section
 // distance along the surface within which the two sides are distinguished
 constexpr double kSide = 0.09;
 constexpr double kRounding = 0.006;  // width of the smoothing of the sides' borders
@@ -27,10 +27,10 @@ constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices 
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
-/// A gap may miss its range by this fraction of its place's amplitude. This tolerance makes the
-/// amplitudes of neighbouring places more equal.
+/// A gap may miss its range by this fraction of its section's amplitude. This tolerance makes the
+/// amplitudes of neighbouring sections more equal.
 constexpr double kEvenness = 0.001;
-/// Largest amplitude of a place, as a multiple of the largest deviation of a gap from its range.
+/// Largest amplitude of a section, as a multiple of the largest deviation of a gap from its range.
 constexpr double kMax = 4;
 
 /// Smooth kernel, 1 at 0, and 0 from 1 on (Wendland 1995, C² in three dimensions). The kernel is
@@ -122,79 +122,79 @@ void append(const std::vector<double>& more, std::vector<double>& values) {
 
 }  // namespace
 
-SkinContacts::SkinContacts(const HeadSet& faces, const Adjacency& adjacency,
+SkinContacts::SkinContacts(const HeadSet& heads, const Adjacency& adjacency,
                            std::span<const std::uint32_t> skin) {
-  head_gaps_.resize(faces.heads.size());
+  head_gaps_.resize(heads.heads.size());
   if (skin.empty()) return;
-  const Positions mean = mean_head(faces);
+  const Positions mean = mean_head(heads);
   const double extent = extent_of(mean, skin);
   tolerance_ = kTolerance * extent;
-  for (const FacingGroup& group : find_facing_skin(faces.topology, adjacency, mean, skin)) {
+  for (const FacingGroup& group : find_facing_skin(heads.topology, adjacency, mean, skin)) {
     add(group, adjacency, mean, extent);
   }
-  parallel_for_each(faces.heads.size(),
-                    [&](std::size_t h) { head_gaps_[h] = gaps(faces.heads[h].positions); });
+  parallel_for_each(heads.heads.size(),
+                    [&](std::size_t h) { head_gaps_[h] = gaps(heads.heads[h].positions); });
 }
 
 void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
                        double extent) {
   Sides sides = find_sides(group, adjacency, mean, kSide * extent);
   Contact contact;
-  contact.begin = places_.size();
-  for (ContactPlace& place : distribute_places(group, kPlaceSpacing * extent)) {
-    cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, place);
-    if (place.low.empty() || place.high.empty()) continue;
-    clearances_.emplace_back(place, adjacency);
-    places_.push_back(std::move(place));
+  contact.begin = sections_.size();
+  for (GapSection& section : distribute_gap_sections(group, kSectionSpacing * extent)) {
+    cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, section);
+    if (section.low.empty() || section.high.empty()) continue;
+    clearances_.emplace_back(section, adjacency);
+    sections_.push_back(std::move(section));
   }
-  contact.end = places_.size();
+  contact.end = sections_.size();
   if (contact.begin == contact.end) return;
   round_off(adjacency, mean, kRounding * extent, sides);
-  find_shares(mean, sides.vertices, sides.side, extent, contact);
+  find_kernels(mean, sides.vertices, sides.side, extent, contact);
   find_motions(contact);
   contacts_.push_back(std::move(contact));
 }
 
-void SkinContacts::find_shares(const Positions& mean, std::span<const std::uint32_t> around,
-                               const std::vector<double>& side, double extent,
-                               Contact& contact) const {
+void SkinContacts::find_kernels(const Positions& mean, std::span<const std::uint32_t> around,
+                                const std::vector<double>& side, double extent,
+                                Contact& contact) const {
   const double reach = kMotionReach * extent;
   for (const std::uint32_t v : around) {
-    std::vector<Share> shares;
+    std::vector<KernelValue> kernels;
     for (std::size_t p = contact.begin; p < contact.end; ++p) {
-      const double distance = (row3(mean, v) - places_[p].middle).norm() / reach;
+      const double distance = (row3(mean, v) - sections_[p].middle).norm() / reach;
       const double weight = side[v] * bump(distance);
       if (std::abs(weight) > kMinWeight) {
-        shares.push_back({static_cast<std::uint32_t>(p), weight});
+        kernels.push_back({static_cast<std::uint32_t>(p), weight});
       }
     }
-    if (shares.empty()) continue;
+    if (kernels.empty()) continue;
     contact.vertices.push_back(v);
-    contact.shares.add_group(shares);
+    contact.kernels.add_group(kernels);
   }
 }
 
 void SkinContacts::find_motions(Contact& contact) const {
   contact.point_motions.resize(contact.end - contact.begin);
   for (std::size_t p = contact.begin; p < contact.end; ++p) {
-    const Eigen::Vector3d &up = places_[p].up, deep = places_[p].inward();
+    const Eigen::Vector3d &up = sections_[p].up, deep = sections_[p].inward();
     const auto add_vertex = [&](std::uint32_t v, double share) {
       const std::uint32_t row = index_in_list(contact.vertices, v);
       if (row == kNoIndex) return;
-      for (const auto& [place, weight] : contact.shares.of(row)) {
-        PointMotions& point_motions = contact.point_motions[place - contact.begin];
-        point_motions.heights.back() += share * weight * up.dot(places_[place].up);
-        point_motions.depths.back() += share * weight * deep.dot(places_[place].up);
+      for (const auto& [section, weight] : contact.kernels.of(row)) {
+        PointMotions& point_motions = contact.point_motions[section - contact.begin];
+        point_motions.heights.back() += share * weight * up.dot(sections_[section].up);
+        point_motions.depths.back() += share * weight * deep.dot(sections_[section].up);
       }
     };
-    for (const auto* profile : {&places_[p].low, &places_[p].high}) {
+    for (const auto* profile : {&sections_[p].low, &sections_[p].high}) {
       for (const EdgePoint& point : *profile) {
         for (PointMotions& point_motions : contact.point_motions) {
           point_motions.heights.push_back(0);
           point_motions.depths.push_back(0);
         }
-        add_vertex(point.a, 1 - point.share);
-        add_vertex(point.b, point.share);
+        add_vertex(point.a, 1 - point.fraction);
+        add_vertex(point.b, point.fraction);
       }
     }
   }
@@ -226,14 +226,14 @@ std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
   return vertices;
 }
 
-/// Solves for the amplitudes of all places, starting from the previous amplitudes. A place has a
-/// positive amplitude only if its gap would otherwise be too narrow, and a negative amplitude only
-/// if its gap would otherwise be too wide. So neighbours rarely counteract each other. This is a
-/// linear complementarity problem, solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992,
+/// Solves for the amplitudes of all sections, starting from the previous amplitudes. A section has
+/// a positive amplitude only if its gap would otherwise be too narrow, and a negative amplitude
+/// only if its gap would otherwise be too wide. So neighbours rarely counteract each other. This is
+/// a linear complementarity problem, solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992,
 /// chapter 5). The nearest points of the profiles change during the iteration, so each step
 /// computes the gap again.
 std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_amplitudes(
-    const Contact& contact, std::span<const Range> ranges, double most, Profiles& profiles,
+    const Contact& contact, std::span<const Range> ranges, double max_amplitude, Profiles& profiles,
     std::vector<double>& amplitudes) const {
   std::vector<AmplitudeChange> changes;
   double largest = std::numeric_limits<double>::max();
@@ -244,7 +244,7 @@ std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_amplitudes(
       const double rest = amplitudes[i] - profiles.gap(i);
       const double wanted = std::clamp(0.0, (range.min + rest) / (1 + kEvenness),
                                        (range.max + rest) / (1 + kEvenness));
-      const double change = std::clamp(wanted, -most, most) - amplitudes[i];
+      const double change = std::clamp(wanted, -max_amplitude, max_amplitude) - amplitudes[i];
       if (change == 0) continue;
       amplitudes[i] += change;
       largest = std::max(largest, std::abs(change));
@@ -260,25 +260,25 @@ void SkinContacts::move_depths(const Contact& contact, std::span<const Amplitude
                                std::vector<double>& depths) {
   parallel_blocks(depths.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (const AmplitudeChange& change : changes) {
-      const std::vector<double>& point_motions = contact.point_motions[change.place].depths;
+      const std::vector<double>& point_motions = contact.point_motions[change.section].depths;
       for (std::size_t k = begin; k < end; ++k) depths[k] += point_motions[k] * change.amount;
     }
   });
 }
 
-double SkinContacts::Profiles::gap(std::size_t place) const {
-  return Clearance::gap(opposites[place], std::span(heights).subspan(begins[place]));
+double SkinContacts::Profiles::gap(std::size_t section) const {
+  return Clearance::gap(opposites[section], std::span(heights).subspan(begins[section]));
 }
 
 void SkinContacts::move(const Contact& contact, std::span<const double> amplitudes,
                         Positions& positions) const {
   std::vector<Eigen::Vector3d> ups;
-  for (std::size_t p = contact.begin; p < contact.end; ++p) ups.push_back(places_[p].up);
+  for (std::size_t p = contact.begin; p < contact.end; ++p) ups.push_back(sections_[p].up);
   parallel_for_each(contact.vertices.size(), kMovedPerBlock, [&](std::size_t i) {
     double x = 0, y = 0, z = 0;
-    for (const auto& [place, weight] : contact.shares.of(i)) {
-      const Eigen::Vector3d& up = ups[place - contact.begin];
-      const double share = weight * amplitudes[place - contact.begin];
+    for (const auto& [section, weight] : contact.kernels.of(i)) {
+      const Eigen::Vector3d& up = ups[section - contact.begin];
+      const double share = weight * amplitudes[section - contact.begin];
       x += share * up.x();
       y += share * up.y();
       z += share * up.z();
@@ -308,7 +308,7 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
       profiles.opposites.clear();
       for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const std::span depths = std::span(profiles.depths).subspan(profiles.begins[i]);
-        profiles.opposites.push_back(clearances_[contact.begin + i].opposites(depths));
+        profiles.opposites.push_back(clearances_[contact.begin + i].opposite_points(depths));
         const auto [least, widest] = ranges[contact.begin + i];
         const double gap = profiles.gap(i);
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));

@@ -14,25 +14,26 @@ namespace crowdface {
 
 /// Preserves the gaps between skin that nearly touches skin. Lips are close in space but far apart
 /// along the surface, so blending moves them apart or through each other. Gaps are measured at
-/// places a few millimetres apart, and corrected by a smooth displacement of the surrounding skin.
+/// sections a few millimetres apart, and corrected by a smooth displacement of the surrounding
+/// skin.
 class SkinContacts {
  public:
-  /// \param faces  Heads of one topology; at least one.
+  /// \param heads  Heads of one topology; at least one.
   /// \param skin   The skin's vertices, ascending.
-  SkinContacts(const HeadSet& faces, const Adjacency& adjacency,
+  SkinContacts(const HeadSet& heads, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
-  std::size_t size() const { return places_.size(); }
-  const ContactPlace& place(std::size_t i) const { return places_[i]; }
-  /// Returns the gaps at all places, in the heads' unit.
+  std::size_t size() const { return sections_.size(); }
+  const GapSection& section(std::size_t i) const { return sections_[i]; }
+  /// Returns the gaps at all sections, in the heads' unit.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns the gaps of a head at all places, in the heads' unit.
+  /// Returns the gaps of a head at all sections, in the heads' unit.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
 
-  /// Returns the largest excess, over all places, of a gap over the widest gap of any head at the
-  /// same place; 0 if no gap is wider than in the heads.
+  /// Returns the largest excess, over all sections, of a gap over the widest gap of any head at the
+  /// same section; 0 if no gap is wider than in the heads.
   double max_excess(const Positions& positions) const;
 
   /// Returns the vertices that fit_gaps may move.
@@ -41,62 +42,62 @@ class SkinContacts {
   struct Range {
     double min, max;
   };
-  /// Moves the skin so that the gap at each place lies in its range. Moves nothing if all gaps
+  /// Moves the skin so that the gap at each section lies in its range. Moves nothing if all gaps
   /// already do.
   ///
-  /// \param ranges     #places.
+  /// \param ranges     #sections.
   /// \param positions  #V by 3; adjusted.
   void fit_gaps(std::span<const Range> ranges, Positions& positions) const;
 
  private:
-  /// The value of the kernel of one place at one vertex. The smooth displacement is the sum of the
-  /// kernels of all places, each multiplied by an amplitude.
-  struct Share {
-    std::uint32_t place;
+  /// The value of the kernel of one section at one vertex. The smooth displacement is the sum of
+  /// the kernels of all sections, each multiplied by an amplitude.
+  struct KernelValue {
+    std::uint32_t section;
     double weight;  ///< positive on the high side, negative on the low side
   };
-  /// The movement of all profile points of a contact, place after place, if the amplitude of one
-  /// place grows by one.
+  /// The movement of all profile points of a contact, section after section, if the amplitude of
+  /// one section grows by one.
   struct PointMotions {
     std::vector<double> heights, depths;
   };
-  /// Places that affect the same skin, such as all places of a mouth.
+  /// Places that affect the same skin, such as all sections of a mouth.
   struct Contact {
-    std::size_t begin = 0, end = 0;           ///< range of places
+    std::size_t begin = 0, end = 0;           ///< range of sections
     std::vector<std::uint32_t> vertices;      ///< vertices that move, ascending
-    CompressedRows<Share> shares;             ///< #vertices
-    std::vector<PointMotions> point_motions;  ///< #places of the contact
+    CompressedRows<KernelValue> kernels;      ///< #vertices
+    std::vector<PointMotions> point_motions;  ///< #sections of the contact
   };
 
-  /// The current profiles at a contact's places.
+  /// The current profiles at a contact's sections.
   struct Profiles {
-    /// coordinates of all points, place after place
+    /// coordinates of all points, section after section
     std::vector<double> heights, depths;
-    std::vector<std::size_t> begins;  ///< index of each place's first point
-    /// #places: opposite points of the two profiles
+    std::vector<std::size_t> begins;  ///< index of each section's first point
+    /// #sections: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposites;
 
-    double gap(std::size_t place) const;
+    double gap(std::size_t section) const;
   };
 
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
-  void find_shares(const Positions& mean, std::span<const std::uint32_t> around,
-                   const std::vector<double>& side, double extent, Contact& contact) const;
+  void find_kernels(const Positions& mean, std::span<const std::uint32_t> around,
+                    const std::vector<double>& side, double extent, Contact& contact) const;
   void find_motions(Contact& contact) const;
-  /// A change of a place's amplitude.
+  /// A change of a section's amplitude.
   struct AmplitudeChange {
-    std::size_t place;  ///< index within the contact
+    std::size_t section;  ///< index within the contact
     double amount;
   };
   /// Finds the amplitudes that bring the gaps into their ranges (skin_contacts.cpp explains the
   /// method).
   ///
-  /// \param most   Largest amplitude.
-  /// \param amplitudes  Amplitudes of the contact's places; updated.
+  /// \param max_amplitude  Limit for the absolute value of each amplitude.
+  /// \param amplitudes  Amplitudes of the contact's sections; updated.
   /// \return       The changes in order. The depths of `profiles` are not updated.
   std::vector<AmplitudeChange> find_amplitudes(const Contact& contact,
-                                               std::span<const Range> ranges, double most,
+                                               std::span<const Range> ranges, double max_amplitude,
                                                Profiles& profiles,
                                                std::vector<double>& amplitudes) const;
   static void move_depths(const Contact& contact, std::span<const AmplitudeChange> changes,
@@ -104,10 +105,10 @@ class SkinContacts {
   void move(const Contact& contact, std::span<const double> amplitudes, Positions& positions) const;
 
   double tolerance_ = 0;
-  std::vector<ContactPlace> places_;
-  std::vector<Clearance> clearances_;  ///< #places
+  std::vector<GapSection> sections_;
+  std::vector<Clearance> clearances_;  ///< #sections
   std::vector<Contact> contacts_;
-  std::vector<std::vector<double>> head_gaps_;  ///< #heads by #places
+  std::vector<std::vector<double>> head_gaps_;  ///< #heads by #sections
 };
 
 }  // namespace crowdface

@@ -17,7 +17,7 @@ Socket find_socket(const Positions& positions, const PointGrid& part,
                    double reach) {
   std::vector<std::uint32_t> around;
   for (const std::uint32_t v : skin) {
-    if (part.may_be_in_reach(positions.row(v).transpose(), reach)) around.push_back(v);
+    if (part.may_have_vertex_within(positions.row(v).transpose(), reach)) around.push_back(v);
   }
   Socket all;
   for (const std::uint32_t v : evenly_spaced_items(around, kMaxMeasured)) {

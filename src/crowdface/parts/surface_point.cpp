@@ -43,9 +43,9 @@ Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
          shares[2] * row3(positions, corners[2]);
 }
 
-SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
-                            const Positions& positions, std::uint32_t vertex,
-                            const Eigen::Vector3d& point) {
+SurfacePoint nearest_point_around(const Topology& topology, const VertexFaces& faces,
+                                  const Positions& positions, std::uint32_t vertex,
+                                  const Eigen::Vector3d& point) {
   std::vector<std::uint32_t> near;
   for (const std::uint32_t f : faces.of(vertex)) {
     for (const std::uint32_t v : topology.face(f)) {
@@ -59,9 +59,9 @@ SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
   return best;
 }
 
-std::uint32_t descend(const Topology& topology, const VertexFaces& faces,
-                      const Positions& positions, std::uint32_t start,
-                      const Eigen::Vector3d& point) {
+std::uint32_t walk_to_nearest_vertex(const Topology& topology, const VertexFaces& faces,
+                                     const Positions& positions, std::uint32_t start,
+                                     const Eigen::Vector3d& point) {
   const auto square_to = [&](std::uint32_t vertex) {
     const Eigen::Vector3d from = row3(positions, vertex) - point;
     return from.squaredNorm();
@@ -81,9 +81,9 @@ std::uint32_t descend(const Topology& topology, const VertexFaces& faces,
   }
 }
 
-SurfacePoint nearest_from(const Topology& topology, const VertexFaces& faces,
-                          const Positions& positions, std::uint32_t start,
-                          const Eigen::Vector3d& point) {
+SurfacePoint nearest_point_from(const Topology& topology, const VertexFaces& faces,
+                                const Positions& positions, std::uint32_t start,
+                                const Eigen::Vector3d& point) {
   constexpr int kMaxSteps = 64;
   SurfacePoint best = bare_vertex(positions, start, point);
   std::uint32_t vertex = start, before = kNoIndex;

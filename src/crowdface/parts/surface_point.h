@@ -23,23 +23,23 @@ Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
                          const std::array<double, 3>& shares);
 
 /// Returns the point nearest to `point` on the polygons around a vertex and around its neighbours.
-SurfacePoint nearest_around(const Topology& topology, const VertexFaces& faces,
-                            const Positions& positions, std::uint32_t vertex,
-                            const Eigen::Vector3d& point);
+SurfacePoint nearest_point_around(const Topology& topology, const VertexFaces& faces,
+                                  const Positions& positions, std::uint32_t vertex,
+                                  const Eigen::Vector3d& point);
 
 /// Walks over the mesh from vertex `start` as long as a vertex of an adjacent polygon is nearer to
-/// the point. Returns the last vertex, which is a good start for nearest_from. This walk is cheaper
-/// than nearest_from.
-std::uint32_t descend(const Topology& topology, const VertexFaces& faces,
-                      const Positions& positions, std::uint32_t start,
-                      const Eigen::Vector3d& point);
+/// the point. Returns the last vertex, which is a good start for nearest_point_from. This walk is
+/// cheaper than nearest_point_from.
+std::uint32_t walk_to_nearest_vertex(const Topology& topology, const VertexFaces& faces,
+                                     const Positions& positions, std::uint32_t start,
+                                     const Eigen::Vector3d& point);
 
 /// Returns a point of the surface near the query point. Walks from `start` from triangle to
 /// triangle as long as the distance decreases. Allocates no memory. Suits query points near a known
 /// vertex.
-SurfacePoint nearest_from(const Topology& topology, const VertexFaces& faces,
-                          const Positions& positions, std::uint32_t start,
-                          const Eigen::Vector3d& point);
+SurfacePoint nearest_point_from(const Topology& topology, const VertexFaces& faces,
+                                const Positions& positions, std::uint32_t start,
+                                const Eigen::Vector3d& point);
 
 /// Returns the unit normal of the triangle that contains a surface point; zero if the triangle has
 /// no area.

@@ -16,7 +16,7 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape
   if (!shape.face) return proposals;
   const FaceLandmarks found = find_face_landmarks(shape.topology, shape.components, shape.parts,
                                                   head_shape(shape), *shape.face);
-  for (const auto& [name, place] : found.places) {
+  for (const auto& [name, place] : found.points) {
     const auto nearest = std::ranges::max_element(place.shares) - place.shares.begin();
     proposals[name] = place.corners[static_cast<std::size_t>(nearest)];
   }

@@ -105,7 +105,7 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
                 &PicturedFace(mesh_, inputs.faces.heads.front().positions).positions()),
       inputs_(inputs),
       shows_textures_(sheet.texture != SheetTexture::kNo),
-      max_texels_(shown_texels(sheet)),
+      max_texels_(max_rendered_texels(sheet)),
       attachment_surfaces_(max_texels_, shows_textures_) {}
 
 FacePictures CrowdRenders::render_files(const std::string& id, Index target,
@@ -142,7 +142,7 @@ std::string CrowdRenders::head_script(Index head, std::span<const Displacements>
 }
 
 std::optional<BlendedPicture> CrowdRenders::blend_body_texture(const Recipe& recipe) const {
-  if (!mesh_.has_body() || textures_->body() == nullptr) return std::nullopt;
+  if (!mesh_.has_body() || textures_->body_painter() == nullptr) return std::nullopt;
   return textures_->paint_body(recipe);
 }
 
@@ -159,7 +159,7 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
 }
 
 std::optional<FaceTextureSet> CrowdRenders::face_texture_set(Index target) const {
-  if (!shows_textures_ || !(inputs_.textures.blend() || any_is_shown(inputs_.maps)))
+  if (!shows_textures_ || !(inputs_.textures.blend() || are_any_rendered(inputs_.maps)))
     return std::nullopt;
   return FaceTextureSet(inputs_.textures, inputs_.maps, target, max_texels_);
 }
@@ -176,7 +176,7 @@ std::optional<FaceTextureSet> CrowdRenders::face_texture_set(const FaceTextures&
 std::optional<TextureSet> CrowdRenders::texture_set_of(Index head) const {
   if (!shows_textures_) return std::nullopt;
   std::optional<TextureSet> texture_set = texture_set_of_head(inputs_.textures, head, max_texels_);
-  if (!texture_set && any_is_shown(inputs_.maps)) {
+  if (!texture_set && are_any_rendered(inputs_.maps)) {
     texture_set.emplace().of_face.assign(
         static_cast<std::size_t>(inputs_.faces.topology.face_count()), TextureLayer::kNone);
   }

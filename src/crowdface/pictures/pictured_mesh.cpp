@@ -51,7 +51,7 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
     : config_(config), inputs_(inputs) {
   if (textures == nullptr || !config.neck.show_body) return;
   const HeadsOnBody& neck = *inputs.neck;
-  const BodyPainter* painter = textures->body();
+  const BodyPainter* painter = textures->body_painter();
   const Positions& positions = neck.body->file.positions;
   const Mesh whole{painter != nullptr ? painter->topology() : neck.body->file.topology, positions,
                    painter != nullptr ? painter->uvs() : TextureCoordinates(0, 2)};

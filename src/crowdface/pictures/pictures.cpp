@@ -94,7 +94,7 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
   parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
     const auto head = static_cast<Index>(h);
     write_file(directory_.gallery_head(inputs_.faces.heads[h].name),
-               renders_.head_script(head, shapes_.of_head(head)));
+               renders_.head_script(head, shapes_.shapes_of_head(head)));
   });
   write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
   write_scripts(crowd, likeness);

@@ -77,7 +77,7 @@ void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
       const Positions face = read_face(crowd.directory, shown_face.id, crowd.config.output.meshes,
                                        crowd.inputs.faces.topology.vertex_count);
       add_row(crowd.renders, shown, shown_face.id, face,
-              crowd.shapes.of_face(shown_face.recipe, face), cells);
+              crowd.shapes.shapes_of_face(shown_face.recipe, face), cells);
     }
     pages.add(concat("shapes_", zero_padded(page + 1, 3)), "shapes",
               contact_sheet(cells, {.columns = static_cast<int>(1 + shown.size()),

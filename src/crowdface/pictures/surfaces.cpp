@@ -117,7 +117,7 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
   // Faces with the shape of an eyeball are eyes even if their material's name does not say so.
   std::vector<bool> eyeball(static_cast<std::size_t>(inputs.components.count()), false);
   for (const Part& part : inputs.parts.parts) {
-    for (const std::uint32_t c : part.components) eyeball[c] = part.eyeball;
+    for (const std::uint32_t c : part.components) eyeball[c] = part.is_eyeball;
   }
   for (std::size_t f = 0; f < surfaces.kinds.size(); ++f) {
     const std::uint32_t first = inputs.faces.topology.face(static_cast<Index>(f))[0];
@@ -126,7 +126,8 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
       surfaces.kinds[f] = SurfaceKind::kEye;
     }
   }
-  if (inputs.textures.any() || any_is_shown(inputs.maps)) surfaces.uvs = inputs.faces.uvs;
+  if (inputs.textures.has_textures() || are_any_rendered(inputs.maps))
+    surfaces.uvs = inputs.faces.uvs;
   return surfaces;
 }
 

@@ -38,9 +38,9 @@ class AttachmentForms {
     std::vector<Placed> placed;
     for (const PlacedAttachment& one : attachments) {
       const AttachmentLook look = one.look();
-      const std::string name = one.face.empty() ? look.label() : one.face;
+      const std::string name = one.face_id.empty() ? look.label() : one.face_id;
       placed.push_back({&forms_.at(one.item), &one.positions, one.moves,
-                        PartLook{look.tint(), name, one.texture}});
+                        PartLook{look.tint(), name, one.texture_png}});
     }
     return placed;
   }

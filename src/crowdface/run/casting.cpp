@@ -170,7 +170,7 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
                    inputs.max_level, mm_per(config.faces.units));
   if (inputs.mirror != nullptr) {
     heads.image = sample_images(inputs.faces, inputs.regions, *inputs.mirror, prepared.samples,
-                                prepared.traced, heads);
+                                prepared.traced_samples, heads);
   }
   FaceSpace space =
       cached_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),

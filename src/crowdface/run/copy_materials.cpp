@@ -146,7 +146,7 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     if (named) targets.insert(face.recipe.target);
   }
   std::set<TextureKind> own;
-  for (const PictureName& picture : own_pictures(inputs)) own.insert(picture.kind);
+  for (const PictureName& picture : face_picture_names(inputs)) own.insert(picture.kind);
   MaterialCopies copies(directory, ledger, std::move(own));
   for (const Index target : targets) {
     const auto head = static_cast<std::size_t>(target);

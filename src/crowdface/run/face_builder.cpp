@@ -22,8 +22,8 @@ std::vector<std::vector<double>> masks_at(const SkinContacts& contacts,
   std::vector<std::vector<double>> masks;
   for (std::size_t p = 0; p < contacts.size(); ++p) {
     std::vector<double> mask(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
-    const ContactPlace& place = contacts.place(p);
-    for (const auto* profile : {&place.low, &place.high}) {
+    const GapSection& section = contacts.section(p);
+    for (const auto* profile : {&section.low, &section.high}) {
       const double share = 0.5 / static_cast<double>(profile->size());
       for (const EdgePoint& point : *profile) {
         for (std::size_t k = 0; k < mask.size(); ++k) {
@@ -62,7 +62,8 @@ void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) 
     }
   }
   turns_.reset();
-  if (inputs_.neck && inputs_.neck->any_turned()) turns_.emplace(inputs_, prepared_, regions);
+  if (inputs_.neck && inputs_.neck->has_differing_poses())
+    turns_.emplace(inputs_, prepared_, regions);
   if (config.smoothing.levels != Levels::kExact) {
     blender_.emplace(inputs_.faces, head_levels(config, prepared_), prepared_.patches.patches,
                      regions_);
@@ -121,8 +122,8 @@ std::optional<RigidMotion> FaceBuilder::motion_to_body(const Recipe& recipe) con
 std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
   std::set<std::uint32_t> vertices;
   for (std::size_t p = 0; keeps_contacts_ && p < contacts_->size(); ++p) {
-    const ContactPlace& place = contacts_->place(p);
-    for (const auto* profile : {&place.low, &place.high}) {
+    const GapSection& section = contacts_->section(p);
+    for (const auto* profile : {&section.low, &section.high}) {
       for (const EdgePoint& point : *profile) vertices.insert({point.a, point.b});
     }
   }
@@ -134,7 +135,8 @@ void FaceBuilder::correct_contacts(const Recipe& recipe, Positions& face) const 
 }
 
 const MirrorMap& FaceBuilder::mirror() const {
-  std::call_once(mirror_once_, [&] { mirror_ = mirror_for(config_, inputs_, "a recipe"); });
+  std::call_once(mirror_once_,
+                 [&] { mirror_ = required_mirror_map(config_, inputs_, "a recipe"); });
   return *mirror_;
 }
 
@@ -155,7 +157,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   if (inputs_.neck) {  // the bend at the neck is no defect: undo it
     Positions like = target;
     if (turn) move_rows(*turn, like);
-    inputs_.neck->seam.bend_like(recipe.mirrored ? mirrored(mirror(), like) : like, judged);
+    inputs_.neck->seam.bend_to_rim_of(recipe.mirrored ? mirrored(mirror(), like) : like, judged);
   }
   if (recipe.mirrored) judged = mirrored(mirror(), judged);
   if (turn) move_rows(inverse(*turn), judged);
@@ -200,11 +202,11 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
 void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {
-    const Eigen::Vector3d image = mirror().plane.image(contacts_->place(p).middle);
+    const Eigen::Vector3d image = mirror().plane.image(contacts_->section(p).middle);
     std::size_t other = p;
     double nearest = HUGE_VAL;
     for (std::size_t q = 0; q < own.size(); ++q) {
-      const double distance = (contacts_->place(q).middle - image).norm();
+      const double distance = (contacts_->section(q).middle - image).norm();
       if (distance >= nearest) continue;
       nearest = distance;
       other = q;

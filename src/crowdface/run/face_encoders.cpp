@@ -108,8 +108,8 @@ PlacedAttachment FaceEncoders::placed_body(const FinishedFace& face) const {
       &body, std::nullopt, body.file.positions,
       std::vector<Displacements>(inputs_.shapes.shapes.size(), {{}, Positions(0, 3)})};
   if (config_.neck.body_texture.empty()) return placed;
-  placed.face = face.face.id;
-  placed.texture = face.textures->back().front();
+  placed.face_id = face.face.id;
+  placed.texture_png = face.textures->back().front();
   return placed;
 }
 

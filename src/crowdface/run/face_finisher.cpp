@@ -47,7 +47,7 @@ void FaceFinisher::paint_body(FinishedFace& face, StageTimes& busy) const {
 void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   const Recipe& recipe = face.face.recipe;
   const std::optional<FaceTextureSet> texture_set = paint(recipe, *face.textures, busy);
-  if (textures.body() != nullptr) paint_body(face, busy);
+  if (textures.body_painter() != nullptr) paint_body(face, busy);
   face.colours = textures.vertex_colours(recipe);
   const bool with_shapes = (encoders != nullptr && encoders->holds_shapes()) ||
                            (renders != nullptr && renders->show_shapes());
@@ -59,7 +59,7 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   }
   if (with_shapes) {
     const StageTimer timer(busy.encode);
-    face.moves = shapes.of_face(recipe, single, &face.crossing);
+    face.moves = shapes.shapes_of_face(recipe, single, &face.crossing);
   }
   {
     const StageTimer timer(busy.blend);

@@ -57,10 +57,10 @@ std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
 std::uint64_t level_bytes(const Prepared& prepared) {
   std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
-    if (!levels.mapped) bytes += levels.fields.numbers.size_bytes();
+    if (!levels.mapped_file) bytes += levels.fields.numbers.size_bytes();
   }
   const PatchLists& patches = prepared.patches.patches.lists();
-  if (!prepared.patches.mapped) {
+  if (!prepared.patches.mapped_file) {
     bytes += patches.weights.size_bytes() + patches.numbers.size_bytes();
   }
   return bytes;
@@ -80,7 +80,7 @@ std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
         static_cast<std::uint64_t>(items.back()->file.topology.vertex_count) * kMeshBytesPerVertex;
   }
   if (!config.output.contact_sheet) return bytes;
-  return bytes + attachment_texture_bytes(items, shown_texels(*config.output.contact_sheet));
+  return bytes + attachment_texture_bytes(items, max_rendered_texels(*config.output.contact_sheet));
 }
 
 [[noreturn]] void refuse_memory(std::string_view least, std::uint64_t memory) {
@@ -188,12 +188,12 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   std::uint64_t of_thread = encoders_.encode_bytes() + attachments.placed_bytes();
   // Vertex colours: the face's own colours, and the colours for rendering.
   if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
-  if (textures_.any()) {
+  if (textures_.has_textures()) {
     standing += textures_.memory_bytes();
     of_thread += textures_.blend_bytes();
     if (config.output.contact_sheet) {
-      of_thread += FaceTextureSet::bytes(inputs.textures, inputs.maps,
-                                         shown_texels(*config.output.contact_sheet));
+      of_thread += FaceTextureSet::memory_bytes(inputs.textures, inputs.maps,
+                                                max_rendered_texels(*config.output.contact_sheet));
     }
   }
   if (skin_is_judged(config, inputs)) {

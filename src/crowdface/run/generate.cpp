@@ -291,7 +291,8 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   ledger.settle();
   gather_logs(directory);
   remove_notes_of_shards(directory);
-  write_file(directory.timings(), format_timings(stages, busy, built, planned.prepared.from_cache));
+  write_file(directory.timings(),
+             format_timings(stages, busy, built, planned.prepared.cached_head_count));
   ledger.require_files();
   return concat(
       crowd.size(), crowd.size() == 1 ? " face" : " faces", " in ", directory.root.string(),

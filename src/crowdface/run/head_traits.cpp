@@ -62,13 +62,13 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
       find_face_landmarks(inputs.faces.topology, inputs.components, parts, inputs.mean, axes);
   HeadLandmarks landmarks;
   for (const TraitLandmark& landmark : trait_landmarks()) {
-    const auto place = found.places.find(landmark.name);
-    const auto reason = found.missing.find(landmark.name);
-    landmarks.places.push_back(place != found.places.end() ? std::optional(place->second)
+    const auto place = found.points.find(landmark.name);
+    const auto reason = found.missing_reasons.find(landmark.name);
+    landmarks.places.push_back(place != found.points.end() ? std::optional(place->second)
                                                            : std::nullopt);
-    landmarks.missing.push_back(place != found.places.end()     ? ""
-                                : reason != found.missing.end() ? reason->second
-                                                                : "no face was found");
+    landmarks.missing.push_back(place != found.points.end()             ? ""
+                                : reason != found.missing_reasons.end() ? reason->second
+                                                                        : "no face was found");
   }
   if (!config.landmarks.empty()) take_from_file(config, inputs.mean, landmarks);
   return landmarks;

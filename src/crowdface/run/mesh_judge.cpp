@@ -50,7 +50,7 @@ PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) 
   }
   std::vector<std::uint32_t> components;
   for (const Part& part : inputs.parts.parts) {
-    if (part.eyeball) continue;
+    if (part.is_eyeball) continue;
     std::ranges::copy_if(part.components, std::back_inserter(components),
                          [&](std::uint32_t of) { return kinds.empty() || seen.contains(of); });
   }

@@ -46,8 +46,12 @@ std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> pl
   std::vector<PlacedAttachment> reduced;
   for (const PlacedAttachment& one : placed) {
     const DetailLevel& level = attachments.at(one.item);
-    reduced.push_back(
-        {one.item, one.colour, level.restrict_rows(one.positions), {}, one.face, one.texture});
+    reduced.push_back({one.item,
+                       one.colour,
+                       level.restrict_rows(one.positions),
+                       {},
+                       one.face_id,
+                       one.texture_png});
     for (const Displacements& moves : one.moves)
       reduced.back().moves.push_back(level.restrict_rows(moves));
   }

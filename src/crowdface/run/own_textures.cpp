@@ -62,7 +62,7 @@ std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
 std::string encode_picture(const BlendedPicture& picture, const PictureName& name,
                            TextureFormat format) {
   if (format == TextureFormat::kExr) return encode_exr_of(picture);
-  if (!picture.values16.empty()) return encode_words(picture, name.of_bytes);
+  if (!picture.values16.empty()) return encode_words(picture, name.has_only_bytes);
   return format == TextureFormat::kJpeg
              ? encode_jpeg(picture.width, picture.height, picture.srgb)
              : encode_png(picture.width, picture.height, 3, picture.srgb);
@@ -73,7 +73,7 @@ constexpr std::uint64_t kChannels = 3;  // at most
 /// Maximum size of an encoded image, in bytes per channel and texel.
 std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) {
   if (format == TextureFormat::kExr) return sizeof(float);
-  return picture.of_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);
+  return picture.has_only_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);
 }
 
 /// Maps each material name of a head to the index of its image in a layout.
@@ -96,7 +96,7 @@ std::vector<TextureFormat> formats_of(const Config& config, const PictureName& p
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =
       picture.kind == TextureKind::kDisplacement || picture.kind == TextureKind::kBump;
-  if (is_height && picture.of_floats) return {TextureFormat::kExr};
+  if (is_height && picture.holds_floats) return {TextureFormat::kExr};
   std::vector<TextureFormat> formats;
   for (TextureFormat format : config.textures.formats) {
     if (format == TextureFormat::kJpeg) format = TextureFormat::kPng;
@@ -113,7 +113,7 @@ std::string material_file_name(const std::string& id) {
 
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs) {
   std::vector<GlbPicture> result;
-  const std::vector<PictureName> pictures = own_pictures(inputs);
+  const std::vector<PictureName> pictures = face_picture_names(inputs);
   for (std::size_t p = 0; p < pictures.size(); ++p) {
     const TextureKind kind = pictures[p].kind;
     if (kind != TextureKind::kColour && kind != TextureKind::kNormal &&
@@ -132,7 +132,7 @@ std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs)
 std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
                                               const std::string& id) {
   std::vector<OwnTextureFile> files;
-  const std::vector<PictureName> pictures = own_pictures(inputs);
+  const std::vector<PictureName> pictures = face_picture_names(inputs);
   for (std::size_t p = 0; p < pictures.size(); ++p) {
     const std::vector<TextureFormat> formats = formats_of(config, pictures[p]);
     for (std::size_t f = 0; f < formats.size(); ++f) {
@@ -145,7 +145,7 @@ std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id) {
   std::vector<std::string> names;
-  const std::vector<PictureName> pictures = own_pictures(inputs);
+  const std::vector<PictureName> pictures = face_picture_names(inputs);
   for (const GlbPicture& held : glb_pictures(config, inputs)) {
     const PictureName& picture = pictures[held.picture];
     names.push_back("./" + file_name(id, picture, formats_of(config, picture).front()));
@@ -155,7 +155,7 @@ std::vector<std::string> own_texture_names(const Config& config, const Inputs& i
 
 OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
                          std::span<const FacePlan> crowd, const std::string& shared)
-    : config_(config), inputs_(inputs), pictures_(own_pictures(inputs)) {
+    : config_(config), inputs_(inputs), pictures_(face_picture_names(inputs)) {
   for (const FacePlan& face : crowd) {
     const Index target = face.recipe.target;
     if (of_target_.contains(target)) continue;

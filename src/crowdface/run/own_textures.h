@@ -28,7 +28,7 @@ std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs
 
 /// An image in a GLB file. GLB supports no EXR, and only colour, normal and roughness maps.
 struct GlbPicture {
-  std::size_t picture = 0;  ///< index into own_pictures
+  std::size_t picture = 0;  ///< index into face_picture_names
   TextureFormat format = TextureFormat::kPng;
 };
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
@@ -51,10 +51,11 @@ class OwnTextures {
   OwnTextures(const Config& config, const Inputs& inputs, std::span<const FacePlan> crowd,
               const std::string& shared = {});
 
-  /// #own_pictures by #formats: the bytes of each image in each of its formats.
+  /// #face_picture_names by #formats: the bytes of each image in each of its formats.
   using Encoded = std::vector<std::vector<std::string>>;
 
-  /// Encodes an image in each of its formats. Thread-safe. \param number  index into own_pictures
+  /// Encodes an image in each of its formats. Thread-safe. \param number  index into
+  /// face_picture_names
   std::vector<std::string> encode(std::size_t number, const BlendedPicture& picture) const;
   /// The images that a GLB file contains (see glb_pictures).
   std::vector<std::string_view> glb_images(const Encoded& encoded) const;
@@ -66,8 +67,8 @@ class OwnTextures {
   std::uint64_t encode_bytes() const;
 
  private:
-  /// The materials of a target head, and the image (index into own_pictures) of each by kind and
-  /// material name.
+  /// The materials of a target head, and the image (index into face_picture_names) of each by kind
+  /// and material name.
   struct Materials {
     OwnMaterials file;
     std::map<TextureKind, std::map<std::string, std::size_t>> pictures;

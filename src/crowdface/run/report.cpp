@@ -189,9 +189,9 @@ Json neck_to_json(const Job& job) {
   for (std::size_t h = 0; h < neck.heads.size(); ++h) {
     const HeadsOnBody::Head& head = neck.heads[h];
     heads.push_back({{"name", job.names.heads[h]},
-                     {"moved_mm", rounded(head.moved_mm)},
-                     {"turned_degrees", rounded(head.turned_degrees)},
-                     {"bent_mm", rounded(head.bent_mm)}});
+                     {"moved_mm", rounded(head.shift_mm)},
+                     {"turned_degrees", rounded(head.rotation_degrees)},
+                     {"bent_mm", rounded(head.max_bend_mm)}});
   }
   return {{"ring_vertices", neck.seam.rim.size()},
           {"bent_vertices", neck.seam.neck.vertices().size()},

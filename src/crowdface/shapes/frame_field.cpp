@@ -119,7 +119,7 @@ FrameField::Node FrameField::node_at(const Positions& neutral, std::span<const s
   node.motion_factor = whole * inverse;
   for (std::size_t i = 0; i < patch.size(); ++i) {
     const Eigen::Vector3d from = row3(neutral, patch[i]) - node.centre - mean;
-    node.samples.push_back({patch[i], weights[i] * apply3(inverse, from)});
+    node.samples.push_back({patch[i], weights[i] * multiply3(inverse, from)});
   }
   return node;
 }

@@ -22,7 +22,7 @@ GapPreserver::GapPreserver(const HeadSet& faces, const Adjacency& adjacency,
 
 bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const {
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
-    for (const auto* profile : {&contacts_.place(p).low, &contacts_.place(p).high}) {
+    for (const auto* profile : {&contacts_.section(p).low, &contacts_.section(p).high}) {
       for (const EdgePoint& point : *profile) {
         if (std::ranges::binary_search(vertices, point.a)) return true;
       }
@@ -34,7 +34,7 @@ bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const
 std::vector<std::uint32_t> GapPreserver::contact_vertices() const {
   std::vector<std::uint32_t> vertices;
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
-    vertices.push_back(contacts_.place(p).low.front().a);
+    vertices.push_back(contacts_.section(p).low.front().a);
   }
   return vertices;
 }

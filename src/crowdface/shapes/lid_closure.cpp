@@ -73,7 +73,7 @@ void mark_lid_sides(const TemplateEye& eye, const Positions& neutral,
 }
 
 BallMap::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
-  const BallMap::Gap found = ball->gap_at(motion.undo(point) - ball->centre());
+  const BallMap::Gap found = ball->gap_at(motion.apply_inverse(point) - ball->centre());
   return {motion.scale * found.gap, motion.apply_to_direction(found.normal) / motion.scale};
 }
 
@@ -157,7 +157,7 @@ void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency
         (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
     // Cut both lids across the opening, on the template in the shape. Keep the section if the shape
     // closes the lids enough.
-    ContactPlace cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
+    GapSection cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
     cut_profiles(adjacency, closed, eye.skin_vertices, side, kProfile * radius_, cut);
     if (cut.low.empty() || cut.high.empty()) continue;
     const double before = cut.gap(neutral), after = cut.gap(closed);
@@ -226,10 +226,10 @@ LidClosure::RimPoint LidClosure::rim_point(const std::vector<ProfilePoint>& poin
                                            const Positions& moves) {
   RimPoint rim{0, -std::numeric_limits<double>::max()};
   for (const ProfilePoint& point : points) {
-    Eigen::Vector3d at = (1 - point.edge.share) * row3(face, point.edge.a) +
-                         point.edge.share * row3(face, point.edge.b);
-    if (point.row_a != kNoIndex) at += (1 - point.edge.share) * row3(moves, point.row_a);
-    if (point.row_b != kNoIndex) at += point.edge.share * row3(moves, point.row_b);
+    Eigen::Vector3d at = (1 - point.edge.fraction) * row3(face, point.edge.a) +
+                         point.edge.fraction * row3(face, point.edge.b);
+    if (point.row_a != kNoIndex) at += (1 - point.edge.fraction) * row3(moves, point.row_a);
+    if (point.row_b != kNoIndex) at += point.edge.fraction * row3(moves, point.row_b);
     const double height = sign * at.dot(axes.up);
     if (height > rim.height) rim = {at.dot(axes.along), height};
   }

@@ -69,7 +69,7 @@ Socket PointCarrier::socket_of(const Eigen::Vector3d& point, const Positions& me
   };
   const double to_skin = nearest(point, mesh, skin);
   for (const Part& part : parts.parts) {
-    if (part.eyeball && is_in_eyeball(point, mesh, part)) return whole(part.surface);
+    if (part.is_eyeball && is_in_eyeball(point, mesh, part)) return whole(part.surface);
   }
   for (const Part& part : parts.parts) {
     if (part.part_class == PartClass::kRigid && nearest(point, mesh, part.vertices) < to_skin) {

@@ -90,7 +90,7 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
   for (const Part& part : parts.parts) {
     if (part.part_class != PartClass::kRigid) continue;
     add_part(part, parts, mean);
-    if (part.eyeball) add_eye(part, parts.shapes[part.ball], mean);
+    if (part.is_eyeball) add_eye(part, parts.shapes[part.ball_component], mean);
   }
   find_inner_vertices(parts);
   frame_field = FrameField(shape_set.neutral, skin, extent, moved_vertices);
@@ -111,10 +111,10 @@ void PreparedShapes::add_part(const Part& part, const PartList& parts, const Pos
   RigidPart bound{
       part.vertices, evenly_spaced_items(part.vertices, kMaxFitted), {}, Eigen::Vector3d::Zero()};
   bound.unit_weights.assign(bound.fitted_vertices.size(), 1.0);
-  if (part.eyeball) {
+  if (part.is_eyeball) {
     const RigidMotion motion =
         fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.unit_weights);
-    bound.centre = motion.apply(parts.shapes[part.ball].centre);
+    bound.centre = motion.apply(parts.shapes[part.ball_component].centre);
   } else {
     bound.centre = centre_of(shape_set.neutral, part.vertices);
   }
@@ -146,7 +146,7 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
 
 void PreparedShapes::find_inner_vertices(const PartList& parts) {
   for (const Part& part : parts.parts) {
-    if (part.eyeball) continue;
+    if (part.is_eyeball) continue;
     std::ranges::copy_if(part.vertices, std::back_inserter(inner_vertices), [&](std::uint32_t v) {
       return std::ranges::none_of(eyes, [&](const ActingEye& eye) {
         const BallMap& ball = eye.template_eye.ball;
@@ -250,7 +250,7 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
     const auto nearest = grid.nearest(point, reach);
     if (nearest.vertex == kNoIndex) continue;
     const SurfacePoint place =
-        nearest_around(faces.topology, vertex_faces, shape_set.neutral, nearest.vertex, point);
+        nearest_point_around(faces.topology, vertex_faces, shape_set.neutral, nearest.vertex, point);
     LidFollower follower{row, {}, place.shares};
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -339,7 +339,7 @@ SingleRows PreparedShapes::normalised(const FaceFrames& face_frames, const Prepa
   for (Index i = 0; i < moves.rows(); ++i) {
     const Eigen::Matrix3d& map =
         face_frames.maps[state.vertex_indices[static_cast<std::size_t>(i)]];
-    rows.row(i) = apply3(inverse3(map), row3(moves, i)).cast<float>().transpose();
+    rows.row(i) = multiply3(inverse3(map), row3(moves, i)).cast<float>().transpose();
   }
   return rows;
 }

@@ -39,7 +39,7 @@ Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
 
 /// Transforms a direction on the face to the template, by the inverse rotation and scale.
 Vector3d to_template(const RigidMotion& face_motion, const Vector3d& direction) {
-  return face_motion.undo(face_motion.moved_pivot + direction) - face_motion.pivot;
+  return face_motion.apply_inverse(face_motion.moved_pivot + direction) - face_motion.pivot;
 }
 
 /// Returns the displacement of a vertex by the rotation alone.
@@ -84,13 +84,13 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
   const Vector3d axis =
       to_template(placed.face_motion, {here[1], here[2], here[3]}) * placed.face_motion.scale;
   RigidTurn turn{{here[0], axis.x(), axis.y(), axis.z()},
-                 apply3(inverse, motion.apply(placed.centre) - placed.centre),
+                 multiply3(inverse, motion.apply(placed.centre) - placed.centre),
                  {}};
   normalize(turn.quaternion);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Vector3d left =
         row3(moves, rows[i]) - rotation_displacement(turn.quaternion, placed, vertices[i]);
-    turn.residuals.push_back(apply3(inverse, left) - turn.translation);
+    turn.residuals.push_back(multiply3(inverse, left) - turn.translation);
   }
   return turn;
 }
@@ -115,7 +115,7 @@ void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
                 Positions& moves) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     moves.row(rows[i]) = (rotation_displacement(turn.quaternion, placed, vertices[i]) +
-                          apply3(placed.map, turn.translation + turn.residuals[i]))
+                          multiply3(placed.map, turn.translation + turn.residuals[i]))
                              .transpose();
   }
 }

@@ -124,7 +124,7 @@ void CarriedShape::move_skin(const Positions& moves) {
   for (std::size_t i = 0; i < shape_.vertex_indices.size(); ++i) {
     const auto row = static_cast<Index>(i);
     result_.moves.row(row) =
-        apply3(face_frames_.maps[shape_.vertex_indices[i]], row3(moves, row)).transpose();
+        multiply3(face_frames_.maps[shape_.vertex_indices[i]], row3(moves, row)).transpose();
   }
 }
 

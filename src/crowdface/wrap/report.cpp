@@ -95,10 +95,10 @@ Surfaces surfaces_of(const WrapTemplate& shape) {
   std::vector<SurfaceKind> of_component(shape.parts.classes.size(), SurfaceKind::kSkin);
   for (const Part& part : shape.parts.parts) {
     for (const std::uint32_t c : part.components) {
-      of_component[c] = part.part_class == PartClass::kBound ? SurfaceKind::kHidden
-                        : part.eyeball && c == part.ball     ? SurfaceKind::kEye
-                        : part.eyeball                       ? SurfaceKind::kHidden
-                                                             : SurfaceKind::kTeeth;
+      of_component[c] = part.part_class == PartClass::kBound          ? SurfaceKind::kHidden
+                        : part.is_eyeball && c == part.ball_component ? SurfaceKind::kEye
+                        : part.is_eyeball                             ? SurfaceKind::kHidden
+                                                                      : SurfaceKind::kTeeth;
     }
   }
   Surfaces surfaces;
@@ -169,7 +169,7 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult
         "no face was recognised on the ",
         shape.face ? "scan"
                    : concat("template (",
-                            reason_of_no_face(shape.topology, head_shape(shape), shape.axes), ')'),
+                            why_no_face_found(shape.topology, head_shape(shape), shape.axes), ')'),
         ", so the place of the face is not verified: check the picture, or pick four landmarks or "
         "more"));
   }

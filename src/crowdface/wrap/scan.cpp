@@ -61,7 +61,8 @@ Scan of_modelled_head(const Scan& scan, const std::function<bool(PartClass)>& is
   const Adjacency adjacency = build_adjacency(topology);
   const Components components = find_components(adjacency);
   const PartList parts = find_parts(topology, adjacency, components, scan.positions);
-  if (std::ranges::none_of(parts.parts, [](const Part& part) { return part.eyeball; })) return scan;
+  if (std::ranges::none_of(parts.parts, [](const Part& part) { return part.is_eyeball; }))
+    return scan;
   Scan kept = scan;
   keep_triangles(kept, [&](std::size_t i) {
     return is_wanted(parts.classes[components.of_vertex[scan.triangles[i][0]]]);

@@ -49,8 +49,8 @@ std::optional<double> lid_opening(const Lids& lids, const ComponentShape& ball,
 void look_at_eyes(const WrapTemplate& shape, const WrapResult& result,
                   std::vector<std::string>& faults) {
   for (const Part& part : shape.parts.parts) {
-    if (!part.eyeball) continue;
-    const ComponentShape& ball = shape.parts.shapes[part.ball];
+    if (!part.is_eyeball) continue;
+    const ComponentShape& ball = shape.parts.shapes[part.ball_component];
     const Lids lids = find_lids(shape.positions, PointGrid(shape.positions, part.vertices),
                                 ball.centre, ball.radius, shape.axes, shape.skin.vertices);
     const auto before = lid_opening(lids, ball, shape.axes, shape.positions, shape.positions);

@@ -65,7 +65,7 @@ HeadShape head_shape(const WrapTemplate& shape) {
     head.skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : shape.parts.parts) {
-    if (part.eyeball) head.eyeballs.push_back(shape.parts.shapes[part.ball].centre);
+    if (part.is_eyeball) head.eyeballs.push_back(shape.parts.shapes[part.ball_component].centre);
   }
   return head;
 }

@@ -38,7 +38,7 @@ struct Complexion {
   double chin_beard = 0;  ///< on the chin, on the same scale as `beard`
   ScreenColour iris;
   double receding = 0;  ///< 0 (full hairline) … 1 (bald on top)
-  double made_up = 0;   ///< 0 … 1: make-up on lids, lashes and cheeks
+  double makeup = 0;    ///< 0 … 1: make-up on lids, lashes and cheeks
   double lipstick = 0;  ///< 0 … 1; 0 for most people
 };
 

@@ -46,7 +46,7 @@ Vector3d ear_point(const Vector2d& place, double height) {
   const double up = place.y() * (place.y() > 0 ? 2.75 : 2.85);
   const double back = place.x() * (place.x() > 0 ? 1.6 : 1.1) * (1 + 0.22 * place.y());
   Vector3d guide(0, ear_centre().y() + up, ear_centre().z() - back - 0.2 * up);
-  const Vector3d skin = onto_skin({0, guide.y(), guide.z()}, {6.5, guide.y(), guide.z()});
+  const Vector3d skin = project_onto_skin({0, guide.y(), guide.z()}, {6.5, guide.y(), guide.z()});
   return skin + height * Vector3d(0.86, 0.0, -0.5);
 }
 
@@ -71,7 +71,7 @@ double height_at(const Vector2d& round, double b) {
 }
 
 Vector3d on_ring(double around, double b) {
-  const Vector2d round = on_circle(around);
+  const Vector2d round = point_on_circle(around);
   const double front = smooth_step(0.2, -0.8, round.x());
   const double from = std::max(b, kAttached);
   // Remove the overhang of the rim at the front, where the ear meets the cheek.
@@ -79,10 +79,10 @@ Vector3d on_ring(double around, double b) {
   Vector3d ear = ear_point(reach * round, height_at(round, from));
   if (b >= kAttached) return ear;
   const GuideRay ray = opening_ray(opening_of(Sheet::kEar), around);
-  const Vector3d edge = onto_skin(ray.origin, ray.guide);
+  const Vector3d edge = project_onto_skin(ray.origin, ray.guide);
   const double part = b / kAttached;
   const Vector3d between = edge + part * (ear - edge);
-  return onto_skin({ray.origin.x() * (1 - part), between.y(), between.z()}, between);
+  return project_onto_skin({ray.origin.x() * (1 - part), between.y(), between.z()}, between);
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ struct Web {
     }
     // Move the guide points onto the skin, so that points interpolated between them stay near the
     // skin.
-    ray.guide = onto_skin(ray.origin, ray.guide);
+    ray.guide = project_onto_skin(ray.origin, ray.guide);
     rays[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)] = ray;
   }
 

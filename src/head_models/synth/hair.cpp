@@ -85,7 +85,7 @@ double Hair::strand(const Vector3d& p) const {
 
 /// Returns the amount, 0 … 1, of long hair that hangs over the neck at a point; such hair starts
 /// behind the ears.
-double Hair::falling(const Vector3d& p) const {
+double Hair::hanging_fraction(const Vector3d& p) const {
   if (style_.nape <= 0) return 0;
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
 }
@@ -99,7 +99,7 @@ double height_above_hairline(const Vector3d& p, bool low_edge, double receding) 
       {0.0, 7.4}, {0.25, 7.0}, {0.42, 5.8}, {0.55, 3.6}, {0.68, 1.0}, {0.80, 0.2}, {0.92, 2.4}, {1.35, -7.5}}};
   // clang-format on
   const double around = around_head(p);
-  return p.y() - (low_edge ? between_knots(low, around) : between_knots(high, around));
+  return p.y() - (low_edge ? interpolate_knots(low, around) : interpolate_knots(high, around));
 }
 
 /// Returns the density of the hair that remains after balding, 0 … 1; balding starts at the crown.
@@ -109,14 +109,14 @@ double Hair::density_after_balding(const Vector3d& p) const {
 }
 
 bool Hair::reaches(const Vector3d& p) const {
-  return above_edge(p) > -1 || falling(p) > 0;
+  return above_edge(p) > -1 || hanging_fraction(p) > 0;
 }
 
 double Hair::cover(const Vector3d& p, double strand) const {
   const double frayed =
       above_edge(p) + 0.25 * edge_.at(p) + (style_.low_edge ? 0.15 : 0.25) * strand;
   const double edge = smooth_step(-0.2, style_.low_edge ? 0.6 : 1.0, frayed);
-  return std::max(edge * density_after_balding(p), smooth_step(0.02, 0.2, falling(p)));
+  return std::max(edge * density_after_balding(p), smooth_step(0.02, 0.2, hanging_fraction(p)));
 }
 
 double Hair::thickness(const Vector3d& p) const {
@@ -132,7 +132,7 @@ double Hair::thickness(const Vector3d& p) const {
   thick += style_.bun * smooth_step(3.2, 1.2, knot);
   // Hanging locks: noise stretched along y.
   const double wave = 1 + 0.12 * locks_.at({p.x(), 0.1 * p.y(), p.z()});
-  return thick + style_.nape * falling(p) * off_ears(p, 1.6) * wave;
+  return thick + style_.nape * hanging_fraction(p) * off_ears(p, 1.6) * wave;
 }
 
 }  // namespace crowdface::synth

@@ -50,7 +50,7 @@ class Hair {
     return height_above_hairline(p, style_.low_edge, receding_);
   }
   double density_after_balding(const Eigen::Vector3d& p) const;
-  double falling(const Eigen::Vector3d& p) const;
+  double hanging_fraction(const Eigen::Vector3d& p) const;
 
   HairStyle style_;
   double receding_;

@@ -91,7 +91,7 @@ class Grower {
       // Pieces near the root are short, because they follow the curvature of the head.
       const double t = static_cast<double>(i + 1) / pieces_, grown = along(t) * length;
       const double step = grown - along(static_cast<double>(i) / pieces_) * length;
-      const double held = cut_.tied ? smooth_step(-3, -6, p.z()) : 1;
+      const double held = cut_.is_tied ? smooth_step(-3, -6, p.z()) : 1;
       const double falls = held * smooth_step(0.5, 5, grown);
       const double combed = (0.95 - 0.7 * falls) * (1 - falls * smooth_step(1, -3, p.y()));
       direction += combed * combing_direction(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
@@ -117,7 +117,7 @@ class Grower {
   Vector3d moved_off_head(Vector3d p, double off) const {
     for (int k = 0; k < 2; ++k) {
       const double missing = off + 0.05 - head_distance(p);
-      const double hangs = cut_.tied ? smooth_step(-4, -9, p.y()) : smooth_step(2.5, -1, p.y());
+      const double hangs = cut_.is_tied ? smooth_step(-4, -9, p.y()) : smooth_step(2.5, -1, p.y());
       const double held = missing > 0 ? 1 : 1 - hangs * (1 - 0.5 * smooth_step(-7, 1, p.y()));
       p += held * std::max(missing, -2.0) * head_distance_gradient(p);
     }

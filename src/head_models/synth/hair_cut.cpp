@@ -18,7 +18,7 @@ std::span<const HairCut> hair_cuts() {
       HairCut{.name = "fringe", .female = true, .back = 0.3, .length = 24, .sides = 14, .hem = -12, .fringe = 3.4,
               .volume = 0.9, .wave = 0.05, .young = true},
       HairCut{.name = "tied_back", .female = true, .sideways = 0.3, .back = 1, .length = 15, .sides = 11, .hem = -3.5,
-              .volume = 0.7, .wave = 0.04, .tied = true},
+              .volume = 0.7, .wave = 0.04, .is_tied = true},
       HairCut{.name = "pixie", .female = true, .parting = 2.4, .back = 0.25, .length = 9, .sides = 4.5, .hem = -1,
               .wave = 0.08},
       HairCut{.name = "waves", .female = true, .curly = true, .parting = 1.5, .back = 0.3, .length = 26, .sides = 16,
@@ -46,9 +46,9 @@ std::span<const HairCut> hair_cuts() {
               .hem = 0.5, .volume = 0.5},
       HairCut{.name = "receding_curls", .curly = true, .receding = 0.45, .length = 1.1, .sides = 0, .volume = 1.1,
               .layers = 3},
-      HairCut{.name = "ring", .crown_bald = true, .sideways = 0.4, .back = 0.8, .length = 4, .sides = 4, .hem = -3,
+      HairCut{.name = "ring", .has_bald_crown = true, .sideways = 0.4, .back = 0.8, .length = 4, .sides = 4, .hem = -3,
               .volume = 1.6, .wave = 0.2},
-      HairCut{.name = "cropped_ring", .crown_bald = true, .sideways = 0.4, .back = 0.8, .length = 1.2, .sides = 1.2,
+      HairCut{.name = "cropped_ring", .has_bald_crown = true, .sideways = 0.4, .back = 0.8, .length = 1.2, .sides = 1.2,
               .hem = -2, .volume = 0.4},
   };
   // clang-format on

@@ -65,7 +65,7 @@ Vector3d head_distance_gradient(const Vector3d& p) {
 double distance_inside_hair(const HairCut& cut, const Vector3d& p) {
   const double above = height_above_hairline(p, cut.female, cut.receding),
                height = p.y() + 0.25 * std::max(0.0, p.z());
-  if (cut.crown_bald) return std::min(above, 6.2 - height);
+  if (cut.has_bald_crown) return std::min(above, 6.2 - height);
   return cut.sides > 0 ? above : std::min(above, height - 4.3);
 }
 

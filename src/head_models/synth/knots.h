@@ -10,7 +10,7 @@ namespace crowdface::synth {
 
 /// Interpolates y linearly at x between knots (x ascending); constant beyond the ends.
 template <std::size_t N>
-double between_knots(const std::array<Eigen::Vector2d, N>& knots, double x) {
+double interpolate_knots(const std::array<Eigen::Vector2d, N>& knots, double x) {
   if (x <= knots[0].x()) return knots[0].y();
   for (std::size_t i = 1; i < N; ++i) {
     if (x > knots[i].x()) continue;

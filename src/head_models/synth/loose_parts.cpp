@@ -21,7 +21,7 @@ constexpr double kLidGap = 0.025;
 constexpr double kArcWidth = 2.1, kArcDepth = 1.9;
 
 /// Maps a point (i, j) in [−1, 1]² on a side of a cube to the unit sphere.
-Vector3d on_ball(int side, double i, double j) {
+Vector3d point_on_ball(int side, double i, double j) {
   // This distortion makes quads in the middle and at the corners of a side similar in size.
   const auto even = [](double x) { return x * (1.25 - 0.25 * x * x); };
   const double a = even(i), b = even(j);
@@ -109,7 +109,7 @@ void LooseParts::add_eyeball(double side, int n) {
     auto& slot = known[static_cast<std::size_t>((cell[0] * (n + 1) + cell[1]) * (n + 1) + cell[2])];
     if (slot == kNoIndex) {
       slot = static_cast<std::uint32_t>(points_.size());
-      const Vector3d p = on_ball(face, a, b);
+      const Vector3d p = point_on_ball(face, a, b);
       points_.push_back(p);
       // The texture shows the front hemisphere as a disc and the back as a ring around the disc.
       const double flat = std::sqrt(p.x() * p.x() + p.y() * p.y());

@@ -29,7 +29,7 @@ class LooseParts {
   Index first_face(LoosePiece piece) const { return first_faces_[static_cast<std::size_t>(piece)]; }
 
   /// Returns whether a vertex belongs to an eyeball.
-  bool in_eyeball(Index vertex) const { return vertex < first_vertex(LoosePiece::kUpperTeeth); }
+  bool is_on_eyeball(Index vertex) const { return vertex < first_vertex(LoosePiece::kUpperTeeth); }
   /// Returns the position of an eyeball's vertex on the unit sphere, whose pupil is at +z.
   const Eigen::Vector3d& point_on_eyeball(Index vertex) const {
     return points_[static_cast<std::size_t>(vertex)];

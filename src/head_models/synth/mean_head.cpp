@@ -91,12 +91,12 @@ Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, doub
 }
 
 SkinPoint on_skin(const GuideRay& ray) {
-  const Vector3d position = onto_skin(ray.origin, ray.guide);
+  const Vector3d position = project_onto_skin(ray.origin, ray.guide);
   return {position, skin_normal(position), 1};
 }
 
 SkinPoint ring_skin(const Address& address) {
-  const Vector2d circle = on_circle(address.a);
+  const Vector2d circle = point_on_circle(address.a);
   const GuideRay inner = edge_of(address.sheet, circle);
   if (address.b >= 1) {
     SkinPoint edge = on_skin(inner);
@@ -104,7 +104,7 @@ SkinPoint ring_skin(const Address& address) {
     return {into_opening(address.sheet, edge.position, circle, address.b), edge.normal, 0};
   }
   const GuideRay outer = opening_ray(opening_of(address.sheet), address.a);
-  const Vector3d inner_guide = onto_skin(inner.origin, inner.guide);
+  const Vector3d inner_guide = project_onto_skin(inner.origin, inner.guide);
   return on_skin({outer.origin + address.b * (inner.origin - outer.origin),
                   outer.guide + address.b * (inner_guide - outer.guide)});
 }
@@ -145,7 +145,7 @@ SkinPoint mean_skin(const Address& address) {
 
 SkinPoint mean_skin_with_sockets(const Address& address) {
   if (address.sheet != Sheet::kEye || address.b <= 1) return mean_skin(address);
-  const Vector2d circle = on_circle(address.a);
+  const Vector2d circle = point_on_circle(address.a);
   const SkinPoint edge = on_skin(eye_edge(circle));
   return on_its_side({into_socket(edge.position, circle, address.b), edge.normal, 0}, address);
 }

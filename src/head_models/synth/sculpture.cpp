@@ -127,7 +127,7 @@ Vector3d skin_normal(const Vector3d& point) {
   return length > 0 ? Vector3d(gradient / length) : Vector3d(0, 0, 1);
 }
 
-Vector3d onto_skin(const Vector3d& origin, const Vector3d& guide) {
+Vector3d project_onto_skin(const Vector3d& origin, const Vector3d& guide) {
   const Vector3d direction = (guide - origin).normalized();
   const auto at = [&](double t) { return skin_distance(origin + t * direction); };
   // Step from the guide point along the line to the nearest change of sign of the distance.

@@ -27,7 +27,7 @@ Eigen::Vector3d skin_normal(const Eigen::Vector3d& point);
 
 /// Intersects the line from `origin` through `guide` with the skin. Returns the intersection
 /// nearest to `guide`.
-Eigen::Vector3d onto_skin(const Eigen::Vector3d& origin, const Eigen::Vector3d& guide);
+Eigen::Vector3d project_onto_skin(const Eigen::Vector3d& origin, const Eigen::Vector3d& guide);
 
 /// Centre of the eyeball at x > 0, cm. The eyeball is larger than a real eyeball, because only its
 /// front is visible.

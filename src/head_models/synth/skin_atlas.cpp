@@ -18,20 +18,20 @@ using Eigen::Vector2d;
 /// Number of vertices of the layout, fine enough that edges are not visible in a texture.
 constexpr Index kVertices = 60'000;
 
-SkinPlace place_at(const Address& address) {
-  SkinPlace place;
+AtlasTexel place_at(const Address& address) {
+  AtlasTexel place;
   place.skin = mean_skin_with_sockets(address);
-  place.covered = true;
+  place.is_covered = true;
   if (address.sheet == Sheet::kEye) place.eye = address.b;
   if (address.sheet == Sheet::kMouth) place.mouth = address.b;
   if (address.sheet == Sheet::kNostril) place.nostril = address.b;
   return place;
 }
 
-SkinPlace mix_places(const std::array<const SkinPlace*, 3>& corners,
-                     const std::array<double, 3>& weights) {
-  SkinPlace place;
-  place.covered = true;
+AtlasTexel mix_places(const std::array<const AtlasTexel*, 3>& corners,
+                      const std::array<double, 3>& weights) {
+  AtlasTexel place;
+  place.is_covered = true;
   place.skin = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0};
   for (std::size_t c = 0; c < 3; ++c) {
     place.skin.position += weights[c] * corners[c]->skin.position;
@@ -41,7 +41,7 @@ SkinPlace mix_places(const std::array<const SkinPlace*, 3>& corners,
     place.mouth += weights[c] * corners[c]->mouth;
     place.nostril += weights[c] * corners[c]->nostril;
     place.ball += weights[c] * corners[c]->ball;
-    place.on_ball += weights[c] * corners[c]->on_ball;
+    place.point_on_ball += weights[c] * corners[c]->point_on_ball;
   }
   place.skin.normal.normalize();
   return place;
@@ -49,8 +49,8 @@ SkinPlace mix_places(const std::array<const SkinPlace*, 3>& corners,
 
 /// Rasterises a triangle of the texture: fills the texels whose centres lie inside.
 /// \param at  corners in texels.
-void draw(const std::array<Vector2d, 3>& at, const std::array<const SkinPlace*, 3>& corners,
-          int size, std::vector<SkinPlace>& texels) {
+void draw(const std::array<Vector2d, 3>& at, const std::array<const AtlasTexel*, 3>& corners,
+          int size, std::vector<AtlasTexel>& texels) {
   const auto cross = [](const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
   };
@@ -72,11 +72,11 @@ void draw(const std::array<Vector2d, 3>& at, const std::array<const SkinPlace*, 
 }
 
 /// Fills uncovered texels from their neighbours by a breadth-first search from the covered texels.
-void spread(int size, std::vector<SkinPlace>& texels) {
+void spread(int size, std::vector<AtlasTexel>& texels) {
   std::vector<std::size_t> reached;
   std::vector<bool> taken(texels.size());
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    taken[i] = texels[i].covered;
+    taken[i] = texels[i].is_covered;
     if (!taken[i]) continue;
     texels[i].nearest = i;
     reached.push_back(i);
@@ -88,7 +88,7 @@ void spread(int size, std::vector<SkinPlace>& texels) {
       if (taken[other]) return;
       taken[other] = true;
       texels[other] = texels[i];
-      texels[other].covered = false;
+      texels[other].is_covered = false;
       reached.push_back(other);
     };
     if (x > 0) take(i - 1);
@@ -100,24 +100,24 @@ void spread(int size, std::vector<SkinPlace>& texels) {
 
 }  // namespace
 
-std::vector<SkinPlace> skin_atlas(int size) {
+std::vector<AtlasTexel> skin_atlas(int size) {
   Layout layout = make_layout(kVertices);
   const LooseParts loose(0.5 * std::sqrt(5000.0 / kVertices));
-  std::vector<SkinPlace> places(layout.addresses.size());
+  std::vector<AtlasTexel> places(layout.addresses.size());
   parallel_for_each(places.size(), 1024,
                     [&](std::size_t i) { places[i] = place_at(layout.addresses[i]); });
   // Append the eyeballs; only their fronts are shown.
   loose.append_to(layout.topology, layout.uvs);
   for (Index v = 0; v < loose.vertex_count(); ++v) {
-    SkinPlace place;
+    AtlasTexel place;
     place.skin = {eye_centre(), Eigen::Vector3d::UnitZ(), 0};
-    place.covered = loose.in_eyeball(v) && loose.point_on_eyeball(v).z() > -0.1;
-    place.ball = place.covered ? 1 : 0;
-    if (place.covered) place.on_ball = loose.point_on_eyeball(v);
+    place.is_covered = loose.is_on_eyeball(v) && loose.point_on_eyeball(v).z() > -0.1;
+    place.ball = place.is_covered ? 1 : 0;
+    if (place.is_covered) place.point_on_ball = loose.point_on_eyeball(v);
     places.push_back(place);
   }
   // Rasterise all faces into the texture, then fill the texels outside the charts.
-  std::vector<SkinPlace> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  std::vector<AtlasTexel> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   const Topology& topology = layout.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t first = topology.face_offsets[static_cast<std::size_t>(f)];
@@ -132,7 +132,7 @@ std::vector<SkinPlace> skin_atlas(int size) {
     // Skip teeth, which have no texture, and the backs of eyeballs, which would overlap the fronts
     // in the texture.
     bool shown = true;
-    for (std::uint32_t c = 0; c < corners; ++c) shown = shown && place(first + c)->covered;
+    for (std::uint32_t c = 0; c < corners; ++c) shown = shown && place(first + c)->is_covered;
     if (!shown) continue;
     for (std::uint32_t c = 1; c + 1 < corners; ++c) {
       draw({at(first), at(first + c), at(first + c + 1)},

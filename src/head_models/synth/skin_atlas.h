@@ -11,22 +11,21 @@
 namespace crowdface::synth {
 
 /// The point of the average head that a texel shows.
-struct SkinPlace {
+struct AtlasTexel {
   SkinPoint skin;    ///< on the average head
   double eye = 0;    ///< Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2
   double mouth = 0;  ///< Address::b around the mouth
   double nostril = 0;  ///< Address::b around a nostril
   double ball = 0;     ///< 1 on an eyeball
-  Eigen::Vector3d on_ball =
+  Eigen::Vector3d point_on_ball =
       Eigen::Vector3d::Zero();  ///< on an eyeball: point on the unit sphere with its pupil at +z
-  bool covered = false;         ///< whether the texel shows a surface
-  std::size_t nearest = 0;      ///< index of the covered texel from which this SkinPlace is copied
+  bool is_covered = false;      ///< whether the texel shows a surface
+  std::size_t nearest = 0;      ///< index of the covered texel from which this texel is copied
 };
 
-/// Returns the SkinPlace of each of size × size texels, row by row, first row at v = 1. Texels that
-/// show no surface have the SkinPlace of a near covered texel, so that colours continue beyond the
-/// edges of the texture charts.
-std::vector<SkinPlace> skin_atlas(int size);
+/// Returns size × size texels, row by row, first row at v = 1. A texel that shows no surface is a
+/// copy of a nearby covered texel, so that colours continue beyond the edges of the texture charts.
+std::vector<AtlasTexel> skin_atlas(int size);
 
 /// Calls `body(i)` for all texels i of a size × size texture in parallel. Each parallel task has
 /// one square of the texture, because SmoothNoise is fast for points that are close together.

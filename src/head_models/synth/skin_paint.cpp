@@ -88,7 +88,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
                      0.7 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
-  const double blood = std::min(1.0, complexion_.ruddy + 0.2 * complexion_.made_up);
+  const double blood = std::min(1.0, complexion_.ruddy + 0.2 * complexion_.makeup);
   tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
   // Darken lines and hollows, which are less tanned and shaded.
   const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
@@ -110,7 +110,7 @@ void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
   }
 }
 
-void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
+void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
   const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
   if (amount <= 0) return;
@@ -124,7 +124,7 @@ void SkinPaint::paint_lips(const SkinPlace& place, ScreenColour& colour) const {
   cover(colour, lips, amount);
 }
 
-void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const {
+void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
   const double tired = 0.45 + 0.25 * std::max(0.0, person_.scaled_age());
   tint(colour, {0.87, 0.82, 0.86}, tired * patch(p, {2.9, -1.35}, {2.1, 0.95}));
@@ -134,21 +134,21 @@ void SkinPaint::paint_around_eyes(const SkinPlace& place, ScreenColour& colour) 
   const double beside = std::min(1.0, std::abs(std::abs(p.x()) - 3.2) / 2.3);
   const double crease = smooth_step(0.16, 0.02, std::abs(p.y() - 0.42 - 0.66 * biweight(beside)));
   tint(colour, {0.74, 0.64, 0.62}, 0.75 * crease * smooth_step(0, 0.35, lids));
-  tint(colour, {0.76, 0.68, 0.70}, 0.7 * complexion_.made_up * lids);
+  tint(colour, {0.76, 0.68, 0.70}, 0.7 * complexion_.makeup * lids);
   if (place.eye <= 0) return;
   // Lashes are painted as a line along the edge of the lid; the inner edge of the lid is red.
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
   const double lashes =
       smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye) * smooth_step(1.12, 1.03, place.eye);
   const ScreenColour hair = has_own_hair() ? complexion_.hair : from_bytes(70, 54, 44);
-  const ScreenColour dark = (0.45 - 0.25 * complexion_.made_up) * hair + 0.02;
+  const ScreenColour dark = (0.45 - 0.25 * complexion_.makeup) * hair + 0.02;
   cover(colour, dark,
-        lashes * (upper ? 0.75 + 0.25 * complexion_.made_up : 0.3 + 0.4 * complexion_.made_up));
+        lashes * (upper ? 0.75 + 0.25 * complexion_.makeup : 0.3 + 0.4 * complexion_.makeup));
   cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * complexion_.tone),
         0.8 * smooth_step(1.05, 1.15, place.eye));
 }
 
-void SkinPaint::paint_openings(const SkinPlace& place, ScreenColour& colour) const {
+void SkinPaint::paint_openings(const AtlasTexel& place, ScreenColour& colour) const {
   cover(colour, ScreenColour(0.40, 0.17, 0.16), smooth_step(1.02, 1.5, place.mouth));
   cover(colour, ScreenColour(0.22, 0.09, 0.07), smooth_step(0.98, 1.35, place.nostril));
 }
@@ -176,7 +176,7 @@ double SkinPaint::beard_cover(const Vector& p, double strand) const {
   // Upper edge of the beard: height y over |x|, from the moustache along the cheek to the sideburn.
   static const std::array<Vector2d, 5> edge = {
       {{0, -5.0}, {1.6, -5.15}, {3.1, -6.6}, {5.2, -5.0}, {6.6, -1.2}}};
-  const double over = p.y() - between_knots(edge, x);
+  const double over = p.y() - interpolate_knots(edge, x);
   if (over > 1.5 || p.y() < -15) return 0;
   const double wander = 0.35 * hairline_.at(p);
   const double lip = smooth_step(3.0, 2.4, x);
@@ -252,8 +252,8 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   return colour * (1 - 0.45 * smooth_step(0.12, 0.36, ball.y()));
 }
 
-ScreenColour SkinPaint::at(const SkinPlace& place) const {
-  if (place.ball > 0.5) return eyeball_colour(place.on_ball.normalized()).max(0.0).min(1.0);
+ScreenColour SkinPaint::at(const AtlasTexel& place) const {
+  if (place.ball > 0.5) return eyeball_colour(place.point_on_ball.normalized()).max(0.0).min(1.0);
   const Vector& p = place.skin.position;
   ScreenColour colour = bare_skin_colour(p);
   paint_spots(p, colour);
@@ -272,7 +272,7 @@ ScreenColour SkinPaint::at(const SkinPlace& place) const {
   return colour.max(0.0).min(1.0);
 }
 
-double SkinPaint::roughness_at(const SkinPlace& place) const {
+double SkinPaint::roughness_at(const AtlasTexel& place) const {
   const Vector& p = place.skin.position;
   double hair = has_own_hair() ? brow_cover(p) : 0;
   if (has_own_hair() && complexion_.beard > 0 && p.z() > -0.5 && p.y() < 0) {

@@ -21,9 +21,9 @@ class SkinPaint {
             const Complexion& complexion);
 
   /// Returns the skin colour at a point of the head, sRGB.
-  ScreenColour at(const SkinPlace& place) const;
+  ScreenColour at(const AtlasTexel& place) const;
   /// Returns the roughness at a point of the head, 0 … 1.
-  double roughness_at(const SkinPlace& place) const;
+  double roughness_at(const AtlasTexel& place) const;
 
   using Vector = Eigen::Vector3d;
   /// Returns the fraction of the skin that the brows hide at a point of the average head.
@@ -35,9 +35,9 @@ class SkinPaint {
   ScreenColour eyeball_colour(const Vector& ball) const;
   ScreenColour bare_skin_colour(const Vector& p) const;
   void paint_spots(const Vector& p, ScreenColour& colour) const;
-  void paint_lips(const SkinPlace& place, ScreenColour& colour) const;
-  void paint_around_eyes(const SkinPlace& place, ScreenColour& colour) const;
-  void paint_openings(const SkinPlace& place, ScreenColour& colour) const;
+  void paint_lips(const AtlasTexel& place, ScreenColour& colour) const;
+  void paint_around_eyes(const AtlasTexel& place, ScreenColour& colour) const;
+  void paint_openings(const AtlasTexel& place, ScreenColour& colour) const;
   void paint_beard(const Vector& p, ScreenColour& colour) const;
   bool has_own_hair() const { return scalp_hair_ == 1; }
   double beard_cover(const Vector& p, double strand) const;

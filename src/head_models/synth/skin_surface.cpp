@@ -12,15 +12,15 @@
 namespace crowdface::synth {
 namespace {
 
-bool is_skin(const SkinPlace& place) {
-  return place.covered && place.ball <= 0.5;
+bool is_skin(const AtlasTexel& place) {
+  return place.is_covered && place.ball <= 0.5;
 }
 
 /// Computes the slopes of a height field that is stored in texels; the slope is 0 between texels
 /// that are not adjacent on the skin.
 class Slopes {
  public:
-  Slopes(const std::vector<SkinPlace>& atlas, const std::vector<double>& heights, double texel)
+  Slopes(const std::vector<AtlasTexel>& atlas, const std::vector<double>& heights, double texel)
       : atlas_(atlas), heights_(heights), farthest_(4 * texel) {}
 
   /// Returns the slope at `middle` between its neighbours `a` and `b`. At a border of the skin,
@@ -41,14 +41,14 @@ class Slopes {
     return is_skin(atlas_[a]) && is_skin(atlas_[b]) && distance(a, b) < farthest_;
   }
 
-  const std::vector<SkinPlace>& atlas_;
+  const std::vector<AtlasTexel>& atlas_;
   const std::vector<double>& heights_;
   double farthest_;
 };
 
 }  // namespace
 
-double texel_cm(int size, const std::vector<SkinPlace>& atlas) {
+double texel_cm(int size, const std::vector<AtlasTexel>& atlas) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < atlas.size(); ++i) {
     if (i % static_cast<std::size_t>(size) == 0 || !is_skin(atlas[i]) || !is_skin(atlas[i - 1])) {
@@ -61,7 +61,7 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas) {
   return nth_smallest(std::move(steps), middle);
 }
 
-std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas, double texel,
+std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas, double texel,
                                        const Relief& fine, const Relief& coarse) {
   std::vector<double> heights(atlas.size());
   for_each_texel(size, [&](std::size_t i) {
@@ -85,7 +85,7 @@ std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& a
   return bytes;
 }
 
-double skin_roughness(const SkinPlace& place, double on_lips, double hair, double aged) {
+double skin_roughness(const AtlasTexel& place, double on_lips, double hair, double aged) {
   if (place.ball > 0.5) return 0.08;
   const Eigen::Vector3d& p = place.skin.position;
   const double front = smooth_step(4, 7, p.z());

@@ -10,7 +10,7 @@
 namespace crowdface::synth {
 
 /// Returns the median distance on the skin between horizontally neighbouring texels, cm.
-double texel_cm(int size, const std::vector<SkinPlace>& atlas);
+double texel_cm(int size, const std::vector<AtlasTexel>& atlas);
 
 /// Returns a tangent-space normal map of the relief that is too fine for the mesh, as 8-bit RGB.
 /// Red points to the right of the texture, green to its top. Eyeballs are smooth.
@@ -18,7 +18,7 @@ double texel_cm(int size, const std::vector<SkinPlace>& atlas);
 /// \param texel   texel_cm() of the atlas.
 /// \param fine    the complete relief of the head.
 /// \param coarse  the part of the relief that the mesh represents.
-std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& atlas, double texel,
+std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas, double texel,
                                        const Relief& fine, const Relief& coarse);
 
 /// Returns the roughness of the skin at a place, 0 … 1: low on lips, nose and forehead, lowest on
@@ -26,6 +26,6 @@ std::vector<std::uint8_t> skin_normals(int size, const std::vector<SkinPlace>& a
 /// \param on_lips  1 on the lips, 0 elsewhere.
 /// \param hair     fraction of the skin that hair covers, 0 … 1.
 /// \param aged     Person::scaled_age().
-double skin_roughness(const SkinPlace& place, double on_lips, double hair, double aged);
+double skin_roughness(const AtlasTexel& place, double on_lips, double hair, double aged);
 
 }  // namespace crowdface::synth

@@ -116,7 +116,7 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
     for (int column = 0; column < size; ++column) {
       // The texture areas of the eyeballs belong to the region of the eyes.
       const Eigen::RowVector2d place((column + 0.5) / size, v);
-      const double at = synth::on_eyeball_disc(place).norm() < 1.1 ? eye : v;
+      const double at = synth::eyeball_disc_point(place).norm() < 1.1 ? eye : v;
       const auto top = synth::to_byte(smooth_step(upper - half, upper + half, at));
       const auto bottom = synth::to_byte(smooth_step(lower + half, lower - half, at));
       out.push_back(top);

@@ -21,16 +21,16 @@ void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
 }
 
 /// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface; each
-/// other texel copies the bytes of its nearest covered texel (SkinPlace::nearest).
+/// other texel copies the bytes of its nearest covered texel (AtlasTexel::nearest).
 template <class Paint>
-std::vector<std::uint8_t> painted(int size, const std::vector<synth::SkinPlace>& atlas,
+std::vector<std::uint8_t> painted(int size, const std::vector<synth::AtlasTexel>& atlas,
                                   std::size_t channels, const Paint& paint) {
   std::vector<std::uint8_t> bytes(channels * atlas.size());
   synth::for_each_texel(size, [&](std::size_t i) {
-    if (atlas[i].covered) paint(atlas[i], &bytes[channels * i]);
+    if (atlas[i].is_covered) paint(atlas[i], &bytes[channels * i]);
   });
   for (std::size_t i = 0; i < atlas.size(); ++i) {
-    if (atlas[i].covered) continue;
+    if (atlas[i].is_covered) continue;
     std::copy_n(&bytes[channels * atlas[i].nearest], channels, &bytes[channels * i]);
   }
   return bytes;
@@ -47,7 +47,7 @@ SyntheticSkins::SyntheticSkins(int size, SyntheticHeads::Scalp scalp)
 
 std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  return painted(size_, atlas_, 3, [&](const synth::SkinPlace& place, std::uint8_t* bytes) {
+  return painted(size_, atlas_, 3, [&](const synth::AtlasTexel& place, std::uint8_t* bytes) {
     write_texel(paint.at(place), bytes);
   });
 }
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
   synth::for_each_texel(size_, [&](std::size_t i) {
     const double u = (static_cast<double>(i % side) + 0.5) / size_;
     const double v = 1 - (static_cast<double>(i / side) + 0.5) / size_;
-    synth::SkinPlace place;
+    synth::AtlasTexel place;
     place.skin.position = synth::bust_point({u, v});
     write_texel(paint.at(place), &bytes[3 * i]);
   });
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint6
 
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  return painted(size_, atlas_, 1, [&](const synth::SkinPlace& place, std::uint8_t* bytes) {
+  return painted(size_, atlas_, 1, [&](const synth::AtlasTexel& place, std::uint8_t* bytes) {
     *bytes = synth::to_byte(paint.roughness_at(place));
   });
 }

@@ -36,7 +36,7 @@ class SyntheticSkins {
  private:
   int size_;
   double scalp_hair_;  ///< see SkinPaint
-  std::vector<synth::SkinPlace> atlas_;
+  std::vector<synth::AtlasTexel> atlas_;
   double texel_cm_ = 0;
 };
 

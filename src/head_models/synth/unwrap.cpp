@@ -71,7 +71,7 @@ Eigen::Vector2d in_opening(const Address& address) {
   if (address.sheet == Sheet::kEarCore) {
     return {axes.edge.x() * (2 * address.a - 1), axes.edge.y() * (1 - 2 * address.b)};
   }
-  const Eigen::Vector2d start = on_square(address.a);
+  const Eigen::Vector2d start = point_on_square(address.a);
   const Eigen::Vector2d round = address.sheet == Sheet::kEar ? start : start / start.norm();
   const Eigen::Vector2d edge = round.cwiseProduct(axes.edge);
   if (address.b <= 1) return start + (edge - start) * address.b;
@@ -89,7 +89,7 @@ Eigen::RowVector2d unwrap_opening(Sheet sheet, double side, const Eigen::Vector2
 
 }  // namespace
 
-Eigen::Vector2d on_square(double around) {
+Eigen::Vector2d point_on_square(double around) {
   if (around < 1) return {-1, 1 - 2 * around};
   if (around < 2) return {2 * (around - 1) - 1, -1};
   if (around < 3) return {1, 2 * (around - 2) - 1};
@@ -101,7 +101,7 @@ Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place) {
   return scaled(side * centre.x() + kDisc * place.x(), centre.y() - kDisc * place.y());
 }
 
-Eigen::Vector2d on_eyeball_disc(const Eigen::RowVector2d& uv) {
+Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv) {
   const Eigen::RowVector2d low = scaled(-half_width(), strip_height()),
                            high = scaled(half_width(), -kCapHeight);
   const double x = half_width() * (2 * (uv.x() - low.x()) / (high.x() - low.x()) - 1);

@@ -25,17 +25,17 @@ Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
 /// Inverse of unwrap_eyeball for both eyeballs: returns the point of the unit disc at texture
 /// coordinates, or a point outside the unit disc if the coordinates are not in the texture area of
 /// an eyeball.
-Eigen::Vector2d on_eyeball_disc(const Eigen::RowVector2d& uv);
+Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 
 /// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
 double strip_v(double unit);
 
 /// Returns the point of ring coordinate a on the outline of an opening's square [−1, 1]²: x outward,
 /// y up.
-Eigen::Vector2d on_square(double around);
-/// Returns the point of the unit circle in the direction of on_square(around).
-inline Eigen::Vector2d on_circle(double around) {
-  const Eigen::Vector2d start = on_square(around);
+Eigen::Vector2d point_on_square(double around);
+/// Returns the point of the unit circle in the direction of point_on_square(around).
+inline Eigen::Vector2d point_on_circle(double around) {
+  const Eigen::Vector2d start = point_on_square(around);
   return start / start.norm();
 }
 
