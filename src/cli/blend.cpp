@@ -72,7 +72,7 @@ void blend(const BlendOptions& options) {
     throw UsageError(concat("--output: expected a file name that ends in ", list_of_extensions(),
                             ", found ", quoted(options.out)));
   }
-  const std::filesystem::path file = output_file(options.out);
+  const std::filesystem::path file = checked_output_path(options.out);
   const Job job =
       load_job(options.config.config, options.config.overrides, options.config.cache_path());
   refuse_to_write_over(input_files(job.config), {file});

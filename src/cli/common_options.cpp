@@ -35,7 +35,7 @@ bool begins_like_a_log(const std::string& path) {
 }
 
 void open_log(const std::string& path) {
-  const std::filesystem::path file = output_file(path);
+  const std::filesystem::path file = checked_output_path(path);
   if (path_exists(file) && !begins_like_a_log(file)) {
     throw CannotCreate(
         concat(path, ": --log-file: expected a new file or an existing log, found another file"));
@@ -64,7 +64,7 @@ std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   constexpr std::uint64_t kMaxThreads = 1024;
   set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);
   if (!log_file.empty()) open_log(log_file);
-  limit_image_memory(machine_memory() / 8 * 3);
+  limit_image_memory(usable_memory() / 8 * 3);
   for (const std::string& limit : limits) set_input_limit(limit);
   const std::uint64_t limit =
       threads.empty() ? 0 : whole_number("--threads", threads, 1, kMaxThreads);

@@ -45,7 +45,7 @@ GlbOptions materials_of(const FileMesh& mesh, const ConvertOptions& options) {
   if (mesh.materials.empty()) return written;
   FaceMaterials materials = face_materials(mesh.materials, mesh.topology.face_count());
   for (std::string& name : materials.names) written.materials.push_back({std::move(name)});
-  written.face_materials = std::move(materials.of_face);
+  written.face_materials = std::move(materials.material_of_face);
   return written;
 }
 
@@ -104,7 +104,7 @@ void convert(const ConvertOptions& options) {
         concat("--output: expected a name that ends in .obj, .ply, .glb, .usda or .npy, found ",
                quoted(options.out)));
   }
-  const fs::path out = output_file(options.out);
+  const fs::path out = checked_output_path(options.out);
   refuse_to_write_over({options.in}, {out});
   const auto refuse_to_replace = [&](const fs::path& file) {
     if (options.force || !path_exists(file)) return;

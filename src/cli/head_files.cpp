@@ -27,7 +27,7 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
   std::vector<const HeadFile*> missing;
   for (const HeadFile& file : files) {
     const bool there = path_exists(file.path);
-    if (there) output_file(file.path);
+    if (there) checked_output_path(file.path);
     if (replace || !there) {
       missing.push_back(&file);
       continue;

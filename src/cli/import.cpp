@@ -196,8 +196,8 @@ void import_ict(const ImportOptions& options, const Wanted& wanted) {
       find_material_files(model.file().path, model.file().material_libraries);
   for (const std::string& warning : materials.warnings) log_warning(warning);
   for (const MaterialFile& material : materials.files) {
-    files.push_back(
-        {wanted.directory / material.relative, [from = material.from] { return read_file(from); }});
+    files.push_back({wanted.directory / material.destination,
+                     [source = material.source] { return read_file(source); }});
   }
   add_masks(masks, "ict", wanted, files);
   write_head_files("ict heads", files, options.force);

@@ -215,7 +215,7 @@ void init(const InitOptions& options) {
     log_warning(left_out);
   }
   // Refuse to overwrite inputs or an existing config.
-  const fs::path file = output_file(out);
+  const fs::path file = checked_output_path(out);
   refuse_to_write_over(files, {file});
   std::string mask = mask_beside(heads);
   std::vector<fs::path> beside = find_tiles(heads / mask);

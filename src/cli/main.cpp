@@ -74,7 +74,7 @@ int run(const Run& command) {
   try {
     command();
     if (is_out_of_memory()) throw std::bad_alloc();
-    if (const auto failed = log_failure()) {
+    if (const auto failed = first_log_file_error()) {
       throw IoError(concat("the log is incomplete: ", *failed));
     }
     if (!std::cout.flush()) throw IoError("standard output: writing failed");

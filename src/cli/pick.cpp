@@ -25,7 +25,7 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
     throw UsageError(
         concat("--landmarks ", options.landmarks, ": expected a file name that ends in .yaml"));
   }
-  std::filesystem::path file = output_file(options.landmarks);
+  std::filesystem::path file = checked_output_path(options.landmarks);
   refuse_to_write_over({options.shape, options.scan}, {file});
   return file;
 }

@@ -51,7 +51,7 @@ void smooth_file(const SmoothOptions& options) {
   require_obj_output(options.out);
   std::vector<std::filesystem::path> outputs;
   for (const std::uint64_t level : levels) {
-    outputs.push_back(output_file(output_of(options, level, levels.size() == 1)));
+    outputs.push_back(checked_output_path(output_of(options, level, levels.size() == 1)));
     refuse_to_write_over({options.in}, {outputs.back()});
   }
   const ObjFile file = read_obj(options.in);

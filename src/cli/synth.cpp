@@ -77,7 +77,7 @@ void synth(const SynthOptions& options) {
   fs::path mask = directory / "regions.png";
   if (!options.mask.empty()) {
     const bool beside = same_folder(fs::path(options.mask).parent_path(), directory);
-    mask = beside ? fs::path(options.mask) : output_file(options.mask);
+    mask = beside ? fs::path(options.mask) : checked_output_path(options.mask);
   }
   using Parts = SyntheticHeads::Parts;
   using Scalp = SyntheticHeads::Scalp;

@@ -17,7 +17,7 @@ namespace crowdface::multiscale {
 Differences differences(const FrontPatch& patch, const Positions& a, const Positions& b) {
   const Positions apart = b - a;
   const SurfaceTree surface(a, patch.triangles);
-  const double to_surface = parallel_sum(b.rows(), kRowBlock, [&](Index begin, Index end) {
+  const double to_surface = parallel_sum(b.rows(), kRowsPerTask, [&](Index begin, Index end) {
     double sum = 0;
     for (Index v = begin; v < end; ++v) {
       const double distance = surface.nearest(b.row(v).transpose(), HUGE_VAL).distance;

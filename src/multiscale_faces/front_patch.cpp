@@ -37,7 +37,7 @@ void keep_largest(std::vector<Triangle>& triangles, Index vertex_count) {
       find_components(build_adjacency(topology_of(triangles, vertex_count)));
   const std::uint32_t largest = components.largest();
   std::erase_if(triangles,
-                [&](const Triangle& t) { return components.of_vertex[t[0]] != largest; });
+                [&](const Triangle& t) { return components.component_of_vertex[t[0]] != largest; });
 }
 
 /// Removes triangles until no rim touches itself and no triangle has all corners on rims. A

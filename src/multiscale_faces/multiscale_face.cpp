@@ -122,7 +122,7 @@ void add_displacements(MultiscaleFace& face) {
        ++level) {
     const SplineLattice& surface = face.surfaces[level];
     Columns distances(grid.rows(), 1);
-    parallel_for_each(grid.rows(), kRowBlock, [&](Index s) {
+    parallel_for_each(grid.rows(), kRowsPerTask, [&](Index s) {
       const SurfacePoint from = surface_point(base, grid.row(s));
       const std::optional<double> distance = distance_along(from, surface, met.row(s));
       missed[static_cast<std::size_t>(s)] = distance ? 0 : 1;
@@ -163,7 +163,7 @@ Positions synthesize(const MultiscaleFace& target, std::span<const Details> deta
         "details need the target's base level and a weight for each level");
   }
   Positions result(target.uvs.rows(), 3);
-  parallel_for_each(target.uvs.rows(), kRowBlock, [&](Index v) {
+  parallel_for_each(target.uvs.rows(), kRowsPerTask, [&](Index v) {
     const SurfacePoint at = surface_point(base, target.uvs.row(v));
     double height = 0;
     for (const Details& of : details) {

@@ -144,7 +144,7 @@ std::vector<SplineLattice> approximate_by_levels(Index coarsest, Index finest,
   std::vector<SplineLattice> levels = {approximate(coarsest, uvs, values)};
   while (levels.back().spans() < finest) {
     Columns errors = values;
-    parallel_for_each(uvs.rows(), kRowBlock,
+    parallel_for_each(uvs.rows(), kRowsPerTask,
                       [&](Index s) { errors.row(s) -= levels.back().value(uvs.row(s)); });
     SplineLattice refined = levels.back().refined();
     levels.push_back(refined + approximate(refined.spans(), uvs, errors));

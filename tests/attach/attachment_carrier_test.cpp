@@ -33,8 +33,8 @@ struct Heads {
   Heads() {
     for (const std::uint64_t i : {0, 1, 2, 3}) heads.push_back(synthetic.positions(5, i));
     const Components components = find_components(build_adjacency(synthetic.topology()));
-    for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
-      if (components.of_vertex[v] == components.largest()) skin.push_back(v);
+    for (std::uint32_t v = 0; v < components.component_of_vertex.size(); ++v) {
+      if (components.component_of_vertex[v] == components.largest()) skin.push_back(v);
     }
   }
   const Topology& topology() const { return synthetic.topology(); }
@@ -224,7 +224,7 @@ TEST(AttachmentCarrier, MovesWhatIsFarOffTheSkinSmoothly) {
   double roughest = 0;
   const Adjacency adjacency = build_adjacency(cap.topology);
   for (Index p = 0; p < moves.rows(); ++p) {
-    for (const std::uint32_t other : adjacency.of(p)) {
+    for (const std::uint32_t other : adjacency.items_of(p)) {
       const double step = (row3(moves, p) - row3(moves, other)).norm();
       const double edge = (row3(cap.points, p) - row3(cap.points, other)).norm();
       roughest = std::max(roughest, step / std::max(edge, 0.1));

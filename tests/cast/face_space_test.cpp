@@ -192,10 +192,10 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
         recipe.asymmetry = asymmetry;
         recipe.mirrored = is_mirrored;
         points.push_back(space.point(recipe));
-        const double w = mirror_share(recipe);
+        const double w = mirrored_weight(recipe);
         const auto built = [&](const Recipe& of) {
           const Positions blended = blend_exact(faces_, *filter_, regions_, of);
-          return blend_with_image(blended, mirrored(mirror, blended), w);
+          return blend_with_mirrored(blended, mirrored(mirror, blended), w);
         };
         as_built.push_back(built(recipe));
         const Positions sampled = sample_face(space.sampled(), recipe);
@@ -400,7 +400,7 @@ TEST_F(FaceSpaceTest, TrajectoriesAreTheLevels) {
       for (Index i = 0; i < head.rows(); ++i) {
         if (adjacency_.boundary[static_cast<std::size_t>(i)]) continue;
         next.row(i).setZero();
-        for (const std::uint32_t j : adjacency_.of(i)) next.row(i) += smoothed.row(j) / 4;
+        for (const std::uint32_t j : adjacency_.items_of(i)) next.row(i) += smoothed.row(j) / 4;
       }
       smoothed = next;
     }

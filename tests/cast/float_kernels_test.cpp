@@ -54,12 +54,12 @@ TEST_P(FloatKernelsDot, HasTheBitsOfSixteenPlainSumsAChunk) {
     }
     for (const float sum : sums) plain += static_cast<double>(sum);
   }
-  EXPECT_EQ(fixed_dot(a.data(), b.data(), count), plain);
+  EXPECT_EQ(fixed_order_dot(a.data(), b.data(), count), plain);
 
   std::vector<float> sums = a, expected = a;
   for (std::size_t i = 0; i < count; ++i) expected[i] += 0.3F * b[i];
   EXPECT_EQ(add_scaled_and_square(0.3F, b.data(), count, sums.data()),
-            fixed_dot(expected.data(), expected.data(), count));
+            fixed_order_dot(expected.data(), expected.data(), count));
   EXPECT_EQ(sums, expected);
 }
 

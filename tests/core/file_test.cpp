@@ -131,13 +131,13 @@ TEST(MappedFile, ScratchBytesLieInAFileOfNoName) {
   const std::filesystem::path scratch = folder.path() / "new" / "scratch";
   std::string bytes(70'000, 'a');
   bytes[69'999] = 'z';
-  const MappedFile file = MappedFile::of_scratch(bytes, scratch);
+  const MappedFile file = MappedFile::from_temporary_copy(bytes, scratch);
   EXPECT_EQ(file.bytes(), bytes);
   EXPECT_TRUE(std::filesystem::is_empty(scratch));
-  EXPECT_TRUE(MappedFile::of_scratch("", scratch).bytes().empty());
+  EXPECT_TRUE(MappedFile::from_temporary_copy("", scratch).bytes().empty());
   folder.write("file", "x");
   expect_error(ExitCode::kCannotCreate, {"file"},
-               [&] { MappedFile::of_scratch("x", folder.path() / "file"); });
+               [&] { MappedFile::from_temporary_copy("x", folder.path() / "file"); });
 }
 
 TEST(MappedFile, CutWhileItIsMappedItReadsAsZerosAndTellsOrEndsWithAWord) {

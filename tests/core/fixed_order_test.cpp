@@ -38,8 +38,8 @@ TEST(Orthonormalize, LeavesAUnitVectorAcrossTheOthers) {
   const double left = orthonormalize(
       v, 1, [&](std::size_t) { return std::span(x); }, [&](std::size_t, double p) { along += p; });
   EXPECT_NEAR(along, 2.2, 1e-15);
-  EXPECT_NEAR(fixed_dot(v, x), 0, 1e-15);
-  EXPECT_NEAR(fixed_dot(v, v), 1, 1e-15);
+  EXPECT_NEAR(fixed_order_dot(v, x), 0, 1e-15);
+  EXPECT_NEAR(fixed_order_dot(v, v), 1, 1e-15);
   EXPECT_NEAR(left * left + along * along, 9, 1e-14);
 }
 

@@ -38,7 +38,7 @@ TEST(FoldersFrom, LinksAreNotFollowed) {
   folder.write("out/d", "");
   fs::create_directory_symlink(folder / "out", folder / "in/link");
   const fs::path in = folder / "in";
-  EXPECT_THAT(folders_from(in), ElementsAre(in, in / "sub", in / "sub/deep"));
+  EXPECT_THAT(folder_tree(in), ElementsAre(in, in / "sub", in / "sub/deep"));
 }
 
 TEST(LeadsBelow, LinksAreSeenThrough) {

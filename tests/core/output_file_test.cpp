@@ -17,10 +17,10 @@ using testing::TemporaryFolder;
 
 TEST(OutputFile, IsWhatThePathNames) {
   const TemporaryFolder folder;
-  EXPECT_EQ(output_file(folder / "new.obj"), folder / "new.obj");
+  EXPECT_EQ(checked_output_path(folder / "new.obj"), folder / "new.obj");
   folder.write("old.obj", "x");
-  EXPECT_EQ(output_file(folder / "old.obj"), folder / "old.obj");
-  EXPECT_EQ(output_file("new.obj"), "new.obj");
+  EXPECT_EQ(checked_output_path(folder / "old.obj"), folder / "old.obj");
+  EXPECT_EQ(checked_output_path("new.obj"), "new.obj");
 }
 
 TEST(OutputFile, IsWhereALinkLeads) {
@@ -29,9 +29,9 @@ TEST(OutputFile, IsWhereALinkLeads) {
   fs::create_symlink("elsewhere/old.obj", folder / "latest.obj");
   fs::create_symlink("elsewhere/new.obj", folder / "next.obj");
   const fs::path elsewhere = fs::canonical(folder / "elsewhere");
-  EXPECT_EQ(output_file(folder / "latest.obj"), elsewhere / "old.obj");
+  EXPECT_EQ(checked_output_path(folder / "latest.obj"), elsewhere / "old.obj");
   testing::expect_error(ExitCode::kCannotCreate, {"next.obj"},  // leads nowhere yet
-                        [&] { output_file(folder / "next.obj"); });
+                        [&] { checked_output_path(folder / "next.obj"); });
 }
 
 // A device or a pipe was replaced by a file: /dev/null itself, for a user who may.
@@ -43,10 +43,13 @@ TEST(OutputFile, IsNothingButARegularFile) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   fs::create_symlink("pipe", folder / "link_to_pipe");
   for (const char* name : {"folder", "link", "circle", "pipe", "link_to_pipe", "", "no/new.obj"}) {
-    testing::expect_error(ExitCode::kCannotCreate, {name}, [&] { output_file(folder / name); });
+    testing::expect_error(ExitCode::kCannotCreate, {name},
+                          [&] { checked_output_path(folder / name); });
   }
-  testing::expect_error(ExitCode::kCannotCreate, {"/dev/null"}, [] { output_file("/dev/null"); });
-  testing::expect_error(ExitCode::kCannotCreate, {"expected the name"}, [] { output_file(""); });
+  testing::expect_error(ExitCode::kCannotCreate, {"/dev/null"},
+                        [] { checked_output_path("/dev/null"); });
+  testing::expect_error(ExitCode::kCannotCreate, {"expected the name"},
+                        [] { checked_output_path(""); });
   for (const char* name : {"folder", "pipe"}) {
     testing::expect_error(ExitCode::kCannotCreate, {name, "regular file"},
                           [&] { write_file(folder / name, "x"); });

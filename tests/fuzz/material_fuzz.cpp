@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto files = crowdface::find_material_files(mesh, {"skin.mtl"});
     for (const auto& file : files.files) {
       // Nothing outside the mesh's folder is copied.
-      if (file.relative.is_absolute() || *file.relative.begin() == "..") std::abort();
+      if (file.destination.is_absolute() || *file.destination.begin() == "..") std::abort();
     }
     crowdface::find_textures(mesh, {"skin.mtl"});
     for (const auto& material : crowdface::read_surface_materials(files)) {

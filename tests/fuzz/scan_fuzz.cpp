@@ -15,7 +15,7 @@ namespace {
 // Colours of an OBJ text at its vertices, as many as it has `v` lines.
 crowdface::FileMesh coloured(std::string_view text) {
   crowdface::FileMesh mesh;
-  const auto painted = crowdface::polypaint_at_vertices(text);
+  const auto painted = crowdface::move_polypaint_to_vertices(text);
   const std::string_view lines = painted ? std::string_view(*painted) : text;
   for (const crowdface::Index vertices : {1, 4, 8}) {
     const auto colours = crowdface::obj_colours(lines, vertices);

@@ -195,7 +195,8 @@ TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
   inputs.faces.topology = testing::cube_topology();
   inputs.faces.heads = {{"cube", testing::cube_positions()}};
   inputs.mean = testing::cube_positions();
-  inputs.materials.of_face.assign(static_cast<std::size_t>(inputs.faces.topology.face_count()), 0);
+  inputs.materials.material_of_face.assign(
+      static_cast<std::size_t>(inputs.faces.topology.face_count()), 0);
   find_neighbours(inputs);
   Config config;
   config.output.lods = {50};

@@ -342,7 +342,7 @@ TEST_F(TexturedFiles, HaveTheirTexturesWithAnyCacheAndWithout) {
       const ObjFile& file = head.file;
       const NamedTextures named = find_textures(file.material_path(), file.material_libraries);
       EXPECT_TRUE(named.warnings.empty());
-      const auto& of_colour = named.of_kind.at(TextureKind::kColour);
+      const auto& of_colour = named.paths_by_kind.at(TextureKind::kColour);
       ASSERT_TRUE(of_colour.contains("Skin")) << cache;
       EXPECT_EQ(read_image(of_colour.at("Skin")).width, 8);
       EXPECT_EQ(file.materials.at(0).name, "Skin");

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 std::vector<std::string> names(const MaterialFiles& files) {
   std::vector<std::string> result;
-  for (const MaterialFile& file : files.files) result.push_back(file.relative.string());
+  for (const MaterialFile& file : files.files) result.push_back(file.destination.string());
   return result;
 }
 
@@ -94,7 +94,7 @@ TEST(MaterialFiles, NamesOfTexturesMayHoldBlanks) {
   EXPECT_THAT(found.warnings[0], HasSubstr("\"lost.png\" is missing"));
   EXPECT_THAT(found.warnings[1], HasSubstr("\"not there.png\" is missing"));
   const auto colours =
-      find_textures(folder / "head.obj", {"a.mtl"}).of_kind.at(TextureKind::kColour);
+      find_textures(folder / "head.obj", {"a.mtl"}).paths_by_kind.at(TextureKind::kColour);
   EXPECT_EQ(colours.at("a"), folder / "head diffuse.png");
 }
 
@@ -125,7 +125,7 @@ TEST(MaterialFiles, TakeSoManyTexturesAndNoMore) {
     EXPECT_THAT(found.warnings.back(), HasSubstr(part));
   }
   const auto colours =
-      find_textures(folder / "head.obj", {"a.mtl"}).of_kind.at(TextureKind::kColour);
+      find_textures(folder / "head.obj", {"a.mtl"}).paths_by_kind.at(TextureKind::kColour);
   EXPECT_EQ(colours.size(), 1001U);
   EXPECT_TRUE(colours.contains("again"));
 }
@@ -181,7 +181,7 @@ TEST(MaterialFiles, NeverTakeANameWithANul) {
   const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
   EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl"}));
   EXPECT_EQ(found.warnings.size(), 1U);
-  EXPECT_TRUE(find_textures(folder / "head.obj", {"a.mtl"}).of_kind.empty());
+  EXPECT_TRUE(find_textures(folder / "head.obj", {"a.mtl"}).paths_by_kind.empty());
 }
 
 TEST(Textures, AreNamedByKindAndMaterial) {
@@ -190,12 +190,12 @@ TEST(Textures, AreNamedByKindAndMaterial) {
                "newmtl the skin \nmap_Ks gloss.png\nmap_Kd -s 1 1 1 skin.<UDIM>.png\n"
                "newmtl eye\nKd 1 1 1\nnewmtl out\nmap_Kd ../../out.png\n");
   const auto found =
-      find_textures(folder / "head.obj", {"sub/a.mtl"}).of_kind.at(TextureKind::kColour);
+      find_textures(folder / "head.obj", {"sub/a.mtl"}).paths_by_kind.at(TextureKind::kColour);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.begin()->first, "the skin");
-  EXPECT_EQ(with_tile(found.begin()->second, 1003), folder / "sub/skin.1003.png");
+  EXPECT_EQ(udim_tile_path(found.begin()->second, 1003), folder / "sub/skin.1003.png");
   const auto specular =
-      find_textures(folder / "head.obj", {"sub/a.mtl"}).of_kind.at(TextureKind::kSpecular);
+      find_textures(folder / "head.obj", {"sub/a.mtl"}).paths_by_kind.at(TextureKind::kSpecular);
   EXPECT_EQ(specular.at("the skin"), folder / "sub/gloss.png");
 }
 

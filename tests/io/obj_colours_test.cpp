@@ -33,13 +33,13 @@ TEST(ObjColours, AreWrittenBehindCoordinates) {
 
 TEST(ObjColours, OfZBrushAreRead) {
   const std::string text = "v 1 2 3\nv 4 5 6\n#MRGB ffff3300\n#MRGB ff000066\nf 1 2 1\n";
-  const auto painted = polypaint_at_vertices(text);
+  const auto painted = move_polypaint_to_vertices(text);
   ASSERT_TRUE(painted);
   EXPECT_EQ(obj_colours(*painted, 2), rows({{255, 51, 0}, {0, 0, 102}}));
   EXPECT_EQ(painted->find("#MRGB"), std::string::npos);
-  EXPECT_EQ(polypaint_at_vertices("v 1 2 3\nv 4 5 6\n#MRGB ffff3300\n"), std::nullopt);
-  EXPECT_EQ(polypaint_at_vertices("v 1 2 3\n#MRGB ffxx3300\n"), std::nullopt);
-  EXPECT_EQ(polypaint_at_vertices("v 1 2 3\n"), std::nullopt);
+  EXPECT_EQ(move_polypaint_to_vertices("v 1 2 3\nv 4 5 6\n#MRGB ffff3300\n"), std::nullopt);
+  EXPECT_EQ(move_polypaint_to_vertices("v 1 2 3\n#MRGB ffxx3300\n"), std::nullopt);
+  EXPECT_EQ(move_polypaint_to_vertices("v 1 2 3\n"), std::nullopt);
 }
 
 }  // namespace

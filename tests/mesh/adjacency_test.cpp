@@ -16,7 +16,7 @@ using testing::grid_topology;
 using testing::make_topology;
 
 std::vector<std::uint32_t> ring(const Adjacency& adjacency, Index i) {
-  const auto neighbours = adjacency.of(i);
+  const auto neighbours = adjacency.items_of(i);
   return {neighbours.begin(), neighbours.end()};
 }
 
@@ -68,7 +68,7 @@ TEST(Adjacency, IgnoresEdgesFromAVertexToItself) {
 TEST(Components, AreJoinedByEdges) {
   const Topology topology = make_topology(8, {{0, 1, 2}, {4, 5, 6, 7}});
   const Components components = find_components(build_adjacency(topology));
-  EXPECT_EQ(components.of_vertex, (std::vector<std::uint32_t>{0, 0, 0, 1, 2, 2, 2, 2}));
+  EXPECT_EQ(components.component_of_vertex, (std::vector<std::uint32_t>{0, 0, 0, 1, 2, 2, 2, 2}));
   EXPECT_EQ(components.sizes, (std::vector<std::uint32_t>{3, 1, 4}));
   EXPECT_EQ(components.largest(), 2U);
 }

@@ -35,7 +35,7 @@ TEST(EdgeDistances, AddUpAlongTheNearestWayAndNameTheirSource) {
   for (std::uint32_t v = 0; v < 9; ++v) {
     EXPECT_DOUBLE_EQ(distances.distance(v), std::min(v, 8 - v)) << v;
     EXPECT_DOUBLE_EQ(distances.distance(9 + v), 100 + std::min(v, 8 - v)) << v;
-    EXPECT_EQ(distances.source(v), v <= 4 ? 0U : 1U) << "of equally near ones the first";
+    EXPECT_EQ(distances.nearest_source(v), v <= 4 ? 0U : 1U) << "of equally near ones the first";
   }
   EXPECT_EQ(distances.reached().size(), 18U);
 }
@@ -49,7 +49,7 @@ TEST(EdgeDistances, EndAtTheLimitAndForgetTheSearchBefore) {
   EXPECT_TRUE(std::isinf(distances.distance(4)));
   distances.search(last, 2);
   EXPECT_TRUE(std::isinf(distances.distance(0)));
-  EXPECT_EQ(distances.source(0), kNoIndex);
+  EXPECT_EQ(distances.nearest_source(0), kNoIndex);
   EXPECT_DOUBLE_EQ(distances.distance(6), 2);
 }
 

@@ -53,7 +53,7 @@ TEST(RimThrough, OrdersVerticesAlongTheirEdges) {
   const Rim rim = rim_through(middle, adjacency);
   ASSERT_EQ(rim.size(), middle.size());
   for (std::size_t i = 0; i < rim.size(); ++i) {
-    EXPECT_TRUE(std::ranges::count(adjacency.of(rim[i]), rim[(i + 1) % rim.size()]) == 1);
+    EXPECT_TRUE(std::ranges::count(adjacency.items_of(rim[i]), rim[(i + 1) % rim.size()]) == 1);
   }
   middle.pop_back();
   EXPECT_TRUE(rim_through(middle, adjacency).empty());

@@ -85,7 +85,7 @@ TEST(SurfaceDistance, PiecesWithOneRimAreOneSurface) {
   const SurfaceDistance lips(closed.topology, closed.positions);
   const Adjacency edges = build_adjacency(closed.topology);
   for (std::uint32_t v = 0; v < closed.topology.vertex_count; ++v) {
-    EXPECT_EQ(lips.adjacent_vertices(v).size(), edges.of(v).size());
+    EXPECT_EQ(lips.adjacent_vertices(v).size(), edges.items_of(v).size());
   }
 }
 

@@ -49,7 +49,7 @@ TEST(FindMirror, OfASymmetricHeadIsItself) {
   const Positions image = mirrored(found.map, mean);
   EXPECT_EQ(image, mean);
   for (const double w : {-0.4, 0.0, 0.3, 0.5, 1.0, 1.2}) {
-    EXPECT_EQ(blend_with_image(mean, image, w), mean);
+    EXPECT_EQ(blend_with_mirrored(mean, image, w), mean);
   }
 }
 
@@ -60,9 +60,9 @@ TEST(FindMirror, MirroringTwiceGivesTheFaceBack) {
   const Positions image = mirrored(found.map, face);
   EXPECT_NE(image, face);
   EXPECT_EQ(mirrored(found.map, image), face);
-  EXPECT_EQ(blend_with_image(face, image, 0), face);
-  EXPECT_EQ(blend_with_image(face, image, 1), image);
-  const Positions even = blend_with_image(face, image, 0.5);
+  EXPECT_EQ(blend_with_mirrored(face, image, 0), face);
+  EXPECT_EQ(blend_with_mirrored(face, image, 1), image);
+  const Positions even = blend_with_mirrored(face, image, 0.5);
   EXPECT_LT((mirrored(found.map, even) - even).cwiseAbs().maxCoeff(), 1e-14);
 }
 

@@ -64,9 +64,9 @@ class Watch {
     const Adjacency adjacency = build_adjacency(topology_);
     const Components components = find_components(adjacency);
     parts_ = find_parts(topology_, adjacency, components, mean_);
-    component_ = components.of_vertex;
+    component_ = components.component_of_vertex;
     for (std::uint32_t v = 0; v < topology_.vertex_count; ++v) {
-      is_skin_.push_back(parts_.classes[components.of_vertex[v]] == PartClass::kSkin);
+      is_skin_.push_back(parts_.classes[components.component_of_vertex[v]] == PartClass::kSkin);
       if (is_skin_.back()) skin_.push_back(v);
     }
     for (const Part& part : parts_.parts) {

@@ -137,9 +137,9 @@ TEST(JoinSkin, MakesOneOfAllSkin) {
   const Components joined = join_skin(components, parts_of(mesh, overrides));
   EXPECT_EQ(joined.largest(), HeadComponent::kSkinBall);
   EXPECT_EQ(joined.sizes[0], components.sizes[0] + components.sizes[HeadComponent::kRightEye]);
-  for (std::size_t v = 0; v < joined.of_vertex.size(); ++v) {
-    const std::uint32_t c = components.of_vertex[v];
-    EXPECT_EQ(joined.of_vertex[v], c == HeadComponent::kRightEye ? 0U : c);
+  for (std::size_t v = 0; v < joined.component_of_vertex.size(); ++v) {
+    const std::uint32_t c = components.component_of_vertex[v];
+    EXPECT_EQ(joined.component_of_vertex[v], c == HeadComponent::kRightEye ? 0U : c);
   }
 }
 

@@ -25,7 +25,7 @@ std::vector<Triangle> skin_of(const WrapTemplate& shape) {
 std::vector<Triangle> eyes_of(const WrapTemplate& shape) {
   std::vector<Triangle> triangles;
   for (const Triangle& t : occluding_triangles(shape)) {
-    if (shape.parts.classes[shape.components.of_vertex[t[0]]] == PartClass::kRigid) {
+    if (shape.parts.classes[shape.components.component_of_vertex[t[0]]] == PartClass::kRigid) {
       triangles.push_back(t);
     }
   }
@@ -102,7 +102,7 @@ TEST_F(SuggestedPlacesTest, TheOtherHalfIsSuggestedOnTheTemplate) {
   const PickedLandmark left = {"mole_left", proposals_.at("eye_inner_left"), std::nullopt, {}};
   const auto places = suggest_places({left}, template_, scan_, plane_, {});
   ASSERT_EQ(places.template_places.size(), 1U);
-  const Eigen::Vector3d expected = plane_.image(row3(shape_.positions, *left.vertex));
+  const Eigen::Vector3d expected = plane_.mirrored(row3(shape_.positions, *left.vertex));
   EXPECT_LT((places.template_places.at("mole_right").point - expected).norm(), 5);
   EXPECT_TRUE(places.scan_places.empty());
   EXPECT_FALSE(places.pose);

@@ -55,9 +55,9 @@ TEST(UvSamples, PolygonDecidesTheTileOnABorder) {
   const TwoTiles mesh;
   const UvSamples samples = gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kUdim);
   EXPECT_THAT(tiles_of(samples), ElementsAre(1001, 1002));
-  EXPECT_THAT(samples.of(0), ElementsAre(UvSample{1001, 0, 0}));
-  EXPECT_THAT(samples.of(5), ElementsAre(UvSample{1002, 2, 1}));  // v = 1 is its tile's top
-  EXPECT_THAT(samples.of(4), ElementsAre(UvSample{1001, 1, 1}, UvSample{1002, 1, 1}));
+  EXPECT_THAT(samples.items_of(0), ElementsAre(UvSample{1001, 0, 0}));
+  EXPECT_THAT(samples.items_of(5), ElementsAre(UvSample{1002, 2, 1}));  // v = 1 is its tile's top
+  EXPECT_THAT(samples.items_of(4), ElementsAre(UvSample{1001, 1, 1}, UvSample{1002, 1, 1}));
 }
 
 TEST(UvSamples, OnePictureHasOnePlaceAValue) {
@@ -67,7 +67,7 @@ TEST(UvSamples, OnePictureHasOnePlaceAValue) {
   mesh.uvs.row(6) = mesh.uvs.row(1);
   mesh.topology.corner_uvs[4] = 6;
   const UvSamples samples = gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne);
-  EXPECT_THAT(samples.of(1), ElementsAre(UvSample{1001, 1, 0}));
+  EXPECT_THAT(samples.items_of(1), ElementsAre(UvSample{1001, 1, 0}));
   EXPECT_EQ(samples.items.size(), 6U);
 }
 
@@ -76,14 +76,14 @@ TEST(UvSamples, SeamVertexHasTwoPlaces) {
   mesh.uvs.conservativeResize(7, 2);
   mesh.uvs.row(6) << 0.5, 0.25;
   mesh.topology.corner_uvs[4] = 6;
-  EXPECT_THAT(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne).of(1),
+  EXPECT_THAT(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne).items_of(1),
               ElementsAre(UvSample{1001, 0.5, 0.25}, UvSample{1001, 1, 0}));
 }
 
 TEST(UvSamples, IsolatedVertexHasNone) {
   TwoTiles mesh;
   mesh.topology.vertex_count = 7;
-  EXPECT_TRUE(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kUdim).of(6).empty());
+  EXPECT_TRUE(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kUdim).items_of(6).empty());
 }
 
 TEST(UvSamples, MissingCoordinatesAreNamed) {

@@ -96,8 +96,8 @@ TEST(GenerateMirror, ARecipeIsMirroredWithItsParts) {
   const Positions even = mesh_of(out, "even"), half = mesh_of(out, "half");
   const Positions off = mirrored(map, even) - even;
   double skin = 0;
-  for (std::size_t v = 0; v < job.inputs.skin.of_vertex.size(); ++v) {
-    if (job.inputs.skin.of_vertex[v] != job.inputs.skin.largest()) continue;
+  for (std::size_t v = 0; v < job.inputs.skin.component_of_vertex.size(); ++v) {
+    if (job.inputs.skin.component_of_vertex[v] != job.inputs.skin.largest()) continue;
     skin = std::max(skin, off.row(static_cast<Index>(v)).norm());
   }
   EXPECT_LT(skin, 0.02) << "but for lips, which are brought to their gaps on either side";

@@ -204,8 +204,8 @@ int main(int argc, char** argv) try {
     counted[s].of_template = crossings.all(of_template[s]);
   }
   std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < job.inputs.skin.of_vertex.size(); ++v) {
-    if (job.inputs.skin.of_vertex[v] == job.inputs.skin.largest()) skin.push_back(v);
+  for (std::uint32_t v = 0; v < job.inputs.skin.component_of_vertex.size(); ++v) {
+    if (job.inputs.skin.component_of_vertex[v] == job.inputs.skin.largest()) skin.push_back(v);
   }
   std::vector<MeasuredLids> eyes;
   for (const Part& part : job.inputs.parts.parts) {

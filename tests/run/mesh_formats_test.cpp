@@ -132,7 +132,7 @@ TEST(MeshFormats, HaveTheFacesColoursAtVertices) {
     FileMesh mesh = read_mesh(stem.string() + ending);
     join_split_vertices(mesh);
     ASSERT_EQ(mesh.colours.rows(), vertices) << ending;
-    EXPECT_LT((mesh.colours - colour_shares(written)).cwiseAbs().maxCoeff(), 0.002) << ending;
+    EXPECT_LT((mesh.colours - colour_fractions(written)).cwiseAbs().maxCoeff(), 0.002) << ending;
   }
   EXPECT_NE(testing::read_text(stem.string() + ".usda").find("primvars:displayColor = [("),
             std::string::npos);

@@ -116,7 +116,7 @@ TEST_F(Neck, MayChangeInAFinishedCrowd) {
 Positions curvature(const Inputs& inputs, const Positions& positions) {
   Positions result = Positions::Zero(positions.rows(), 3);
   for (Index v = 0; v < positions.rows(); ++v) {
-    const auto around = inputs.adjacency.of(v);
+    const auto around = inputs.adjacency.items_of(v);
     if (inputs.adjacency.boundary[static_cast<std::size_t>(v)] || around.empty()) continue;
     for (const std::uint32_t other : around) result.row(v) += positions.row(other);
     result.row(v) = result.row(v) / static_cast<double>(around.size()) - positions.row(v);
@@ -133,7 +133,7 @@ double change_at_end(const Inputs& inputs, const Positions& head, const Position
   for (const std::uint32_t v : inputs.neck->seam.rim) moves[v] = true;
   double change = 0, own = 0, at_end = 0, all = 0;
   for (Index v = 0; v < head.rows(); ++v) {
-    const auto around = inputs.adjacency.of(v);
+    const auto around = inputs.adjacency.items_of(v);
     const auto moving = std::ranges::count_if(around, [&](std::uint32_t u) { return moves[u]; });
     if (inputs.adjacency.boundary[static_cast<std::size_t>(v)] || moving == 0) continue;
     own += before.row(v).squaredNorm();
@@ -159,7 +159,7 @@ TEST_F(Neck, TheBendIsSmootherThanTheHeads) {
     inputs.neck->seam.fit(bent);
     smooth += change_at_end(inputs, head.positions, bent) / kHeads;
     for (const std::uint32_t v : distances.reached()) {
-      const std::uint32_t from = rim_[distances.source(v)];
+      const std::uint32_t from = rim_[distances.nearest_source(v)];
       creased.row(v) +=
           (1 - distances.distance(v) / kFalloff) * (bent.row(from) - head.positions.row(from));
     }

@@ -168,8 +168,8 @@ TEST_F(RigOfACrowd, BendsFacesAsTheTemplate) {
     const Eigen::Vector3d pivot = rest.joints[1].rest.col(3).head<3>();
     double moved = 0;
     for (Index v = 0; v < rest.points.rows(); ++v) {
-      const auto of = rest.influences.of(v);
-      ASSERT_EQ(of.size(), given.influences.of(v).size());
+      const auto of = rest.influences.items_of(v);
+      ASSERT_EQ(of.size(), given.influences.items_of(v).size());
       double jaw = 0;
       for (const Influence& one : of) {
         if (one.joint == 1) jaw = static_cast<double>(one.weight);
@@ -193,8 +193,8 @@ TEST_F(RigOfACrowd, IsFoundByPlaceWithoutVertexIds) {
   const GltfRig own = read_gltf_rig(mesh("herself")), given = read_gltf_rig(rig());
   EXPECT_LT((own.points - given.points).cwiseAbs().maxCoeff(), 1e-5);
   for (Index v = 0; v < own.points.rows(); ++v) {
-    ASSERT_EQ(own.influences.of(v).size(), given.influences.of(v).size());
-    EXPECT_EQ(own.influences.of(v)[0].weight, given.influences.of(v)[0].weight);
+    ASSERT_EQ(own.influences.items_of(v).size(), given.influences.items_of(v).size());
+    EXPECT_EQ(own.influences.items_of(v)[0].weight, given.influences.items_of(v)[0].weight);
   }
 }
 
@@ -220,7 +220,7 @@ TEST(GltfRig, BrokenScenesAreRefused) {
     append_number(bytes, glb::kMagic);
     append_number(bytes, glb::kContainerVersion);
     append_number(bytes,
-                  static_cast<std::uint32_t>(glb::kBinaryHeader + gltf.size() + sizeof floats));
+                  static_cast<std::uint32_t>(glb::kBinaryHeaderSize + gltf.size() + sizeof floats));
     append_number(bytes, static_cast<std::uint32_t>(gltf.size()));
     append_number(bytes, glb::kJsonChunk);
     bytes += gltf;

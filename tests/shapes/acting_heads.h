@@ -51,7 +51,8 @@ inline Heads synthetic_heads() {
 }
 
 inline bool is_skin(const Heads& heads, Index v) {
-  return heads.components.of_vertex[static_cast<std::size_t>(v)] == heads.components.largest();
+  return heads.components.component_of_vertex[static_cast<std::size_t>(v)] ==
+         heads.components.largest();
 }
 
 /// An eye's centre and radius on a head: those on the mean head, carried there.

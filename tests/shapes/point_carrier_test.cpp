@@ -27,8 +27,8 @@ struct HeadsWithPoints {
     const Adjacency adjacency = build_adjacency(faces.topology);
     const Components components = find_components(adjacency);
     parts = find_parts(faces.topology, adjacency, components, mean_head(faces));
-    for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
-      if (components.of_vertex[v] == components.largest()) skin.push_back(v);
+    for (std::uint32_t v = 0; v < components.component_of_vertex.size(); ++v) {
+      if (components.component_of_vertex[v] == components.largest()) skin.push_back(v);
     }
   }
   const Positions& operator[](std::size_t i) const { return faces.heads[i].positions; }

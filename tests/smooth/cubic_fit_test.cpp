@@ -43,7 +43,7 @@ TEST(CubicFit, EqualsLeastSquaresOverStoredLevels) {
   const CubicFit fit = fit_cubic(ChebyshevFilter(smoothing, positions), positions, kMaxLevel);
   for (Index p = 0; p < 4; ++p) {
     for (Index i = 0; i < positions.size(); ++i) {
-      const std::size_t tile = static_cast<std::size_t>(i / 3) / kFieldTile;
+      const std::size_t tile = static_cast<std::size_t>(i / 3) / kTileVertices;
       const double half_a_step =
           0.5 * static_cast<double>(fit.fields.steps[4 * tile + static_cast<std::size_t>(p)]);
       EXPECT_NEAR(fit.fields.value(p, i / 3, i % 3), expected(p, i), half_a_step + 2e-6) << p;

@@ -129,7 +129,7 @@ TEST(LevelBasis, StaysWithinItsToleranceAtEveryLevelOfALongRun) {
   Columns level = fitted.positions;  // by plain iteration
   for (std::uint64_t l = 1; l <= kMaxLevel; ++l) {
     level = iterate(fitted.smoothing, level, 1);
-    const std::vector<double> phi = basis_functions(fitted.nodes, basis.mixing, l);
+    const std::vector<double> phi = basis_values(fitted.nodes, basis.mixing, l);
     for (Index v = static_cast<Index>(l % 7); v < level.rows(); v += 7) {
       Eigen::RowVector3d found = fitted.positions.row(v);
       for (Index p = 0; p < basis.rank(); ++p) {

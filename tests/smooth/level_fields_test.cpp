@@ -33,7 +33,7 @@ TEST(LevelFields, AreOffByHalfAStepAtMost) {
     for (std::size_t i = 0; i < exact.size(); ++i) {
       const auto at = static_cast<Index>(i) % (3 * vertices);
       const std::size_t p = i / static_cast<std::size_t>(3 * vertices);
-      const auto tile = static_cast<std::size_t>(at / 3) / kFieldTile;
+      const auto tile = static_cast<std::size_t>(at / 3) / kTileVertices;
       const double half = 0.5 * static_cast<double>(fields.steps[fields.first[tile] + p]);
       EXPECT_LE(std::abs(fields.value(static_cast<Index>(p), at / 3, at % 3) -
                          static_cast<double>(exact[i])),
@@ -70,10 +70,11 @@ TEST(LevelFields, KeepTheLargestNumberAndZero) {
 
 TEST(LevelFields, AreZeroPastTheLastVertex) {
   const LevelFields fields = quantize(some_fields(70), 70);
-  ASSERT_EQ(fields.numbers.size(), 2 * 3 * 3 * kFieldTile);
+  ASSERT_EQ(fields.numbers.size(), 2 * 3 * 3 * kTileVertices);
   std::size_t past = 0;
   for (std::size_t i = 0; i < fields.numbers.size(); ++i) {
-    const std::size_t vertex = i / (3 * 3 * kFieldTile) * kFieldTile + i % (3 * kFieldTile) / 3;
+    const std::size_t vertex =
+        i / (3 * 3 * kTileVertices) * kTileVertices + i % (3 * kTileVertices) / 3;
     if (vertex < 70) continue;
     EXPECT_EQ(fields.numbers[i], 0);
     ++past;
@@ -89,10 +90,10 @@ TEST(LevelFields, OfATileAreTheFirstFew) {
   parts[0].add(values, 1);
   parts[0].add(values, 0);
   parts[1].add(values, 2);
-  const LevelFields fields = concatenate(3 * kFieldTile, 2, std::move(parts));
+  const LevelFields fields = concatenate(3 * kTileVertices, 2, std::move(parts));
   for (Index v = 0; v < fields.vertex_count; ++v) {
-    EXPECT_EQ(fields.value(0, v, 1), v / Index{kFieldTile} == 1 ? 0 : 5) << v;
-    EXPECT_EQ(fields.value(1, v, 2), v < 2 * Index{kFieldTile} ? 0 : 3) << v;
+    EXPECT_EQ(fields.value(0, v, 1), v / Index{kTileVertices} == 1 ? 0 : 5) << v;
+    EXPECT_EQ(fields.value(1, v, 2), v < 2 * Index{kTileVertices} ? 0 : 3) << v;
   }
   EXPECT_EQ(fields.numbers.size(), 3 * kTileValues);
 }
@@ -114,13 +115,13 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
     missed.push_back(0);
     where.push_back(0);
     for (std::size_t l = 0; l < kLevelCount; ++l) {
-      for (std::size_t v = 0; v < kFieldTile; ++v) {
+      for (std::size_t v = 0; v < kTileVertices; ++v) {
         double squared = 0;
         for (std::size_t c = 0; c < 3; ++c) {
           double sum = 0;
           for (std::size_t p = kept; p < kFields; ++p) {
             sum += static_cast<double>(functions[l * kFields + p]) *
-                   static_cast<double>(values[p * kTileValues + c * kFieldTile + v]);
+                   static_cast<double>(values[p * kTileValues + c * kTileVertices + v]);
           }
           squared += sum * sum;
         }
@@ -136,9 +137,9 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
     use_instruction_set(name);
     for (std::size_t kept = 0; kept <= kFields; ++kept) {
       const TruncationError found =
-          choose_fewest_functions(values.data(), kFields, functions.data(), kFields, kLevelCount,
-                                  static_cast<float>(missed[kept] * 1.001));
-      EXPECT_EQ(found.kept, kept);
+          choose_fewest_fields(values.data(), kFields, functions.data(), kFields, kLevelCount,
+                               static_cast<float>(missed[kept] * 1.001));
+      EXPECT_EQ(found.kept_fields, kept);
       EXPECT_NEAR(static_cast<double>(found.squared_error), missed[kept], 1e-5 * missed[kept]);
       EXPECT_EQ(found.level, where[kept]);
     }

@@ -31,10 +31,10 @@ struct Heads {
     const auto named = std::find_if(pieces.begin(), pieces.end(),
                                     [&](const auto& piece) { return piece.name == name; });
     const std::uint32_t component =
-        components.of_vertex[heads.topology().face(named->first_face)[0]];
+        components.component_of_vertex[heads.topology().face(named->first_face)[0]];
     Piece piece{{}, Vector3d::Constant(1e300), Vector3d::Constant(-1e300)};
-    for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
-      if (components.of_vertex[v] != component) continue;
+    for (std::uint32_t v = 0; v < components.component_of_vertex.size(); ++v) {
+      if (components.component_of_vertex[v] != component) continue;
       piece.vertices.push_back(v);
       piece.low = piece.low.cwiseMin(head.row(v).transpose());
       piece.high = piece.high.cwiseMax(head.row(v).transpose());
@@ -56,7 +56,7 @@ TEST(LoosePieces, AreClosedComponentsOfTheirOwn) {
   std::set<std::uint32_t> of_pieces;
   for (const char* name : kNames) {
     const Piece piece = heads().piece(name, head);
-    of_pieces.insert(heads().components.of_vertex[piece.vertices[0]]);
+    of_pieces.insert(heads().components.component_of_vertex[piece.vertices[0]]);
     for (const std::uint32_t v : piece.vertices)
       ASSERT_FALSE(heads().adjacency.boundary[v]) << name;
   }
@@ -77,7 +77,7 @@ TEST(LoosePieces, HoldEyeballsBehindTheLids) {
       }
       int above = 0, below = 0, inside = 0;
       for (Index v = 0; v < head.rows(); ++v) {
-        if (heads().components.of_vertex[static_cast<std::size_t>(v)] != skin) continue;
+        if (heads().components.component_of_vertex[static_cast<std::size_t>(v)] != skin) continue;
         const Vector3d from = head.row(v).transpose() - centre;
         if (from.z() < 0 || from.norm() > 1.25 * radius) continue;
         (from.y() > 0 ? above : below) += 1;
@@ -102,7 +102,7 @@ TEST(LoosePieces, HoldTwoRowsOfTeethBehindTheLips) {
     for (const Piece& row : {upper, lower}) {
       double lips = -1e300;
       for (Index v = 0; v < head.rows(); ++v) {
-        if (heads().components.of_vertex[static_cast<std::size_t>(v)] != skin) continue;
+        if (heads().components.component_of_vertex[static_cast<std::size_t>(v)] != skin) continue;
         const bool beside = std::abs(head(v, 0) - row.middle().x()) < 1;
         if (beside && head(v, 1) > row.low.y() && head(v, 1) < row.high.y()) {
           lips = std::max(lips, head(v, 2));

@@ -83,7 +83,8 @@ TEST_F(Plausible, EdgesAreOfLikeLength) {
     const Positions& head = all()[h];
     std::vector<double> lengths;
     for (Index i = 0; i < head.rows(); ++i) {
-      for (const auto j : adjacency.of(i)) lengths.push_back((head.row(i) - head.row(j)).norm());
+      for (const auto j : adjacency.items_of(i))
+        lengths.push_back((head.row(i) - head.row(j)).norm());
     }
     std::ranges::sort(lengths);
     const double median = lengths[lengths.size() / 2];

@@ -200,10 +200,10 @@ void fuse(Scan& scan) {
   const std::uint32_t largest = pieces.largest();
   std::map<std::uint32_t, std::pair<double, Triangle>> bridges;
   for (const Triangle& own : scan.triangles) {
-    const std::uint32_t piece = pieces.of_vertex[own[0]];
+    const std::uint32_t piece = pieces.component_of_vertex[own[0]];
     if (piece == largest) continue;
     for (const Triangle& other : scan.triangles) {
-      if (pieces.of_vertex[other[0]] != largest) continue;
+      if (pieces.component_of_vertex[other[0]] != largest) continue;
       const double distance =
           (scan.positions.row(own[0]) - scan.positions.row(other[0])).squaredNorm();
       const auto [known, added] = bridges.try_emplace(piece, 1e300, Triangle{});

@@ -306,10 +306,10 @@ TEST(Unfold, TurnsFoldedTrianglesBackAndTouchesNothingElse) {
   const Positions rest = shape.skin.rows_of(shape.positions);
   Positions folded = rest;
   const Index v = 2000;
-  for (const std::uint32_t n : shape.skin.adjacency.of(v)) {
+  for (const std::uint32_t n : shape.skin.adjacency.items_of(v)) {
     folded.row(v) += 0.9 * (rest.row(n) - rest.row(v));
   }
-  folded.row(v) += 2.5 * (rest.row(shape.skin.adjacency.of(v)[0]) - rest.row(v));
+  folded.row(v) += 2.5 * (rest.row(shape.skin.adjacency.items_of(v)[0]) - rest.row(v));
   ASSERT_FALSE(folded_triangles(shape.skin, rest, folded).empty());
   Positions mended = folded;
   EXPECT_EQ(unfold(shape.skin, rest, mended), 0);

@@ -91,7 +91,7 @@ class Roots {
       if (is_found_[point]) continue;
       is_found_[point] = true;
       of_point_[point] = skin_.nearest_skin(skin_.mesh(), normals_, from, row3(points_, point));
-      for (const std::uint32_t next : neighbours.of(point)) {
+      for (const std::uint32_t next : neighbours.items_of(point)) {
         if (is_found_[next]) continue;
         QueueEntry found = nearest[next];
         found.vertex = of_point_[point].vertex;
@@ -186,7 +186,7 @@ Displacements ShapeBend::shape_displacements(const Positions& face, const Positi
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
     bool any = false;
-    for (const BendNodes::Share& share : nodes_.shares.of(p)) {
+    for (const BendNodes::Share& share : nodes_.shares.items_of(p)) {
       const double weight = static_cast<double>(share.weight);
       weights += weight;
       if (!affects[share.node]) continue;

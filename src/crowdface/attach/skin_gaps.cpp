@@ -83,7 +83,7 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
   for (int round = 0; round < kRounds; ++round) {
     const Positions before = moves;
     parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
-      const auto around = neighbours_.of(p);
+      const auto around = neighbours_.items_of(p);
       if (around.empty()) return;
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       for (const std::uint32_t other : around) mean += row3(before, other);

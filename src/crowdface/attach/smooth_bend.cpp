@@ -70,7 +70,7 @@ Positions SmoothBend::bend(const Positions& face) const {
     const Eigen::Vector3d point = row3(points_, p);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
-    for (const BendNodes::Share& share : nodes_.shares.of(p)) {
+    for (const BendNodes::Share& share : nodes_.shares.items_of(p)) {
       const double weight = static_cast<double>(share.weight);
       sum += weight * motions[share.node].apply(point);
       weights += weight;

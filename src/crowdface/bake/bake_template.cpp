@@ -41,7 +41,7 @@ void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is
     if (file != kNoIndex) {
       if (!used.contains(file)) file = kNoIndex;
     } else if (is_skin[f]) {
-      const std::uint32_t material = materials.of_face[f];
+      const std::uint32_t material = materials.material_of_face[f];
       const auto [row, is_new] = rows.try_emplace({material, found.tile[f]},
                                                   static_cast<std::uint32_t>(placed.files.size()));
       if (is_new) {
@@ -90,7 +90,8 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int p
   for (TextureLayout::Picture& picture : layout.pictures) picture = {picture_side, picture_side};
   for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
     if (layout.of_face[f] == kNoIndex) continue;
-    pictures_by_material_.try_emplace(materials.names[materials.of_face[f]], layout.of_face[f]);
+    pictures_by_material_.try_emplace(materials.names[materials.material_of_face[f]],
+                                      layout.of_face[f]);
   }
   maps_ = read_mesh_maps(own, TextureKind::kColour, topology, file.uvs);
   for (std::uint32_t p = 0; p < pictures.size(); ++p) {

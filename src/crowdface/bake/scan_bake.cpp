@@ -100,7 +100,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
 }
 
 double ScanBake::mean_edge_length(Index vertex) const {
-  const auto around = template_.shape().skin.adjacency.of(vertex);
+  const auto around = template_.shape().skin.adjacency.items_of(vertex);
   double sum = 0;
   for (const std::uint32_t n : around) sum += (positions_.row(n) - positions_.row(vertex)).norm();
   return around.empty() ? 0 : sum / static_cast<double>(around.size());

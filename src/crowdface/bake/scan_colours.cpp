@@ -134,7 +134,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     if (own != mesh.material_colours.end()) colour = own->second;
     material_light_.push_back(colour);
   }
-  material_of_face_ = std::move(materials.of_face);
+  material_of_face_ = std::move(materials.material_of_face);
   has_colours_ =
       !colours_.textures.empty() || has_vertex_colours() ||
       std::ranges::any_of(material_light_, [](const auto& light) { return light.has_value(); });

@@ -33,7 +33,7 @@ std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
 Columns band_differences(const HeadSet& faces, const std::vector<SmoothedBand>& bands,
                          const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));
-  parallel_blocks(target.rows(), kRowBlock, [&](Index begin, Index end) {
+  parallel_blocks(target.rows(), kRowsPerTask, [&](Index begin, Index end) {
     Positions coarser;
     for (std::size_t i = 0; i < bands.size(); ++i) {
       const BandRecipe& band = *bands[i].band;
@@ -78,7 +78,7 @@ void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const Regi
   const auto smoothed = filter.run<double>(inputs);
   const auto* of_face = smoothed.data();
   for (std::size_t f = 0; f < recipes.size(); of_face += bands[f].size(), ++f) {
-    parallel_blocks(results[f].rows(), kRowBlock, [&](Index begin, Index end) {
+    parallel_blocks(results[f].rows(), kRowsPerTask, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
         const std::size_t row = filter.row_of_vertex()[static_cast<std::size_t>(i)];
         for (std::size_t b = 0; b < bands[f].size(); ++b) {

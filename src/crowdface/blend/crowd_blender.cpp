@@ -37,7 +37,7 @@ class AlignedFloats {
  public:
   /// Resizes the buffer; its content becomes unspecified.
   float* resize(std::size_t count) {
-    lines_.resize(count / kPatchStep + 1);
+    lines_.resize(count / kPatchPadding + 1);
     return lines_.front().values;
   }
   float* zeros(std::size_t count) {
@@ -48,7 +48,7 @@ class AlignedFloats {
 
  private:
   struct alignas(64) Line {
-    float values[kPatchStep];
+    float values[kPatchPadding];
   };
   std::vector<Line> lines_;
 };

@@ -25,7 +25,7 @@ HWY_INLINE hn::VFromD<Lanes> widened(Lanes lanes, const std::int16_t* numbers) {
 }
 
 void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values) {
-  const hn::CappedTag<float, kPatchStep> lanes;
+  const hn::CappedTag<float, kPatchPadding> lanes;
   const auto factor = hn::Set(lanes, step);
   for (std::size_t i = 0; i < count; i += hn::Lanes(lanes)) {
     hn::StoreU(hn::Mul(widened(lanes, numbers + i), factor), lanes, values + i);
@@ -47,7 +47,7 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
 template <std::size_t kOfColumns, std::size_t kVectors, class Number>
 HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* const* columns,
                               const float* alpha, std::size_t begin, float* const* products) {
-  const hn::CappedTag<float, kPatchStep> lanes;
+  const hn::CappedTag<float, kPatchPadding> lanes;
   using V = hn::VFromD<decltype(lanes)>;
   const std::size_t width = hn::Lanes(lanes);
   V sums[kOfColumns][kVectors];
@@ -61,7 +61,7 @@ HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* cons
     for (std::size_t c = 0; c < kOfColumns; ++c) {
       const V factor = hn::Set(lanes, columns[c][row]);
       for (std::size_t v = 0; v < kVectors; ++v) {
-        sums[c][v] = fused(factor, values[v], sums[c][v]);
+        sums[c][v] = fused_multiply_add(factor, values[v], sums[c][v]);
       }
     }
   }
@@ -81,7 +81,7 @@ HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* cons
 template <std::size_t kOfColumns, class Number>
 void multiply_columns(const ProductRows<Number>& rows, const float* const* columns,
                       const float* alpha, float* const* products) {
-  const hn::CappedTag<float, kPatchStep> lanes;
+  const hn::CappedTag<float, kPatchPadding> lanes;
   const std::size_t width = hn::Lanes(lanes);
   constexpr std::size_t kMany = kOfColumns <= 2 ? 6 : kOfColumns <= 3 ? 4 : 2;
   std::size_t i = 0;
@@ -139,7 +139,7 @@ void write_run(const double* base, const float* added, std::size_t count, double
 
 void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
                 double* results) {
-  const hn::CappedTag<float, kPatchStep> lanes;
+  const hn::CappedTag<float, kPatchPadding> lanes;
   HWY_ALIGN float by_vertex[3 * kPatchVertices];
   for (std::size_t i = 0; i < kPatchVertices; i += hn::Lanes(lanes)) {
     const float* x = added + i;

@@ -12,7 +12,7 @@ namespace crowdface {
 inline constexpr std::size_t kColumns = 6;
 
 /// Converts quantized numbers to values: values[i] = numbers[i]·step.
-/// \param count  a multiple of kPatchStep.
+/// \param count  a multiple of kPatchPadding.
 void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values);
 
 /// The left matrix of a product: rows of quantized (int16) or unpacked (float) values.
@@ -20,7 +20,7 @@ template <class Number>
 struct ProductRows {
   const Number* values;
   std::size_t stride;  ///< distance between the starts of consecutive rows, in elements
-  std::size_t width;   ///< elements per row; a multiple of kPatchStep
+  std::size_t width;   ///< elements per row; a multiple of kPatchPadding
   std::span<const std::uint32_t> used;  ///< indices of the rows that enter the sum, in this order
 };
 

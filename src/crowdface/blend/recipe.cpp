@@ -48,8 +48,8 @@ bool is_unmirrored(const Recipe& recipe) {
   return recipe.asymmetry == 1 && !recipe.mirrored;
 }
 
-double mirror_share(const Recipe& recipe) {
-  return mirror_share(recipe.asymmetry, recipe.mirrored);
+double mirrored_weight(const Recipe& recipe) {
+  return mirrored_weight(recipe.asymmetry, recipe.mirrored);
 }
 
 std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,

@@ -64,8 +64,8 @@ struct Recipe {
 
 /// Returns whether the blended face stays unchanged: not mirrored, and with asymmetry 1.
 bool is_unmirrored(const Recipe& recipe);
-/// Returns the weight of the mirror image in the face, see mirror_share(double, bool).
-double mirror_share(const Recipe& recipe);
+/// Returns the weight of the mirror image in the face, see mirrored_weight(double, bool).
+double mirrored_weight(const Recipe& recipe);
 
 /// A smoothing level of a region, and the weights of the heads that are smoothed to this level; see
 /// level_shares.

@@ -15,7 +15,7 @@ double middle_of_skin(const Components& components, const Positions& mean, Axis 
   const std::uint32_t skin = components.largest();
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (Index i = 0; i < mean.rows(); ++i) {
-    if (components.of_vertex[static_cast<std::size_t>(i)] != skin) continue;
+    if (components.component_of_vertex[static_cast<std::size_t>(i)] != skin) continue;
     low = std::min(low, front.sign * mean(i, front.index));
     high = std::max(high, front.sign * mean(i, front.index));
   }
@@ -36,7 +36,8 @@ std::vector<double> face_areas(const Topology& topology, const Components& compo
     const auto face = topology.face(f);
     const double share = 0.5 * std::sqrt(twice.squaredNorm()) / static_cast<double>(face.size());
     for (const std::uint32_t i : face) {
-      if (components.of_vertex[i] == skin && front.sign * mean(i, front.index) >= middle) {
+      if (components.component_of_vertex[i] == skin &&
+          front.sign * mean(i, front.index) >= middle) {
         areas[i] += share;
       }
     }

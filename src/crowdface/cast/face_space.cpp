@@ -213,7 +213,7 @@ const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
 }
 
 FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapolation) const {
-  const double w = mirror_share(recipe);
+  const double w = mirrored_weight(recipe);
   if (w == 0) return shape_in_side(recipe, extrapolation, 0);
   require(sides() == 2, "a mirrored face, and no mirror images of heads");
   if (w == 1) return shape_in_side(recipe, extrapolation, 1);
@@ -291,8 +291,8 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
   // Distance of the face from the span of the directions. For two faces, the difference of these
   // distances is at most the distance between the two residuals.
-  const double rest =
-      fixed_dot(at.data(), at.data(), at.size()) - fixed_dot(result.data(), result.data(), size);
+  const double rest = fixed_order_dot(at.data(), at.data(), at.size()) -
+                      fixed_order_dot(result.data(), result.data(), size);
   result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
   return result;
 }
@@ -348,8 +348,8 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     FloatRows gram(functions, functions);
     parallel_for_each(functions, [&](Index p) {
       for (Index q = 0; q <= p; ++q) {
-        gram(p, q) = gram(q, p) =
-            static_cast<float>(fixed_dot(masked.row(p).data(), masked.row(q).data(), samples));
+        gram(p, q) = gram(q, p) = static_cast<float>(
+            fixed_order_dot(masked.row(p).data(), masked.row(q).data(), samples));
       }
     });
     FloatRows metric(rank, rank);
@@ -364,8 +364,8 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
         for (Index p = 0; p < functions; ++p) along[static_cast<std::size_t>(3 * p + c)] = sums[p];
       }
       for (Index e = 0; e < rank; ++e) {
-        metric(e, d) =
-            static_cast<float>(fixed_dot(directions.row(e).data(), along.data(), along.size()));
+        metric(e, d) = static_cast<float>(
+            fixed_order_dot(directions.row(e).data(), along.data(), along.size()));
       }
     });
     tables_.metrics.push_back(std::move(metric));
@@ -380,7 +380,7 @@ FaceSpace::RegionPoint FaceSpace::in_region(const Point& point, Index region) co
     const auto size = static_cast<std::size_t>(metric.rows());
     Eigen::VectorXf product(metric.rows());
     for (Index i = 0; i < metric.rows(); ++i) {
-      product[i] = static_cast<float>(fixed_dot(metric.row(i).data(), at.data(), size));
+      product[i] = static_cast<float>(fixed_order_dot(metric.row(i).data(), at.data(), size));
     }
     return product;
   };

@@ -72,7 +72,7 @@ struct Products {
   float one(std::size_t i) const { return a[i] * b[i]; }
 };
 
-double fixed_dot(const float* a, const float* b, std::size_t count) {
+double fixed_order_dot(const float* a, const float* b, std::size_t count) {
   return sum_of(Products{a, b}, count);
 }
 
@@ -170,14 +170,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
-HWY_EXPORT(fixed_dot);
+HWY_EXPORT(fixed_order_dot);
 HWY_EXPORT(add_scaled);
 HWY_EXPORT(add_scaled_and_square);
 HWY_EXPORT(add_scaled_rows);
 HWY_EXPORT(add_squares);
 
-double fixed_dot(const float* a, const float* b, std::size_t count) {
-  return HWY_DYNAMIC_DISPATCH(fixed_dot)(a, b, count);
+double fixed_order_dot(const float* a, const float* b, std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(fixed_order_dot)(a, b, count);
 }
 
 void add_scaled(float factor, const float* from, std::size_t count, float* to) {

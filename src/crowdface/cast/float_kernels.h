@@ -10,12 +10,12 @@ namespace crowdface {
 
 /// Returns Σ a_i b_i. Each chunk of 1024 numbers has sixteen sums in single precision; all sums are
 /// added in double precision.
-double fixed_dot(const float* a, const float* b, std::size_t count);
+double fixed_order_dot(const float* a, const float* b, std::size_t count);
 
 /// Computes to[i] += factor·from[i].
 void add_scaled(float factor, const float* from, std::size_t count, float* to);
 
-/// Like add_scaled, but also returns fixed_dot of the new `to` with itself.
+/// Like add_scaled, but also returns fixed_order_dot of the new `to` with itself.
 double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to);
 
 /// Computes to[d] += factors[i]·rows[i][d], for one i after the other.

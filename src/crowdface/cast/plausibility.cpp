@@ -29,14 +29,14 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
   double variance = 0;
   for (auto& head : metric.offsets) {
     for (std::size_t d = 0; d < head.size(); ++d) head[d] -= metric.mean[d];
-    variance += fixed_dot(head, head);
+    variance += fixed_order_dot(head, head);
   }
   const double freedom = std::max<double>(static_cast<double>(count) - 1, 1);
   metric.ridge = std::max(kRidge * variance / (freedom * freedom), 1e-12);
   std::vector<std::vector<double>> gram(count, std::vector<double>(count));
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
-      gram[a][b] = gram[b][a] = fixed_dot(metric.offsets[a], metric.offsets[b]);
+      gram[a][b] = gram[b][a] = fixed_order_dot(metric.offsets[a], metric.offsets[b]);
     }
     gram[a][a] += metric.ridge * freedom;
   }
@@ -51,10 +51,10 @@ double Plausibility::squared_distance(const Metric& metric, const Eigen::VectorX
   for (std::size_t d = 0; d < z.size(); ++d) {
     z[d] = static_cast<double>(at[static_cast<Index>(d)]) - metric.mean[d];
   }
-  for (const auto& head : metric.offsets) along.push_back(fixed_dot(head, z));
+  for (const auto& head : metric.offsets) along.push_back(fixed_order_dot(head, z));
   const std::vector<double> solved =
       solve_lower(metric.lower, std::move(along), metric.lower.size());
-  return (fixed_dot(z, z) - fixed_dot(solved, solved)) / metric.ridge;
+  return (fixed_order_dot(z, z) - fixed_order_dot(solved, solved)) / metric.ridge;
 }
 
 Plausibility::Plausibility(const FaceSpace& space) {

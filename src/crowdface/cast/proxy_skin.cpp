@@ -22,7 +22,7 @@ void mark_neighbourhood(const Adjacency& adjacency, const Triangle& t, std::uint
   for (int e = 0; e < kNeighbourEdges; ++e) {
     const std::size_t end = reached.size();
     for (; begin < end; ++begin) {
-      for (const std::uint32_t next : adjacency.of(reached[begin])) {
+      for (const std::uint32_t next : adjacency.items_of(reached[begin])) {
         if (marks[next] == mark) continue;
         marks[next] = mark;
         reached.push_back(next);

@@ -15,7 +15,7 @@ SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
   distances.search(samples);
   SampleCells cells;
   for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(adjacency.vertex_count()); ++v) {
-    cells.of_vertex.push_back(distances.source(v));
+    cells.of_vertex.push_back(distances.nearest_source(v));
   }
   return cells;
 }

@@ -85,11 +85,11 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
 /// mirrors the face.
 template <class Property>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {
-  const double w = mirror_share(recipe);
+  const double w = mirrored_weight(recipe);
   if (w == 0) return property(heads);
   require(heads.image != nullptr, "a mirrored face, and no mirror images of heads");
   if (w == 1) return property(*heads.image);
-  return blend_with_image(property(heads), property(*heads.image), w);
+  return blend_with_mirrored(property(heads), property(*heads.image), w);
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ std::shared_ptr<const SampledHeads> sample_images(
             moved(a) += mirror.shares[v][c] * static_cast<double>(from(l, at + a));
           }
         }
-        const Eigen::Vector3d turned = directions.image(moved);
+        const Eigen::Vector3d turned = directions.mirrored(moved);
         for (Index a = 0; a < 3; ++a) {
           image->owned_trajectories[h](l, 3 * s + a) = static_cast<float>(turned(a));
         }

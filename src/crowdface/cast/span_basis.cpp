@@ -24,7 +24,8 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
   const Index at_a_time = std::max<Index>(kNumbersAtATime / std::max<Index>(size, 1), 1);
   std::vector<double> left(static_cast<std::size_t>(count));
   parallel_for_each(count, at_a_time, [&](Index n) {
-    left[static_cast<std::size_t>(n)] = fixed_dot(rows.row(n).data(), rows.row(n).data(), length);
+    left[static_cast<std::size_t>(n)] =
+        fixed_order_dot(rows.row(n).data(), rows.row(n).data(), length);
   });
   std::vector<Eigen::VectorXf> directions, coordinates;
   while (static_cast<Index>(directions.size()) < most) {
@@ -40,7 +41,7 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
       double& rest = left[static_cast<std::size_t>(n)];
       if (rest <= enough) return;  // spanned well enough already
       float* row = rows.row(n).data();
-      const auto part = static_cast<float>(fixed_dot(q.data(), row, length));
+      const auto part = static_cast<float>(fixed_order_dot(q.data(), row, length));
       along[n] = part;
       rest = add_scaled_and_square(-part, q.data(), length, row);
       if (n == pivot) rest = 0;

@@ -28,7 +28,7 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
   for (const fs::path& file : list_heads(folder)) {
     std::error_code error;
     const bool is_neutral = fs::equivalent(file, neutral, error);
-    require_stat(file, error);
+    throw_if_system_error(file, error);
     if (is_neutral) continue;
     const std::string name = file.stem().string();
     if (!is_name(name)) {

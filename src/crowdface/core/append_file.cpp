@@ -12,10 +12,10 @@ AppendFile::AppendFile(const std::filesystem::path& path)
     : path_(path),
       file_(::open(path.c_str(),
                    O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666)) {
-  if (!file_.valid()) throw_with_reason<CannotCreate>(path, "cannot be opened to append");
+  if (!file_.valid()) throw_with_errno<CannotCreate>(path, "cannot be opened to append");
   struct stat status {};
   if (::fstat(file_.get(), &status) != 0)
-    throw_with_reason<IoError>(path, "its file status cannot be read");
+    throw_with_errno<IoError>(path, "its file status cannot be read");
   if (!S_ISREG(status.st_mode)) {
     throw CannotCreate(concat(path.string(), ": expected a regular file, or none yet"));
   }
@@ -24,7 +24,7 @@ AppendFile::AppendFile(const std::filesystem::path& path)
 void AppendFile::append(std::string_view bytes) {
   const std::lock_guard lock(mutex_);
   if (!write_all(file_.get(), bytes) || !sync(file_.get())) {
-    throw_with_reason<IoError>(path_, "appending failed");
+    throw_with_errno<IoError>(path_, "appending failed");
   }
 }
 

@@ -17,12 +17,12 @@ struct CompressedRows {
 
   std::size_t group_count() const { return offsets.size() - 1; }
   template <std::integral Number>
-  std::span<const T> of(Number group) const {
+  std::span<const T> items_of(Number group) const {
     const T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
     return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
   }
   template <std::integral Number>
-  std::span<T> of(Number group) {
+  std::span<T> items_of(Number group) {
     T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
     return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
   }
@@ -37,8 +37,8 @@ struct CompressedRows {
 };
 
 /// Builds the groups by a counting sort. Items keep their order within a group.
-/// \param visit  visit(put) calls put(group, item) for each item. Called twice; both calls must
-///               visit the same items in the same order.
+/// \param visit  visit(put) calls put(group, item) for each item. `visit` is called twice and must
+///   pass the same items in the same order both times.
 template <class T, class Visit>
 CompressedRows<T> compressed_rows(std::size_t groups, const Visit& visit) {
   CompressedRows<T> result{.offsets = std::vector<std::uint32_t>(groups + 1, 0), .items = {}};

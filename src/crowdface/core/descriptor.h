@@ -23,7 +23,7 @@ inline std::string errno_message() {
 
 /// \throws Failure with the message "FILE: WHAT: REASON", where REASON explains `errno`.
 template <class Failure>
-[[noreturn]] void throw_with_reason(const std::filesystem::path& file, std::string_view what) {
+[[noreturn]] void throw_with_errno(const std::filesystem::path& file, std::string_view what) {
   throw Failure(concat(file.string(), ": ", what, ": ", errno_message()));
 }
 
@@ -56,7 +56,7 @@ class Descriptor {
 bool is_system_error(int error);
 /// \throws IoError on a system error (disk, memory, too many open files) while the status of `path`
 /// is read.
-void require_stat(const std::filesystem::path& path, const std::error_code& error);
+void throw_if_system_error(const std::filesystem::path& path, const std::error_code& error);
 
 /// Whether `path`, with links followed, still names the open file `file`. False after the file was
 /// removed, renamed or replaced. \throws IoError on a system error (disk, memory, too many open

@@ -40,27 +40,27 @@ struct RecoverableError : Error {
 
 /// One class per exit code, so that callers can catch each kind of error separately.
 template <ExitCode kCode>
-struct ErrorOf : RecoverableError {
-  explicit ErrorOf(const std::string& message) : RecoverableError(kCode, message) {}
+struct ErrorWithCode : RecoverableError {
+  explicit ErrorWithCode(const std::string& message) : RecoverableError(kCode, message) {}
 };
 
 /// Wrong command line or config.
-using UsageError = ErrorOf<ExitCode::kUsage>;
+using UsageError = ErrorWithCode<ExitCode::kUsage>;
 /// Unusable input data.
-using InvalidInput = ErrorOf<ExitCode::kBadData>;
+using InvalidInput = ErrorWithCode<ExitCode::kBadData>;
 /// \throws InvalidInput with the message "FILE: WHAT".
 [[noreturn]] inline void refuse_file(const std::filesystem::path& file, const std::string& what) {
   throw InvalidInput(file.string() + ": " + what);
 }
 /// An input that does not exist or cannot be opened.
-using MissingInput = ErrorOf<ExitCode::kMissingInput>;
+using MissingInput = ErrorWithCode<ExitCode::kMissingInput>;
 /// The constraints of a plan cannot be met.
-using Unsatisfiable = ErrorOf<ExitCode::kUnsatisfiable>;
+using Unsatisfiable = ErrorWithCode<ExitCode::kUnsatisfiable>;
 /// An output file or folder that cannot be created.
-using CannotCreate = ErrorOf<ExitCode::kCannotCreate>;
+using CannotCreate = ErrorWithCode<ExitCode::kCannotCreate>;
 /// A read or write that failed after it began.
-using IoError = ErrorOf<ExitCode::kIoError>;
+using IoError = ErrorWithCode<ExitCode::kIoError>;
 /// The run was stopped by a signal.
-using Interrupted = ErrorOf<ExitCode::kInterrupted>;
+using Interrupted = ErrorWithCode<ExitCode::kInterrupted>;
 
 }  // namespace crowdface

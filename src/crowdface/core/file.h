@@ -45,7 +45,7 @@ bool has_content(const std::filesystem::path& path, const FileDigest& content);
 /// handler applies to the whole process. A SIGBUS handler that is already installed stays in place.
 void watch_mapped_files();
 
-/// What happens when a mapped file is truncated.
+/// What reading a mapped file does after another program has truncated the file.
 enum class OnTruncation {
   kEnd,  ///< the process ends with exit code 74 and a message that names the file
   kFill  ///< the missing pages read as zeros, and `was_truncated` returns true
@@ -61,15 +61,16 @@ class MappedFile {
   /// \throws MissingInput if the file cannot be opened or is not a regular file; IoError on a read
   /// error, or if the file is truncated while it is copied.
   explicit MappedFile(const std::filesystem::path& path,
-                      OnTruncation when_cut = OnTruncation::kEnd);
+                      OnTruncation on_truncation = OnTruncation::kEnd);
   /// Writes the bytes to an unnamed temporary file and maps that file. The bytes then lie on disk,
   /// and the kernel caches them in free memory. The file disappears when the process ends, even if
   /// the process is killed.
   /// \param folder  folder of the temporary file; created if missing. \throws CannotCreate,
   ///                IoError.
-  static MappedFile of_scratch(std::string_view bytes, const std::filesystem::path& folder);
+  static MappedFile from_temporary_copy(std::string_view bytes,
+                                        const std::filesystem::path& folder);
   /// Wraps a text in memory, for code that expects a file.
-  static MappedFile of_text(std::string text);
+  static MappedFile from_text(std::string text);
   std::string_view bytes() const;
   /// With kFill: whether the file became shorter while it was mapped; the missing bytes then read
   /// as zeros. Without kFill always false.
@@ -78,13 +79,13 @@ class MappedFile {
  private:
   struct Mapping;
   std::shared_ptr<const Mapping> mapping_;   ///< null if the file is empty
-  std::shared_ptr<const std::string> text_;  ///< set by of_text, instead of `mapping_`
+  std::shared_ptr<const std::string> text_;  ///< set by from_text, instead of `mapping_`
 };
 
 /// Writes a file atomically: afterwards `path` is the complete new file, or the function throws and
 /// `path` is as before. Steps: write a temporary file in the same folder (locked until it is
-/// renamed, see remove_leftovers), fsync, close with error check, rename, fsync the folder. The
-/// file is the concatenation of `pieces`. All output files except the log are written this way.
+/// renamed, see remove_temporary_files), fsync, close with error check, rename, fsync the folder.
+/// The file is the concatenation of `pieces`. All output files except the log are written this way.
 /// \throws CannotCreate, IoError; the temporary file is then removed.
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
@@ -104,7 +105,7 @@ void write_files(std::span<const FileToWrite> files);
 /// Files still being written, by this or another machine, are kept. Does nothing if the folder does
 /// not exist.
 /// \return number of files removed. \throws IoError if the folder cannot be read.
-std::size_t remove_leftovers(const std::filesystem::path& folder);
+std::size_t remove_temporary_files(const std::filesystem::path& folder);
 
 /// Creates a folder and its parents. Does nothing for the empty path. \throws CannotCreate.
 void make_directories(const std::filesystem::path& path);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 Descriptor open_lock_file(const fs::path& path) {
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
-  if (!file.valid()) throw_with_reason<CannotCreate>(path, "lock file cannot be created");
+  if (!file.valid()) throw_with_errno<CannotCreate>(path, "lock file cannot be created");
   return file;
 }
 
@@ -36,7 +36,7 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
       continue;
     }
     if (errno != EWOULDBLOCK && errno != EINTR) {
-      throw_with_reason<IoError>(path, "cannot be locked");
+      throw_with_errno<IoError>(path, "cannot be locked");
     }
     if (!told && waiting) waiting();
     told = true;

@@ -10,35 +10,35 @@
 namespace crowdface {
 
 /// Σ a_i b_i, summed in ascending order of i. \param b  at least as long as a.
-inline double fixed_dot(std::span<const double> a, std::span<const double> b) {
+inline double fixed_order_dot(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
-/// Subtracts in place: to ← to − factor·from.
-inline void subtract_scaled(double factor, std::span<const double> from, std::span<double> to) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] -= factor * from[i];
+/// Subtracts in place: y ← y − factor·x.
+inline void subtract_scaled(double factor, std::span<const double> x, std::span<double> y) {
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] -= factor * x[i];
 }
 
 /// Subtracts from `vector` its components along orthonormal directions and scales it to unit length
 /// (Gram–Schmidt, two passes against rounding errors).
-/// \param count      number of orthonormal directions.
-/// \param direction  direction(m) returns direction m, as long as `vector`.
-/// \param share      callback: share(m, part) receives the component along direction m that a pass
-///                   removes; called once per direction and pass.
-/// \return           length of the remainder before scaling.
-template <class Direction, class Share>
+/// \param count       number of orthonormal directions.
+/// \param direction   direction(m) returns direction m, as long as `vector`.
+/// \param on_removal  on_removal(m, component) is called once per direction m and pass, with the
+///                    component along the direction that the pass removes.
+/// \return            length of the remainder before scaling.
+template <class Direction, class OnRemoval>
 double orthonormalize(std::span<double> vector, std::size_t count, const Direction& direction,
-                      const Share& share) {
+                      const OnRemoval& on_removal) {
   for (int twice = 0; twice < 2; ++twice) {
     for (std::size_t m = 0; m < count; ++m) {
-      const double part = fixed_dot(vector, direction(m));
-      share(m, part);
-      subtract_scaled(part, direction(m), vector);
+      const double component = fixed_order_dot(vector, direction(m));
+      on_removal(m, component);
+      subtract_scaled(component, direction(m), vector);
     }
   }
-  const double length = std::sqrt(fixed_dot(vector, vector));
+  const double length = std::sqrt(fixed_order_dot(vector, vector));
   for (double& value : vector) value /= length;
   return length;
 }
@@ -50,7 +50,7 @@ template <class Matrix>
 Matrix cholesky(Matrix a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      const double rest = a[i][j] - fixed_dot({a[i].data(), j}, {a[j].data(), j});
+      const double rest = a[i][j] - fixed_order_dot({a[i].data(), j}, {a[j].data(), j});
       a[i][j] = i == j ? std::sqrt(rest) : rest / a[j][j];
     }
   }
@@ -61,7 +61,7 @@ Matrix cholesky(Matrix a, std::size_t n) {
 template <class Matrix, class Vector>
 Vector solve_lower(const Matrix& lower, Vector b, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
-    b[i] = (b[i] - fixed_dot({lower[i].data(), i}, {b.data(), i})) / lower[i][i];
+    b[i] = (b[i] - fixed_order_dot({lower[i].data(), i}, {b.data(), i})) / lower[i][i];
   }
   return b;
 }

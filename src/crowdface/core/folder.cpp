@@ -36,14 +36,14 @@ std::vector<fs::path> list_folder(const fs::path& folder, std::error_code* error
   std::vector<fs::path> found;
   if (opened) {
     errno = 0;
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread reads this stream
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread reads this directory stream
     while (const dirent* entry = ::readdir(opened.get())) {
       const std::string_view each = entry->d_name;
       if (each != "." && each != "..") found.push_back(folder / each);
       errno = 0;
     }
   }
-  if (!opened || errno != 0) throw_with_reason<IoError>(name, "cannot be read as a folder");
+  if (!opened || errno != 0) throw_with_errno<IoError>(name, "cannot be read as a folder");
   std::ranges::sort(found);
   return found;
 }
@@ -56,13 +56,13 @@ std::vector<fs::path> list_files(const fs::path& folder,
   return files;
 }
 
-std::vector<fs::path> folders_from(const fs::path& root) {
+std::vector<fs::path> folder_tree(const fs::path& root) {
   std::vector<fs::path> folders = {root};
   for (std::size_t i = 0; i < folders.size(); ++i) {
     for (fs::path& entry : list_folder(folders[i])) {
       std::error_code error;
       const fs::file_status status = fs::symlink_status(entry, error);
-      require_stat(entry, error);
+      throw_if_system_error(entry, error);
       if (fs::is_directory(status)) folders.push_back(std::move(entry));
     }
   }
@@ -73,8 +73,8 @@ bool is_inside_folder(const fs::path& path, const fs::path& folder) {
   std::error_code of_path, of_folder;
   const fs::path way = fs::weakly_canonical(path, of_path)
                            .lexically_relative(fs::weakly_canonical(folder, of_folder));
-  require_stat(path, of_path);
-  require_stat(folder, of_folder);
+  throw_if_system_error(path, of_path);
+  throw_if_system_error(folder, of_folder);
   return !of_path && !of_folder && !way.empty() && *way.begin() != "..";
 }
 
@@ -82,7 +82,7 @@ DirectoryHandle::DirectoryHandle(const fs::path& folder)
     : path_(folder),
       opened_(::open(folder.empty() ? "." : folder.c_str(),
                      O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_PATH)) {
-  if (!opened_.valid()) throw_with_reason<CannotCreate>(path_, "cannot be opened as a folder");
+  if (!opened_.valid()) throw_with_errno<CannotCreate>(path_, "cannot be opened as a folder");
 }
 
 void DirectoryHandle::require_same() const {

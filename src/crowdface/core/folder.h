@@ -24,13 +24,13 @@ std::vector<std::filesystem::path> list_files(
     std::error_code* error = nullptr);
 
 /// Predicate for list_files: the path's extension is `ending`, such as ".obj".
-inline auto has_ending(const char* ending) {
+inline auto has_extension(const char* ending) {
   return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
 }
 
 /// A folder and all its subfolders, parents first. Symbolic links are not followed.
 /// \throws IoError like list_folder.
-std::vector<std::filesystem::path> folders_from(const std::filesystem::path& root);
+std::vector<std::filesystem::path> folder_tree(const std::filesystem::path& root);
 
 /// Whether `path` is `folder` or lies inside it, after all links are resolved. The path need not
 /// exist. Returns false if one of the paths cannot be resolved. \throws IoError on a system error

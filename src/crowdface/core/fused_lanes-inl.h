@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector operations with the same result bits on every instruction set. Kernels include this file
-// after hwy/foreach_target.h, which compiles them once per instruction set; hence Highway's include
-// guard.
+// after hwy/foreach_target.h, which compiles each kernel once per instruction set; therefore the
+// file has Highway's include guard.
 #if defined(CROWDFACE_FUSED_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CROWDFACE_FUSED_LANES_INL_H_
 #undef CROWDFACE_FUSED_LANES_INL_H_
@@ -19,7 +19,7 @@ namespace crowdface::HWY_NAMESPACE {
 #if !HWY_NATIVE_FMA
 /// std::fma in every lane, for targets without a fused multiply-add instruction.
 template <class V>
-V fused_lane_by_lane(V a, V b, V c) {
+V multiply_add_lane_by_lane(V a, V b, V c) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::DFromV<V> lanes;
   using T = hn::TFromD<decltype(lanes)>;
@@ -38,21 +38,21 @@ V fused_lane_by_lane(V a, V b, V c) {
 /// a·b + c in every lane, rounded once. (Highway's MulAdd rounds twice on targets without a fused
 /// multiply-add instruction.)
 template <class V>
-HWY_INLINE V fused(V a, V b, V c) {
+HWY_INLINE V fused_multiply_add(V a, V b, V c) {
 #if HWY_NATIVE_FMA
   return hwy::HWY_NAMESPACE::MulAdd(a, b, c);
 #else
-  return fused_lane_by_lane(a, b, c);
+  return multiply_add_lane_by_lane(a, b, c);
 #endif
 }
 
 /// a·b − c in every lane, rounded once.
 template <class V>
-HWY_INLINE V fused_less(V a, V b, V c) {
+HWY_INLINE V fused_multiply_subtract(V a, V b, V c) {
 #if HWY_NATIVE_FMA
   return hwy::HWY_NAMESPACE::MulSub(a, b, c);
 #else
-  return fused_lane_by_lane(a, b, hwy::HWY_NAMESPACE::Neg(c));
+  return multiply_add_lane_by_lane(a, b, hwy::HWY_NAMESPACE::Neg(c));
 #endif
 }
 

@@ -24,7 +24,8 @@ constexpr timespec kGrace = {0, 700'000'000};  ///< 0.7 s
 timer_t grace_timer;
 const int kGraceSignal = SIGRTMIN;
 
-/// Ends the program immediately, like SIGKILL; files under their final names are complete.
+/// Ends the program immediately, like SIGKILL. No output file is left half-written under its final
+/// name.
 extern "C" void end_program(int) {
   for (const char* text : {"error: ", kMessage, "\n"}) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
@@ -52,7 +53,7 @@ void catch_interrupts() {
   ::timer_create(CLOCK_MONOTONIC, &event, &grace_timer);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction action {};
-    // The parent process wants this signal ignored, as nohup does.
+    // Keep ignoring a signal that the parent process, such as nohup, has set to be ignored.
     if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = remember_signal;

@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// Values computed on first request and kept. Thread-safe. No lock is held during the computation,
-/// because it may run parallel loops. Two threads may therefore compute the same value; the first
-/// result is kept.
+/// A map that computes each value at the first request and keeps it. Thread-safe. No lock is held
+/// during the computation, because it may run parallel loops. Two threads may therefore compute the
+/// same value; the first result is kept.
 template <class Key, class Value>
 class LazyMap {
  public:
@@ -21,17 +21,17 @@ class LazyMap {
   const Value& get(const Key& key, const Make& make) {
     {
       const std::lock_guard lock(mutex_);
-      const auto found = made_.find(key);
-      if (found != made_.end()) return *found->second;
+      const auto found = values_.find(key);
+      if (found != values_.end()) return *found->second;
     }
     std::unique_ptr<const Value> made = make();
     const std::lock_guard lock(mutex_);
-    return *made_.try_emplace(key, std::move(made)).first->second;
+    return *values_.try_emplace(key, std::move(made)).first->second;
   }
 
  private:
   std::mutex mutex_;
-  std::map<Key, std::unique_ptr<const Value>> made_;
+  std::map<Key, std::unique_ptr<const Value>> values_;
 };
 
 }  // namespace crowdface

@@ -102,28 +102,28 @@ void close_log_file() noexcept {
   sinks().files.pop_back();
 }
 
-std::optional<std::string> log_failure() {
+std::optional<std::string> first_log_file_error() {
   sinks().logger->flush();
   const std::lock_guard<std::mutex> lock(sinks().failure_mutex);
   return sinks().failure;
 }
 
-struct LogMemory::Lines {
+struct LogBuffer::Lines {
   static constexpr std::size_t kMax = 1000;
   std::shared_ptr<spdlog::sinks::ringbuffer_sink_mt> sink =
       std::make_shared<spdlog::sinks::ringbuffer_sink_mt>(kMax);
 };
 
-LogMemory::LogMemory() : lines_(std::make_unique<Lines>()) {
+LogBuffer::LogBuffer() : lines_(std::make_unique<Lines>()) {
   lines_->sink->set_level(spdlog::level::debug);
   sinks().logger->sinks().push_back(lines_->sink);
 }
 
-LogMemory::~LogMemory() {
+LogBuffer::~LogBuffer() {
   std::erase(sinks().logger->sinks(), lines_->sink);
 }
 
-void LogMemory::replay() const {
+void LogBuffer::replay() const {
   if (sinks().files.empty()) return;
   sinks().guarded([&] {
     for (const auto& line : lines_->sink->last_raw()) sinks().files.back()->log(line);

@@ -21,15 +21,15 @@ void close_log_file() noexcept;
 /// Flushes the log files and returns the first error in writing one of them, which names the file;
 /// nothing if all lines were written. Logging itself never throws, so that work continues; the
 /// caller checks for an error at the end.
-std::optional<std::string> log_failure();
+std::optional<std::string> first_log_file_error();
 
-/// Keeps the last 1000 lines during its lifetime, for a log file that cannot be opened yet.
-class LogMemory {
+/// Keeps the last 1000 log lines while the object lives, for a log file that is opened later.
+class LogBuffer {
  public:
-  LogMemory();
-  ~LogMemory();
-  LogMemory(const LogMemory&) = delete;
-  LogMemory& operator=(const LogMemory&) = delete;
+  LogBuffer();
+  ~LogBuffer();
+  LogBuffer(const LogBuffer&) = delete;
+  LogBuffer& operator=(const LogBuffer&) = delete;
   /// Writes the kept lines to the log file added last.
   void replay() const;
 

@@ -36,7 +36,7 @@ struct Watch {
   std::array<char, 512> message = {};
 };
 
-// More entries than a process has open files. Mappings beyond this number are not watched.
+// More entries than a process usually has open files. Further mappings are not watched.
 std::array<Watch, 4096> watches;
 std::atomic<bool> watching = false;
 
@@ -66,7 +66,7 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
 
 constexpr std::string_view kWasTruncated = ": was truncated while it was being read";
 
-int begin_watch(char* begin, std::size_t size, OnTruncation when_cut, const fs::path& path) {
+int begin_watch(char* begin, std::size_t size, OnTruncation on_truncation, const fs::path& path) {
   for (std::size_t i = 0; i < watches.size(); ++i) {
     Watch& watch = watches[i];
     if (watch.taken.exchange(true)) continue;
@@ -74,7 +74,7 @@ int begin_watch(char* begin, std::size_t size, OnTruncation when_cut, const fs::
         concat("error: ", printable(path.string()).substr(0, 400), kWasTruncated, '\n');
     std::memcpy(watch.message.data(), message.c_str(), message.size() + 1);
     watch.cut = false;
-    watch.fill = when_cut == OnTruncation::kFill;
+    watch.fill = on_truncation == OnTruncation::kFill;
     watch.size = size;
     watch.begin = begin;
     return static_cast<int>(i);
@@ -90,7 +90,7 @@ Descriptor nameless_file(const fs::path& folder) {
   // Some file systems do not support O_TMPFILE.
   std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
   file = Descriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
-  if (!file.valid()) throw_with_reason<CannotCreate>(folder, "no file can be created there");
+  if (!file.valid()) throw_with_errno<CannotCreate>(folder, "no file can be created there");
   ::unlink(name.c_str());
   return file;
 }
@@ -112,13 +112,13 @@ struct MappedFile::Mapping {
   explicit Mapping(std::size_t length, const fs::path& name)
       : data(::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)),
         size(length) {
-    if (data == MAP_FAILED) throw_with_reason<IoError>(name, "cannot be read");
+    if (data == MAP_FAILED) throw_with_errno<IoError>(name, "cannot be read");
   }
-  Mapping(Descriptor file, std::size_t length, OnTruncation when_cut, const fs::path& name)
+  Mapping(Descriptor file, std::size_t length, OnTruncation on_truncation, const fs::path& name)
       : data(::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file.get(), 0)), size(length) {
-    if (data == MAP_FAILED) throw_with_reason<IoError>(name, "cannot be mapped");
-    watch = begin_watch(static_cast<char*>(data), size, when_cut, name);
-    if (when_cut == OnTruncation::kFill) kept = std::move(file);
+    if (data == MAP_FAILED) throw_with_errno<IoError>(name, "cannot be mapped");
+    watch = begin_watch(static_cast<char*>(data), size, on_truncation, name);
+    if (on_truncation == OnTruncation::kFill) kept = std::move(file);
   }
   ~Mapping() {
     if (watch >= 0) {
@@ -134,11 +134,11 @@ struct MappedFile::Mapping {
   Descriptor kept{-1};  ///< the open file, with kFill only
 };
 
-MappedFile::MappedFile(const fs::path& path, OnTruncation when_cut) {
+MappedFile::MappedFile(const fs::path& path, OnTruncation on_truncation) {
   auto [file, size] = open_for_reading(path);
   if (size == 0) return;
   if (watching) {
-    mapping_ = std::make_shared<const Mapping>(std::move(file), size, when_cut, path);
+    mapping_ = std::make_shared<const Mapping>(std::move(file), size, on_truncation, path);
     return;
   }
   mapping_ = std::make_shared<const Mapping>(size, path);
@@ -147,10 +147,10 @@ MappedFile::MappedFile(const fs::path& path, OnTruncation when_cut) {
   }
 }
 
-MappedFile MappedFile::of_scratch(std::string_view bytes, const fs::path& folder) {
+MappedFile MappedFile::from_temporary_copy(std::string_view bytes, const fs::path& folder) {
   Descriptor file = nameless_file(folder);
   if (!write_all(file.get(), bytes)) {
-    throw_with_reason<IoError>(
+    throw_with_errno<IoError>(
         folder, concat("a temporary file of ", format_bytes(bytes.size()), " cannot be written"));
   }
   MappedFile mapped;
@@ -161,7 +161,7 @@ MappedFile MappedFile::of_scratch(std::string_view bytes, const fs::path& folder
   return mapped;
 }
 
-MappedFile MappedFile::of_text(std::string text) {
+MappedFile MappedFile::from_text(std::string text) {
   MappedFile file;
   file.text_ = std::make_shared<const std::string>(std::move(text));
   return file;

@@ -50,14 +50,14 @@ std::atomic<bool> ran_out = false;
 
 }  // namespace
 
-std::uint64_t machine_memory() {
+std::uint64_t usable_memory() {
   const std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                               static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-  return std::min(bytes, memory_limit_of_groups().value_or(bytes));
+  return std::min(bytes, control_group_memory_limit().value_or(bytes));
 }
 
-std::optional<std::uint64_t> memory_limit_of_groups(const std::filesystem::path& groups,
-                                                    const std::filesystem::path& root) {
+std::optional<std::uint64_t> control_group_memory_limit(const std::filesystem::path& groups,
+                                                        const std::filesystem::path& root) {
   std::optional<std::uint64_t> least;
   const auto lower = [&](const std::string& controllers, const std::string& group) {
     if (controllers.empty()) lower_to_groups(least, root, group, "memory.max");
@@ -85,7 +85,7 @@ bool is_out_of_memory() {
   return ran_out;
 }
 
-std::uint64_t peak_memory() {
+std::uint64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux reports KiB

@@ -11,17 +11,17 @@ namespace crowdface {
 
 /// Bytes of memory that this process may use: the machine's physical memory or the limit of its
 /// control groups, whichever is less.
-std::uint64_t machine_memory();
+std::uint64_t usable_memory();
 /// The least memory limit, in bytes, of the control groups of this process and of all their parent
 /// groups (version 2, or the controller `memory` of version 1); nothing if there is no limit.
 /// \param groups  the file that names the control groups of the process.
 /// \param root    where the control groups are mounted.
-std::optional<std::uint64_t> memory_limit_of_groups(
+std::optional<std::uint64_t> control_group_memory_limit(
     const std::filesystem::path& groups = "/proc/self/cgroup",
     const std::filesystem::path& root = "/sys/fs/cgroup");
 
 /// Peak resident memory of this process so far, in bytes.
-std::uint64_t peak_memory();
+std::uint64_t peak_memory_bytes();
 
 /// After this call `is_out_of_memory` tells whether any `new` has failed. Libraries may catch
 /// std::bad_alloc and continue with incomplete results, so the program has to ask. Call it at

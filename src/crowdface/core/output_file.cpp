@@ -25,7 +25,7 @@ using FileId = std::pair<dev_t, ino_t>;
 std::optional<FileId> id_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
-    require_stat(path, {errno, std::generic_category()});
+    throw_if_system_error(path, {errno, std::generic_category()});
     return std::nullopt;
   }
   return FileId(status.st_dev, status.st_ino);
@@ -33,7 +33,7 @@ std::optional<FileId> id_of(const fs::path& path) {
 
 }  // namespace
 
-fs::path output_file(const fs::path& path) {
+fs::path checked_output_path(const fs::path& path) {
   const auto refuse = [&](std::string_view what) {
     throw CannotCreate(concat(path.empty() ? "\"\"" : path.string(), ": ", what));
   };

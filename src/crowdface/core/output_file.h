@@ -6,12 +6,12 @@
 
 namespace crowdface {
 
-/// Checks a path that a user has named for output, before the work starts. Symbolic links are
-/// followed, so that their target is replaced and not the link.
+/// Checks, before the work starts, that the user's output path can be written. Resolves symbolic
+/// links, so that writing replaces a link's target and not the link.
 /// \return the file to write.
 /// \throws CannotCreate if the folder does not exist or is not writable, or if the path exists and
 ///         is not a regular file (a folder, device or pipe).
-std::filesystem::path output_file(const std::filesystem::path& path);
+std::filesystem::path checked_output_path(const std::filesystem::path& path);
 
 /// Rejects outputs that would overwrite an input.
 /// \throws UsageError if an output is the same file as an input, even under another name.

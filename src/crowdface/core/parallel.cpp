@@ -178,7 +178,7 @@ double parallel_sum(std::ptrdiff_t count, std::ptrdiff_t block,
 double parallel_dot(const double* a, const double* b, std::ptrdiff_t count, std::ptrdiff_t block) {
   return parallel_sum(count, block, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     const auto size = static_cast<std::size_t>(end - begin);
-    return fixed_dot({a + begin, size}, {b + begin, size});
+    return fixed_order_dot({a + begin, size}, {b + begin, size});
   });
 }
 

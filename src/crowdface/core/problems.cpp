@@ -8,18 +8,18 @@
 
 namespace crowdface {
 
-void Problems::add(ExitCode kind, std::string message) {
+void Problems::add(ExitCode code, std::string message) {
   // Two checks may find the same error.
   if (contains(messages_, message)) return;
   messages_.push_back(std::move(message));
-  kinds_.push_back(kind);
+  codes_.push_back(code);
 }
 
 ExitCode Problems::code() const {
   for (const ExitCode first : {ExitCode::kUsage, ExitCode::kMissingInput, ExitCode::kBadData}) {
-    if (contains(kinds_, first)) return first;
+    if (contains(codes_, first)) return first;
   }
-  return kinds_.empty() ? ExitCode::kDone : kinds_.front();
+  return codes_.empty() ? ExitCode::kDone : codes_.front();
 }
 
 void Problems::throw_if_any() const {

@@ -13,7 +13,7 @@ class Problems {
  public:
   /// Adds an error. Repeated messages are dropped.
   /// \param message  one or more lines: file, place, what was expected, what was found.
-  void add(ExitCode kind, std::string message);
+  void add(ExitCode code, std::string message);
   void add(const Error& error) { add(error.code(), error.what()); }
   bool empty() const { return messages_.empty(); }
   std::size_t size() const { return messages_.size(); }
@@ -28,7 +28,7 @@ class Problems {
 
  private:
   std::vector<std::string> messages_;
-  std::vector<ExitCode> kinds_;
+  std::vector<ExitCode> codes_;
 };
 
 }  // namespace crowdface

@@ -39,7 +39,7 @@ std::string format_duration(double seconds) {
   return concat(whole / 3600, " h ", whole % 3600 / 60, " min");
 }
 
-SecondsClock steady_seconds() {
+SecondsClock steady_seconds_clock() {
   return [] {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return std::chrono::duration<double>(now).count();

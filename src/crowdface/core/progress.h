@@ -15,7 +15,7 @@ namespace crowdface {
 
 /// Returns the seconds since some fixed time.
 using SecondsClock = std::function<double()>;
-SecondsClock steady_seconds();
+SecondsClock steady_seconds_clock();
 
 /// Shows the progress of a stage: done/total and, once known, rate and remaining time (see
 /// StepRate). A terminal shows one line that is updated in place; otherwise a line is logged every
@@ -27,7 +27,7 @@ class Progress {
   /// \param burst  number of steps that may end at almost the same time.
   Progress(std::string stage, std::size_t total,
            std::size_t burst = static_cast<std::size_t>(thread_count()),
-           SecondsClock clock = steady_seconds());
+           SecondsClock clock = steady_seconds_clock());
   /// Logs how long the stage took, if all steps are done.
   ~Progress();
   Progress(const Progress&) = delete;

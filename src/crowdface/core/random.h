@@ -28,8 +28,8 @@ double random_unit(const RandomKey& key, std::uint32_t lane = 0);
 /// A uniform number in [low, high).
 double random_between(const RandomKey& key, double low, double high);
 
-/// A uniform number in [0, 1), stratified over successive indices: each run of `strata` indices
-/// that starts at a multiple of `strata` has one number in each of `strata` equal intervals.
+/// A uniform number in [0, 1), stratified over successive indices: of the numbers for the indices
+/// k·strata … (k + 1)·strata − 1, one lies in each of `strata` equal intervals.
 double random_stratified(const RandomKey& key, std::uint64_t strata);
 
 /// An approximately standard normal number: the sum of twelve uniform numbers minus 6, hence in

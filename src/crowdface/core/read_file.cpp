@@ -23,14 +23,14 @@ std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
   for (;;) {
     const ssize_t got = ::read(descriptor.get(), to, size);
     if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR) throw_with_reason<IoError>(path, "reading failed");
+    if (errno != EINTR) throw_with_errno<IoError>(path, "reading failed");
   }
 }
 
 fs::file_status status_of(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  require_stat(path, error);
+  throw_if_system_error(path, error);
   return fs::status_known(status) ? status : fs::file_status(fs::file_type::not_found);
 }
 
@@ -41,7 +41,7 @@ bool is_system_error(int error) {
   return std::ranges::find(kFaults, error) != kFaults.end();
 }
 
-void require_stat(const fs::path& path, const std::error_code& error) {
+void throw_if_system_error(const fs::path& path, const std::error_code& error) {
   if (!is_system_error(error.value())) return;
   throw IoError(concat(path.string(), ": its file status cannot be read: ", error.message()));
 }
@@ -50,7 +50,7 @@ bool path_leads_to(const fs::path& path, const Descriptor& file) {
   struct stat by_name {
   }, by_descriptor{};
   const auto look = [&](int failed) {
-    if (failed != 0) require_stat(path, {errno, std::generic_category()});
+    if (failed != 0) throw_if_system_error(path, {errno, std::generic_category()});
     return failed == 0;
   };
   return look(::stat(path.c_str(), &by_name)) && look(::fstat(file.get(), &by_descriptor)) &&
@@ -80,12 +80,12 @@ OpenedFile open_for_reading(const fs::path& path) {
     fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   } while (fd < 0 && errno == EINTR);
   if (fd < 0) {
-    if (is_system_error(errno)) throw_with_reason<IoError>(path, "cannot be opened");
-    throw_with_reason<MissingInput>(path, "cannot be opened");
+    if (is_system_error(errno)) throw_with_errno<IoError>(path, "cannot be opened");
+    throw_with_errno<MissingInput>(path, "cannot be opened");
   }
   struct stat status {};
   Descriptor descriptor(fd);
-  if (::fstat(fd, &status) != 0) throw_with_reason<IoError>(path, "its file status cannot be read");
+  if (::fstat(fd, &status) != 0) throw_with_errno<IoError>(path, "its file status cannot be read");
   if (!S_ISREG(status.st_mode)) {
     throw MissingInput(concat(path.string(), ": expected a regular file"));
   }

@@ -18,11 +18,12 @@ inline constexpr int kPrepareVersion = 6;
 inline constexpr int kPatchVersion = 1;
 /// Coordinates of faces in the space that casting samples, and the plans made from them.
 inline constexpr int kFaceSpaceVersion = 1;
-/// Plans of the same config and the same heads.
+/// Crowd plans, where config and heads are unchanged.
 inline constexpr int kCastVersion = 2;
-/// Further cache entries: neighbours, masks at vertices, samples and their cells, mirror vertices.
-inline constexpr int kSharedVersion = 1;
-/// Pictures, measurements of a skin, and mesh files of unchanged positions.
+/// Cache entries that all heads share: neighbours, masks at vertices, samples and their cells,
+/// mirror vertices.
+inline constexpr int kSharedCacheVersion = 1;
+/// Images and skin measurements of a face, and its mesh files, where the positions are unchanged.
 inline constexpr int kFaceFilesVersion = 25;
 /// Shapes transferred to a face whose positions are unchanged, and rendered images of these shapes.
 inline constexpr int kShapesVersion = 9;
@@ -30,7 +31,7 @@ inline constexpr int kShapesVersion = 9;
 inline constexpr int kPointsVersion = 2;
 /// Joints that follow the face, and the skin weights bound to them.
 inline constexpr int kRigVersion = 1;
-/// Placement of heads and faces on a body, and bending of necks to its ring.
+/// Placement of heads and faces on a body, and bending of necks to the body's neck ring.
 inline constexpr int kNeckVersion = 4;
 /// Attachments of a face of unchanged positions.
 inline constexpr int kAttachmentsVersion = 6;

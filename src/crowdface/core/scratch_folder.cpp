@@ -20,7 +20,7 @@ ScratchFolder::ScratchFolder() {
     throw CannotCreate(concat("no folder for temporary files: ", error.message(),
                               "; set TMPDIR to one that exists"));
   }
-  if (::mkdtemp(name.data()) == nullptr) throw_with_reason<CannotCreate>(name, "cannot be created");
+  if (::mkdtemp(name.data()) == nullptr) throw_with_errno<CannotCreate>(name, "cannot be created");
   path_ = name;
 }
 

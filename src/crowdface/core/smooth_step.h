@@ -5,10 +5,10 @@
 
 namespace crowdface {
 
-/// Smooth step: 0 for x ≤ from, 1 for x ≥ to, else 3t² − 2t³ with t = (x − from) / (to − from).
+/// Smooth step: 0 for x ≤ low, 1 for x ≥ high, else 3t² − 2t³ with t = (x − low) / (high − low).
 /// Needs no libm.
-inline double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+inline double smooth_step(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 

@@ -4,11 +4,12 @@
 namespace crowdface {
 
 void StepRate::record(double seconds, std::size_t done) {
-  // Smallest time between stored samples, so that millions of steps need little memory.
-  constexpr double kBetween = 0.05;
+  // Smallest time between stored samples, in seconds, so that millions of steps need little memory.
+  constexpr double kMinInterval = 0.05;
   if (samples_.empty()) {
     first_seconds_ = seconds;
-  } else if (done < samples_.back().done + burst_ || seconds < samples_.back().seconds + kBetween) {
+  } else if (done < samples_.back().done + burst_ ||
+             seconds < samples_.back().seconds + kMinInterval) {
     return;
   }
   samples_.push_back({seconds, done});

@@ -48,8 +48,9 @@ std::string_view character_at(std::string_view text, std::size_t at) {
   return text.substr(at, std::max<std::size_t>(utf8_length(text.substr(at)), 1));
 }
 
-/// Whether a terminal would obey the character or reorder text: control characters (C0, DEL, C1),
-/// line separators, marks of text direction, and bytes that are not valid UTF-8.
+/// Whether a terminal would interpret the character as a command or reorder text because of it:
+/// control characters (C0, DEL, C1), line separators, marks of text direction, and bytes that are
+/// not valid UTF-8.
 bool is_unprintable(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   const auto within = [](unsigned value, unsigned low, unsigned high) {

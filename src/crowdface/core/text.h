@@ -40,7 +40,7 @@ std::string printable(std::string_view text);
 /// `text` in double quotes, printable. Line ends, quotes and backslashes are escaped too. Only the
 /// first 80 bytes are kept.
 std::string quoted(std::string_view text);
-/// These overloads exist because overload resolution would otherwise choose std::quoted.
+/// Without these overloads, overload resolution would choose std::quoted.
 inline std::string quoted(const std::string& text) {
   return quoted(std::string_view(text));
 }
@@ -48,12 +48,12 @@ inline std::string quoted(const char* text) {
   return quoted(std::string_view(text));
 }
 
-inline constexpr std::size_t kLongestName = 64;
-inline constexpr std::size_t kLongestId = 2 * kLongestName + 22;  ///< form: CROWD_FAMILY_NUMBER
+inline constexpr std::size_t kMaxNameLength = 64;
+inline constexpr std::size_t kMaxIdLength = 2 * kMaxNameLength + 22;  ///< form: CROWD_FAMILY_NUMBER
 /// Whether `text` can be a file name on any system: 1 to `longest` letters (A–Z, a–z), digits, '_',
 /// '-' and '.', not starting with '.'. "__proto__" is refused because in JavaScript it would set an
 /// object's prototype.
-bool is_name(std::string_view text, std::size_t longest = kLongestName);
+bool is_name(std::string_view text, std::size_t longest = kMaxNameLength);
 
 /// The candidate with the least edit distance to `word`; nothing if none is close enough to be a
 /// typo.

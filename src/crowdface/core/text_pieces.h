@@ -14,8 +14,8 @@
 namespace crowdface {
 
 using TakePiece = std::function<void(std::string_view)>;
-/// A function that passes the pieces of a text to `take`, the same text at every call. Everything
-/// to which the function refers must outlive the function.
+/// A function that passes the pieces of a text to `take`, the same text at every call. Objects that
+/// the function captures by reference must outlive it.
 using TextPieces = std::function<void(const TakePiece& take)>;
 
 /// The concatenated texts of items 0 … count − 1. Several threads call `item`. The returned

@@ -36,7 +36,8 @@ std::optional<LengthUnit> parse_length_unit(std::string_view text);
 LengthUnit nearest_unit(double length, double typical_mm);
 /// The unit that makes `length` equal to `typical_mm`, rounded to two significant digits.
 LengthUnit fitting_unit(double length, double typical_mm);
-/// Parses a length with its unit, such as "8 mm" or "1.5cm"; in millimetres, or nothing.
+/// Parses a length with its unit, such as "8 mm" or "1.5cm". Returns millimetres; nothing if the
+/// text is not a length.
 std::optional<double> parse_length_mm(std::string_view text);
 
 /// A signed coordinate axis, such as +Y.

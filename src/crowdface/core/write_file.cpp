@@ -44,7 +44,8 @@ Claim claim(int fd) {
 }
 
 /// A temporary file beside its target. It stays locked until it is renamed, so that
-/// remove_leftovers, on any machine, can distinguish it from a file that a killed run left behind.
+/// remove_temporary_files, on any machine, can distinguish it from a file that a killed run left
+/// behind.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
@@ -59,7 +60,7 @@ class TemporaryFile {
       path_.replace_filename(temporary_name());
       file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
       if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or a file of another machine
-      if (!file_.valid()) throw_with_reason<CannotCreate>(target, "cannot be created");
+      if (!file_.valid()) throw_with_errno<CannotCreate>(target, "cannot be created");
       if (is_still_own_file()) return;
     }
     throw CannotCreate(
@@ -90,7 +91,7 @@ class TemporaryFile {
     bytes_in_writeback_ = written_;
   }
 
-  /// Syncs and closes the file.
+  /// Syncs the file to disk, then closes it; the lock stays.
   void finish() {
     if (!sync(file_.get())) fail("writing to disk");
     // Large new files should not displace other data from the page cache.
@@ -106,7 +107,7 @@ class TemporaryFile {
   }
 
  private:
-  /// Locks the file. Returns false if remove_leftovers locked or removed the file first.
+  /// Locks the file. Returns false if remove_temporary_files locked or removed the file first.
   bool is_still_own_file() const {
     if (claim(file_.get()) == Claim::kTaken) return false;
     struct stat status {};
@@ -117,7 +118,7 @@ class TemporaryFile {
   }
 
   [[noreturn]] void fail(std::string_view what) const {
-    throw_with_reason<IoError>(target_, concat(what, " failed"));
+    throw_with_errno<IoError>(target_, concat(what, " failed"));
   }
 
   static constexpr std::size_t kWritebackSize = std::size_t{8} << 20U;
@@ -139,7 +140,7 @@ void sync_directory(const fs::path& directory) {
   // A folder that is writable but not readable cannot be synced.
   if (!descriptor.valid() && errno == EACCES) return;
   if (!descriptor.valid() || !sync(descriptor.get())) {
-    throw_with_reason<IoError>(directory, "cannot be synchronised");
+    throw_with_errno<IoError>(directory, "cannot be synchronised");
   }
 }
 
@@ -188,7 +189,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
   write_file(path, std::vector<std::string_view>{bytes});
 }
 
-std::size_t remove_leftovers(const fs::path& folder) {
+std::size_t remove_temporary_files(const fs::path& folder) {
   std::size_t removed = 0;
   for (const fs::path& path : list_folder(folder)) {
     if (!is_temporary(path)) continue;

@@ -101,10 +101,11 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
     }
   }
   for (const fs::path& folder : with_numbered_folders(directory.renders())) {
-    add(folder, has_ending(".png"));
+    add(folder, has_extension(".png"));
   }
   for (const fs::path& folder : with_numbered_folders(directory.gallery_faces())) {
-    for (fs::path& file : list_files(folder, has_ending(".js"))) files.push_back(std::move(file));
+    for (fs::path& file : list_files(folder, has_extension(".js")))
+      files.push_back(std::move(file));
   }
   return files;
 }
@@ -143,7 +144,7 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   const auto stands_at = [](const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    require_stat(path, error);
+    throw_if_system_error(path, error);
     return status;
   };
   for (const fs::path& folder : crowd_folders(directory)) {
@@ -231,7 +232,7 @@ void refuse_links(const CrowdDirectory& directory) {
   for (const fs::path& file : files) {
     std::error_code error;
     const bool is_link = fs::is_symlink(fs::symlink_status(file, error));
-    require_stat(file, error);
+    throw_if_system_error(file, error);
     if (!is_link) continue;
     throw CannotCreate(concat(file.string(), ": is a link; expected a file of this crowd"));
   }
@@ -276,7 +277,7 @@ std::vector<std::string> ids_in_plan(const CrowdDirectory& directory) {
     const auto line = parse_shallow_json(text);
     if (!line.is_object() || !line.contains("id") || !line["id"].is_string()) return;
     const auto id = line["id"].get<std::string>();
-    if (is_name(id, kLongestId)) ids.push_back(id);
+    if (is_name(id, kMaxIdLength)) ids.push_back(id);
   });
   return ids;
 }
@@ -301,13 +302,13 @@ std::vector<fs::path> files_beside_sheets(const CrowdDirectory& directory) {
     }
   };
   for (const fs::path& picture : {directory.head_render(""), directory.founder_render("")}) {
-    add(picture.parent_path(), has_ending(".png"));
+    add(picture.parent_path(), has_extension(".png"));
   }
   add(directory.gallery(), is_gallery_page_file);
   for (const fs::path& folder :
        {directory.gallery() / "data", directory.gallery_pages(),
         directory.gallery_head("").parent_path(), directory.gallery_attachment("").parent_path()}) {
-    add(folder, has_ending(".js"));
+    add(folder, has_extension(".js"));
   }
   return files;
 }

@@ -21,7 +21,7 @@ CrowdLock::CrowdLock(const CrowdDirectory& directory, const Shard& shard) {
                                         [&] { tell(concat("shard ", shard.name())); });
   }
   std::size_t removed = 0;
-  for (const auto& folder : folders_from(directory.root)) removed += remove_leftovers(folder);
+  for (const auto& folder : folder_tree(directory.root)) removed += remove_temporary_files(folder);
   if (removed > 0) log_debug(concat("removed ", removed, " incomplete files of a killed run"));
 }
 

@@ -30,14 +30,14 @@ class LineReader {
     if (!json.is_object()) fail("line", "a JSON object", "something else");
     PlanLine result;
     FacePlan& face = result.face;
-    face.id = file_name(json, "id", kLongestId);
+    face.id = file_name(json, "id", kMaxIdLength);
     if (const Json& index = member(json, "index"); !index.is_null()) {
       face.index = whole(index, "index");
     }
     if (const Json& family = member(json, "family"); !family.is_null()) {
-      face.family = file_name(json, "family", kLongestName);
+      face.family = file_name(json, "family", kMaxNameLength);
     }
-    if (json.contains("group")) face.group = file_name(json, "group", kLongestName);
+    if (json.contains("group")) face.group = file_name(json, "group", kMaxNameLength);
     face.recipe.target = head(text(json, "target"), "target");
     if (const Json* mixture = found(json, "mixture")) {
       set_target(face.recipe, shares(*mixture, "mixture"));

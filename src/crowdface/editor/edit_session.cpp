@@ -282,7 +282,7 @@ std::vector<float> EditSession::normals(const Positions& face) const {
   std::vector<float> normals(3 * preview_.vertices.size());
   parallel_for_each(preview_.vertices.size(), kBlock, [&](std::size_t i) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const std::uint32_t f : vertex_faces_.of(preview_.vertices[i])) {
+    for (const std::uint32_t f : vertex_faces_.items_of(preview_.vertices[i])) {
       sum += face_area_vector(job_.inputs.faces.topology, f, face);
     }
     const double length = sum.norm();

@@ -73,7 +73,7 @@ fs::path make_edited_folder(const Config& config) {
 }
 
 EditedFolder::EditedFolder(fs::path path) : path_(std::move(path)), held_(path_) {
-  remove_leftovers(path_);
+  remove_temporary_files(path_);
 }
 
 std::vector<std::string> EditedFolder::formats() {

@@ -32,8 +32,8 @@ std::vector<Index> some_skin(const Components& components, Index most) {
   const Index step = std::max<Index>(1, size / most);
   std::vector<Index> chosen;
   Index seen = 0;
-  for (Index i = 0; i < static_cast<Index>(components.of_vertex.size()); ++i) {
-    if (components.of_vertex[static_cast<std::size_t>(i)] != skin) continue;
+  for (Index i = 0; i < static_cast<Index>(components.component_of_vertex.size()); ++i) {
+    if (components.component_of_vertex[static_cast<std::size_t>(i)] != skin) continue;
     if (seen++ % step == 0) chosen.push_back(i);
   }
   return chosen;

@@ -26,8 +26,8 @@ using TilePlace = std::array<std::int32_t, 2>;
 /// A warning if textures are not shown because no polygon uses the materials that name them.
 std::optional<std::string> unused_materials(const NamedTextures& named, const ObjFile& file,
                                             Index face_count) {
-  const auto colours = named.of_kind.find(TextureKind::kColour);
-  if (colours == named.of_kind.end()) return std::nullopt;
+  const auto colours = named.paths_by_kind.find(TextureKind::kColour);
+  if (colours == named.paths_by_kind.end()) return std::nullopt;
   std::vector<std::string> textured, used;
   for (const auto& [material, path] : colours->second) {
     if (!material.empty()) textured.push_back(quoted(material));
@@ -68,14 +68,14 @@ HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_materi
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();
-    const std::uint32_t material = materials.of_face[f];
-    if (f > 0 && material == materials.of_face[f - 1] && tiles[f] == tiles[f - 1]) {
+    const std::uint32_t material = materials.material_of_face[f];
+    if (f > 0 && material == materials.material_of_face[f - 1] && tiles[f] == tiles[f - 1]) {
       placed.of_face[f] = placed.of_face[f - 1];
       continue;
     }
     const auto found = of_material.find(materials.names[material]);
     if (found == of_material.end()) continue;
-    const fs::path path = with_tile(found->second, tile_number(tiles[f][0], tiles[f][1]));
+    const fs::path path = udim_tile_path(found->second, tile_number(tiles[f][0], tiles[f][1]));
     const auto [row, is_new] = rows.emplace(path, kNoIndex);
     if (is_new && is_file(path)) {
       row->second = static_cast<std::uint32_t>(placed.files.size());
@@ -165,9 +165,9 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
     NamedTextures& named = entry->second;
     if (is_new) {
       named = find_textures(file.material_path(), file.material_libraries);
-      if (!has_uvs) named.of_kind.clear();
+      if (!has_uvs) named.paths_by_kind.clear();
     }
-    for (const auto& [kind, of_material] : named.of_kind) kinds.insert(kind);
+    for (const auto& [kind, of_material] : named.paths_by_kind) kinds.insert(kind);
     of_head.push_back(&named);
   }
   std::vector<FoundTextureFiles> all;
@@ -183,10 +183,11 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
         if (unused) heads_of_warning[*unused].push_back(head);
       }
       std::vector<fs::path> missing;
-      const auto named = of_head[h]->of_kind.find(kind);
-      result.heads.push_back(attachments_of(
-          named == of_head[h]->of_kind.end() ? std::map<std::string, fs::path>() : named->second,
-          tile, files[h].materials, missing));
+      const auto named = of_head[h]->paths_by_kind.find(kind);
+      result.heads.push_back(attachments_of(named == of_head[h]->paths_by_kind.end()
+                                                ? std::map<std::string, fs::path>()
+                                                : named->second,
+                                            tile, files[h].materials, missing));
       for (const fs::path& path : missing) {
         heads_of_warning[concat("texture ", quoted(path.string()), " is missing; renders omit it")]
             .push_back(head);

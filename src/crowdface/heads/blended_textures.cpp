@@ -109,7 +109,7 @@ std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::pa
     TextureMap map;
   };
   throw_if_interrupted();
-  Kept read{take_image_memory(needed.path, map_bytes(needed)),
+  Kept read{reserve_image_memory(needed.path, map_bytes(needed)),
             map_of(read_image(needed.path, {.jpeg = true}), needed)};
   if (!scratch.empty()) {
     move_to_disk(read.map, scratch);

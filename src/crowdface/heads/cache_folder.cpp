@@ -66,7 +66,7 @@ CacheContents list_cache(const fs::path& cache) {
 }
 
 std::size_t clear_cache(const fs::path& cache) {
-  std::size_t removed = remove_leftovers(cache);
+  std::size_t removed = remove_temporary_files(cache);
   for (const fs::path& entry : list_cache(cache).entries) {
     std::error_code error;
     if (fs::remove_all(entry, error) > 0) ++removed;

@@ -21,7 +21,7 @@ std::vector<AttachmentFile> files_of(const AttachmentLook& look) {
   }
   std::vector<AttachmentFile> files;
   for (const MaterialFile& file : look.item->materials.files) {
-    files.push_back({file, colours.contains(file.from)});
+    files.push_back({file, colours.contains(file.source)});
   }
   return files;
 }

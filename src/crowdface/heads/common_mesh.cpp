@@ -97,9 +97,9 @@ std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& h
   Vertices copies;  // first copy of each joined vertex
   if (found.vertex_count > expected.vertex_count) {
     JoinedBorders by = joined_borders(found, positions);
-    copies = std::move(by.first);
+    copies = std::move(by.first_copies);
     if (std::ssize(copies) != expected.vertex_count) return std::nullopt;
-    for (std::uint32_t& vertex : found.corner_vertices) vertex = by.joined[vertex];
+    for (std::uint32_t& vertex : found.corner_vertices) vertex = by.joined_vertex[vertex];
     found.vertex_count = expected.vertex_count;
     positions = Positions(positions(copies, kAllColumns));
   }
@@ -310,10 +310,10 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours)
   // other file.
   mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
   mesh.positions = head.file.positions;
-  mesh.colours = colour_shares(colours);
+  mesh.colours = colour_fractions(colours);
   const std::vector<std::string>& libraries = head.file.material_libraries;
-  ObjFile file =
-      as_obj(std::move(mesh), head.file.path, libraries.empty() ? std::string() : libraries[0]);
+  ObjFile file = convert_to_obj(std::move(mesh), head.file.path,
+                                libraries.empty() ? std::string() : libraries[0]);
   file.positions = std::move(head.file.positions);
   file.material_libraries = std::move(head.file.material_libraries);
   file.textures_at = std::move(head.file.textures_at);

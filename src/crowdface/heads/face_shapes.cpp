@@ -18,7 +18,7 @@ double kept_by_smoothing(const Adjacency& adjacency, const Displacements& moves,
   double all = 0, with_neighbours = 0;
   for (const std::uint32_t v : moves.vertices) {
     const Eigen::Vector3d here = row3(whole, v);
-    for (const std::uint32_t other : adjacency.of(v)) {
+    for (const std::uint32_t other : adjacency.items_of(v)) {
       all += here.squaredNorm();
       with_neighbours += here.dot(row3(whole, other));
     }

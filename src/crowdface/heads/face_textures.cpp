@@ -103,7 +103,7 @@ ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
   return blend_vertex_colours(inputs_.colours, weights, target_only_);
 }
 
-std::vector<double> FaceTextures::colour_shares(const Recipe& recipe) const {
+std::vector<double> FaceTextures::colour_fractions(const Recipe& recipe) const {
   const std::size_t heads = inputs_.faces.heads.size();
   if (inputs_.textures.blend() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
     return face_colour_weights(recipe, heads, region_shares_).face;
@@ -114,12 +114,12 @@ std::vector<double> FaceTextures::colour_shares(const Recipe& recipe) const {
 }
 
 BlendedPicture FaceTextures::paint_body(const Recipe& recipe) const {
-  return body_->paint(seam_->ring_densities(colour_shares(recipe)));
+  return body_->paint(seam_->ring_densities(colour_fractions(recipe)));
 }
 
 std::optional<Eigen::Array3d> FaceTextures::seam_colour(const Recipe& recipe) const {
   if (!seam_) return std::nullopt;
-  return seam_->mean_colour(colour_shares(recipe));
+  return seam_->mean_colour(colour_fractions(recipe));
 }
 
 std::uint64_t FaceTextures::memory_bytes() const {

@@ -54,7 +54,7 @@ class FaceTextures {
  private:
   void blend_textures(const Config& config);
   /// Weights of the heads in the colour of the whole face.
-  std::vector<double> colour_shares(const Recipe& recipe) const;
+  std::vector<double> colour_fractions(const Recipe& recipe) const;
 
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
   struct Picture {

@@ -85,12 +85,13 @@ RigidMotion motion_of_mirror_image(const RigidMotion& motion, const MirrorPlane&
   Eigen::Matrix3d rotation;
   for (Index c = 0; c < 3; ++c) {
     const Eigen::Vector3d moved =
-        multiply3(motion.rotation, directions.image(Eigen::Vector3d::Unit(c)));
-    rotation.col(c) = directions.image(moved);
+        multiply3(motion.rotation, directions.mirrored(Eigen::Vector3d::Unit(c)));
+    rotation.col(c) = directions.mirrored(moved);
   }
-  return {.rotation = rotation,
-          .pivot = plane.image(motion.pivot),
-          .moved_pivot = plane.image(motion.moved_pivot)};
+  return {
+      .rotation = rotation,
+          .pivot = plane.mirrored(motion.pivot),
+          .moved_pivot = plane.mirrored(motion.moved_pivot)};
 }
 
 /// Interpolates two motions: the translation at `pivot` and the turn vector are linear in w.
@@ -132,7 +133,7 @@ std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
   if (recipe.asymmetry != 1) {
     const RigidMotion of_image =
         after(mean_motion_, motion_of_mirror_image(after(back, motion), *plane));
-    motion = between(motion, of_image, mirror_share(recipe.asymmetry, false), neck_.seam_centre);
+    motion = between(motion, of_image, mirrored_weight(recipe.asymmetry, false), neck_.seam_centre);
   }
   return recipe.mirrored ? after(motion_of_mirror_image(mean_motion_, *plane), after(back, motion))
                          : motion;

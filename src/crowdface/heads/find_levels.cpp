@@ -99,7 +99,7 @@ MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, doubl
                              double mm) {
   const Borders borders = inputs.neck ? Borders::kKeep : Borders::kCollapse;
   DetailLevel level =
-      std::move(detail_levels(typical, inputs.materials.of_face, {&share, 1}, borders)[0]);
+      std::move(detail_levels(typical, inputs.materials.material_of_face, {&share, 1}, borders)[0]);
   require_ring(inputs, level);
   const LevelMap map = map_to_level(inputs.faces.topology, inputs.adjacency, level, inputs.mean);
   std::vector<const Positions*> heads;
@@ -115,7 +115,7 @@ Digest key_of(const Inputs& inputs, const HeadSet& typical, double share, double
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
   key.add_array(std::span(inputs.faces.topology.corner_uvs));
   key.add_array(numbers_of(inputs.faces.uvs));
-  key.add_array(std::span(inputs.materials.of_face));
+  key.add_array(std::span(inputs.materials.material_of_face));
   key.add_array(numbers_of(typical.heads[0].positions));
   for (const Digest& head : inputs.head_digests) key.add(head);
   if (!inputs.shapes.shapes.empty()) key.add(inputs.shapes_digest);

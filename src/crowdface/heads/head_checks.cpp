@@ -194,7 +194,7 @@ std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
   std::vector<Positions> sampled(heads.size());
   std::vector<Index> rows;
   for (Index v = 0; v < inputs.mean.rows(); ++v) {
-    if (inputs.skin.of_vertex[static_cast<std::size_t>(v)] == inputs.skin.largest())
+    if (inputs.skin.component_of_vertex[static_cast<std::size_t>(v)] == inputs.skin.largest())
       rows.push_back(v);
   }
   const std::size_t step =

@@ -29,7 +29,7 @@ TextureFile read_texture(const fs::path& path, int max_px) {
   const Image image = read_image(path, {.jpeg = true});
   const auto texels = static_cast<std::uint64_t>(std::min(image.width, max_px)) *
                       static_cast<std::uint64_t>(std::min(image.height, max_px));
-  ImageMemory memory = take_image_memory(path, texels * sizeof(Light));
+  ImageMemory memory = reserve_image_memory(path, texels * sizeof(Light));
   const LightRows light = light_of(image);
   const auto kept = std::make_shared<const Kept>(
       Kept{std::move(memory), shrunk_texture(light.width, light.height, max_px, light.row)});
@@ -100,8 +100,9 @@ int max_rendered_texels(const Config::ContactSheet& sheet) {
 }
 
 bool are_any_rendered(const std::vector<HeadTextures>& maps) {
-  return std::ranges::any_of(
-      maps, [](const HeadTextures& of_kind) { return is_shown(of_kind.names.front().kind); });
+  return std::ranges::any_of(maps, [](const HeadTextures& of_kind) {
+    return is_shown_in_previews(of_kind.names.front().kind);
+  });
 }
 
 FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<HeadTextures>& maps,
@@ -111,7 +112,7 @@ FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<He
     const TextureLayout& layout = textures.blended.layout;
     const TextureKind kind = textures.names.front().kind;
     for (std::size_t p = 0; p < layout.pictures.size(); ++p) image_indices_.push_back({kind, p});
-    if (kind != TextureKind::kColour && !is_shown(kind)) return;
+    if (kind != TextureKind::kColour && !is_shown_in_previews(kind)) return;
     TextureLayer& layer = layer_of(kind, texture_set_);
     layer.of_face = layout.of_face;
     layer.textures.resize(layout.pictures.size());
@@ -129,7 +130,7 @@ FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<He
 void FaceTextureSet::add(std::size_t picture, const BlendedPicture& blended) {
   const auto [kind, number] = image_indices_[picture];
   const bool is_colour = kind == TextureKind::kColour;
-  if (!is_colour && !is_shown(kind)) return;
+  if (!is_colour && !is_shown_in_previews(kind)) return;
   layer_of(kind, texture_set_).textures[number] = std::make_shared<const Texture>(
       is_colour ? texture_of(blended, max_px_)
                 : finish_of(blended, kind == TextureKind::kNormal, finish_texels(max_px_)));
@@ -146,7 +147,7 @@ std::uint64_t FaceTextureSet::memory_bytes(const HeadTextures& colours,
   };
   add_kind(colours, max_px);
   for (const HeadTextures& of_kind : maps) {
-    if (is_shown(of_kind.names.front().kind)) add_kind(of_kind, finish_texels(max_px));
+    if (is_shown_in_previews(of_kind.names.front().kind)) add_kind(of_kind, finish_texels(max_px));
   }
   return texels * sizeof(Light);
 }
@@ -155,7 +156,7 @@ void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head,
                               TextureSet& texture_set) {
   for (const HeadTextures& of_kind : maps) {
     const TextureKind kind = of_kind.names.front().kind;
-    if (!is_shown(kind)) continue;
+    if (!is_shown_in_previews(kind)) continue;
     TextureLayer& layer = layer_of(kind, texture_set);
     layer.of_face = of_kind.blended.layout.of_face;
     for (std::size_t p = 0; p < of_kind.names.size(); ++p) {

@@ -67,7 +67,7 @@ Digest digest_of_attachments(const AttachmentSet& set) {
     if (item.tint != Tint::kNone) hasher.add(static_cast<int>(item.tint));
     for (const MaterialFile& file : item.materials.files) {
       throw_if_interrupted();
-      hasher.add(file.relative.generic_string()).add(hash_file(file.from).digest);
+      hasher.add(file.destination.generic_string()).add(hash_file(file.source).digest);
     }
   }
   return hasher.digest();

@@ -185,7 +185,7 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
     inputs.textures = asked_for ? load_colours(found) : load_sound(found, inputs, load_colours);
     for (const std::string& text : inputs.textures.warnings) inputs.warn(text);
     for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
-      const bool pictured = shown && is_shown(kinds[k].kind);
+      const bool pictured = shown && is_shown_in_previews(kinds[k].kind);
       if (!pictured && config.output.meshes.empty()) continue;
       for (std::string& text : remove_unreadable_files(kinds[k])) inputs.warn(std::move(text));
       HeadTextures maps = load_sound(kinds[k], inputs, [&](const FoundTextureFiles& textures) {

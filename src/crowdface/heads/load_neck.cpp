@@ -46,8 +46,8 @@ std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mea
   EdgeDistances distances(inputs.adjacency, mean);
   distances.search(rim, falloff);
   std::vector<std::uint32_t> above, all;
-  for (std::uint32_t v = 0; v < inputs.components.of_vertex.size(); ++v) {
-    if (inputs.components.of_vertex[v] != inputs.components.largest()) continue;
+  for (std::uint32_t v = 0; v < inputs.components.component_of_vertex.size(); ++v) {
+    if (inputs.components.component_of_vertex[v] != inputs.components.largest()) continue;
     all.push_back(v);
     if (!std::isfinite(distances.distance(v))) above.push_back(v);
   }
@@ -215,7 +215,7 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
         .add(int{config.neck.write_body});
     hasher.add_array(std::span(neck.body_rim));
     for (const MaterialFile& file : neck.body->materials.files) {
-      hasher.add(hash_file(file.from).digest);
+      hasher.add(hash_file(file.source).digest);
     }
   }
   if (!config.neck.body_texture.empty()) hasher.add(hash_file(config.neck.body_texture).digest);

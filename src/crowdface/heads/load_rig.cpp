@@ -184,7 +184,7 @@ Rig bind(const GltfRig& file, Fit fit, const Config& config) {
     places.row(static_cast<Index>(j)) = fit.frame.place(joint.rest.col(3).head<3>()).transpose();
   }
   for (const std::uint32_t point : fit.match.points) {
-    rig.skin.influences.add_group(file.influences.of(point));
+    rig.skin.influences.add_group(file.influences.items_of(point));
   }
   rig.points.positions = {std::move(places)};
   rig.points.meshes = {std::move(fit.mesh)};

@@ -33,7 +33,8 @@ std::vector<std::string> single_image_mask_warnings(const Config& config, const 
   const Topology& topology = inputs.faces.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto uvs = topology.face_uvs(f);
-    if (uvs.empty() || inputs.skin.of_vertex[topology.face(f)[0]] != inputs.skin.largest())
+    if (uvs.empty() ||
+        inputs.skin.component_of_vertex[topology.face(f)[0]] != inputs.skin.largest())
       continue;
     Eigen::RowVector2d middle(0, 0);
     for (const std::uint32_t uv : uvs) {

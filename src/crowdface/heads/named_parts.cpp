@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, cons
     std::uint32_t component = kNoIndex;
     Index* count = nullptr;  // cached, because the polygons of a component mostly follow each other
     for (Index f = ranges[range].first_face; f < end; ++f) {
-      const std::uint32_t of_face = inputs.components.of_vertex[topology.face(f)[0]];
+      const std::uint32_t of_face = inputs.components.component_of_vertex[topology.face(f)[0]];
       if (of_face != component) count = &faces[of_face][range];
       component = of_face;
       ++*count;
@@ -131,7 +131,7 @@ std::string part_name(const Part& part) {
 std::vector<bool> skin_of(const Inputs& inputs) {
   const std::uint32_t largest = inputs.skin.largest();
   std::vector<bool> skin;
-  for (const std::uint32_t c : inputs.skin.of_vertex) skin.push_back(c == largest);
+  for (const std::uint32_t c : inputs.skin.component_of_vertex) skin.push_back(c == largest);
   return skin;
 }
 

@@ -68,7 +68,7 @@ ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
   for (std::uint32_t& v : rim) {
     v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
   }
-  ObjFile cut = as_obj(std::move(mesh), whole.path);
+  ObjFile cut = convert_to_obj(std::move(mesh), whole.path);
   cut.material_libraries = std::move(whole.material_libraries);
   cut.textures_at = std::move(whole.textures_at);
   return cut;
@@ -95,7 +95,7 @@ Rim find_neck_rim(const Config& config, const Inputs& inputs) {
   const Components& components = inputs.components;
   std::vector<Rim> rims = find_open_rims(inputs.faces.topology, inputs.adjacency);
   std::erase_if(rims, [&](const Rim& rim) {
-    return components.of_vertex[rim.front()] != components.largest();
+    return components.component_of_vertex[rim.front()] != components.largest();
   });
   return lowest_rim(rims, mean_head(inputs.faces), unit_vector(config.faces.up),
                     mm_per(config.faces.units));
@@ -106,7 +106,7 @@ Positions area_vectors_around(const Topology& topology, const Positions& positio
   const VertexFaces around(topology);
   Positions areas = Positions::Zero(static_cast<Index>(rim.size()), 3);
   for (std::size_t i = 0; i < rim.size(); ++i) {
-    for (const std::uint32_t face : around.of(rim[i])) {
+    for (const std::uint32_t face : around.items_of(rim[i])) {
       areas.row(static_cast<Index>(i)) += face_area_vector(topology, face, positions).transpose();
     }
   }
@@ -118,7 +118,7 @@ void NeckBody::face_outward(const Positions& head_areas) {
   area_vectors = -area_vectors;
   if (!mesh) return;
   Topology& topology = mesh->file.topology;
-  turn_faces(topology);
+  reverse_faces(topology);
   std::vector<std::uint32_t>& normals = mesh->file.corner_normals;
   for (Index f = 0; f < topology.face_count() && !normals.empty(); ++f) {
     const auto [begin, end] = topology.corners(f);

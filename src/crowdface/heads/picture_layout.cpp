@@ -54,7 +54,7 @@ std::vector<PictureName> picture_names(const FoundTextureFiles& found,
     const fs::path& file = found.heads[picture.head].files[picture.row].name;
     if (parts.contains(file)) continue;
     const auto face = static_cast<std::size_t>(picture.face);
-    std::string part = part_name(materials.names[materials.of_face[face]]);
+    std::string part = part_name(materials.names[materials.material_of_face[face]]);
     if (part.empty() || taken.contains(part)) part += std::to_string(parts.size() + 1);
     taken.insert(part);
     parts.emplace(file, part);

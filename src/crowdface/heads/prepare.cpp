@@ -92,7 +92,7 @@ class HeadPreparation {
 /// warning.
 void clean(const std::filesystem::path& cache) {
   try {
-    remove_leftovers(cache);
+    remove_temporary_files(cache);
   } catch (const RecoverableError& error) {
     log_warning(error.what());
   }
@@ -139,7 +139,8 @@ CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepa
     const double two_edges = 2 * inputs.edge_length_mm / mm_per(config.faces.units);
     Progress progress("comparing heads patch by patch",
                       patch_count(static_cast<std::size_t>(inputs.faces.topology.vertex_count)));
-    return interpolate_fields(head_levels(config, prepared), test_levels(*prepared.nodes).levels,
+    return interpolate_fields(head_levels(config, prepared),
+                              make_tested_levels(*prepared.nodes).levels,
                               patch_order(inputs.faces.heads.front().positions, two_edges), left,
                               [&](std::size_t patches) {
                                 throw_if_interrupted();
@@ -236,7 +237,7 @@ std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepar
       };
     } else {
       levels.functions = [nodes = prepared.nodes, mixing = stored.mixing](std::uint64_t level) {
-        return basis_functions(*nodes, mixing, level);
+        return basis_values(*nodes, mixing, level);
       };
     }
     result.push_back(std::move(levels));

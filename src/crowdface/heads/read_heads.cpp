@@ -107,10 +107,10 @@ bool is_worth_keeping(const ObjFile& file) {
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (!head || !head->mesh) continue;
-    const auto note = std::ranges::find(head->file.notes, kTurnedNote);
+    const auto note = std::ranges::find(head->file.notes, kReversedFacesNote);
     if (note == head->file.notes.end()) continue;
     Topology as_read = head->mesh->topology;
-    turn_faces(as_read);
+    reverse_faces(as_read);
     const auto other = std::ranges::find_if(files, [&](const auto& file) {
       return file && file->mesh && first_difference(file->mesh->topology, as_read).empty();
     });
@@ -160,7 +160,8 @@ struct HeadReading {
 /// Moves the data that was read to the head and to the head's mesh.
 void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
-  file = shelf.winding() == Winding::kOutward ? right_side_out(std::move(read)) : std::move(read);
+  file =
+      shelf.winding() == Winding::kOutward ? with_outward_faces(std::move(read)) : std::move(read);
   HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
                 std::exchange(file.corner_normals, {})};
   file.uvs.resize(0, 2);
@@ -213,7 +214,7 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf
   reading.head.has_joined_vertices = join_split_vertices(mesh);
   if (mesh.topology.face_count() > 0) {
     auto [textures_at, library] = keep_textures(reading.head, cache, mesh);
-    take_mesh(reading, as_obj(std::move(mesh), fs::path(file.path), library), shelf);
+    take_mesh(reading, convert_to_obj(std::move(mesh), fs::path(file.path), library), shelf);
     file.textures_at = std::move(textures_at);
     return;
   }
@@ -231,8 +232,8 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   head.file.file = MappedFile(path);
   head.text_digest = seen.digest() ? *seen.digest() : hash_bytes(head.file.file.bytes());
   if (is_obj(path)) {
-    if (auto text = polypaint_at_vertices(head.file.file.bytes())) {
-      head.file.file = MappedFile::of_text(std::move(*text));
+    if (auto text = move_polypaint_to_vertices(head.file.file.bytes())) {
+      head.file.file = MappedFile::from_text(std::move(*text));
     }
   }
   head.is_cached =

@@ -23,7 +23,7 @@ Positions sampled(const TextureSet& textures, const HeadSet& heads, const Vertex
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     double count = 0;
-    for (const std::uint32_t face : around.of(vertices[i])) {
+    for (const std::uint32_t face : around.items_of(vertices[i])) {
       const std::uint32_t texture =
           textures.of_face.empty() ? TextureSet::kNone : textures.of_face[face];
       if (texture == TextureSet::kNone) continue;
@@ -70,7 +70,7 @@ Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_
 /// Index of the image, in the layout of blended textures, that the polygons at the ring use;
 /// kNoIndex if they have no image.
 std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const TextureLayout& layout) {
-  for (const std::uint32_t face : around.of(rim.front())) {
+  for (const std::uint32_t face : around.items_of(rim.front())) {
     if (layout.of_face[face] != kNoIndex) return layout.of_face[face];
   }
   return kNoIndex;

@@ -60,9 +60,9 @@ Digest materials_digest(const Inputs& inputs) {
     for (const MaterialFile& file :
          find_material_files(head.material_path(), head.material_libraries).files) {
       const bool is_hashed = file.kind && (*file.kind != TextureKind::kColour || has_colours);
-      if (is_hashed || !known.insert(file.from).second) continue;
+      if (is_hashed || !known.insert(file.source).second) continue;
       throw_if_interrupted();
-      hasher.add(file.relative.generic_string()).add(hash_file(file.from).digest);
+      hasher.add(file.destination.generic_string()).add(hash_file(file.source).digest);
     }
   }
   return known.empty() ? Digest() : hasher.digest();

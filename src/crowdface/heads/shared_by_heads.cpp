@@ -30,13 +30,13 @@ CacheFolder cache_of(const Inputs& inputs) {
 }
 
 Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
-  return hasher.add(kSharedVersion).add(inputs.topology_digest);
+  return hasher.add(kSharedCacheVersion).add(inputs.topology_digest);
 }
 
 /// Adds to the hash everything that determines the skin of all heads.
 Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
   for (const Digest& head : inputs.own_digests) hasher.add(head);
-  return hasher.add_array(std::span(inputs.skin.of_vertex)).add(inputs.skin.largest());
+  return hasher.add_array(std::span(inputs.skin.component_of_vertex)).add(inputs.skin.largest());
 }
 
 /// Whether each component's size equals its number of vertices.
@@ -90,7 +90,7 @@ constexpr auto kNeighbourArrays = [](auto& arrays, auto& found) {
   arrays("offsets", found.adjacency.offsets);
   arrays("neighbours", found.adjacency.items);
   arrays("boundary", found.adjacency.boundary);
-  arrays("components", found.components.of_vertex);
+  arrays("components", found.components.component_of_vertex);
   arrays("sizes", found.components.sizes);
 };
 
@@ -100,8 +100,8 @@ bool are_neighbours(const Neighbours& found, std::size_t vertices) {
   return offsets.size() == vertices + 1 && offsets.front() == 0 &&
          offsets.back() == adjacency.items.size() && std::ranges::is_sorted(offsets) &&
          all_below(adjacency.items, vertices) && adjacency.boundary.size() == vertices &&
-         components.of_vertex.size() == vertices &&
-         are_sizes(components.of_vertex, components.sizes);
+         components.component_of_vertex.size() == vertices &&
+         are_sizes(components.component_of_vertex, components.sizes);
 }
 
 constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {

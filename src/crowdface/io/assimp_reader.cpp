@@ -107,7 +107,7 @@ bool add_texture(const aiScene& scene, const std::string& material, TextureKind 
                  const aiString& name, FileMesh& mesh,
                  std::vector<std::string>& external_textures) {
   const aiTexture* texture = scene.GetEmbeddedTexture(name.C_Str());
-  // A height of 0 means a compressed image file.
+  // In Assimp, an embedded texture of height 0 is a compressed image file of mWidth bytes.
   const bool is_inside = texture != nullptr && texture->mHeight == 0;
   MeshTexture added{
       material, kind,
@@ -147,7 +147,7 @@ void collect_textures(const aiScene& scene, FileMesh& mesh,
         unused.emplace(key.substr(key.rfind('|') + 1));
       }
     }
-    // Layers of textures have no property of the material; Assimp names the lowest.
+    // A layered texture is not a property of the material; Assimp reports only its lowest layer.
     for (const auto& [type, kind] : {std::pair(aiTextureType_DIFFUSE, TextureKind::kColour),
                                      std::pair(aiTextureType_NORMALS, TextureKind::kNormal)}) {
       aiString name;
@@ -169,7 +169,7 @@ void note_shapes(const aiScene& scene, FileMesh& mesh) {
       shapes.insert(scene.mMeshes[m]->mAnimMeshes[a]->mName.C_Str());
     }
   }
-  if (!shapes.empty()) mesh.notes.push_back(note_of_shapes(shapes.size(), "blend shapes"));
+  if (!shapes.empty()) mesh.notes.push_back(shapes_note(shapes.size(), "blend shapes"));
 }
 
 void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& external_textures) {

@@ -12,8 +12,8 @@ namespace crowdface {
 
 FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
   static auto* const read = reinterpret_cast<ReadFbx*>(
-      project_library_function("libcrowdface_meshes.so", "crowdface_read_fbx",
-                               "FBX files need (Assimp)", "FBX files cannot be read"));
+      load_library_function("libcrowdface_meshes.so", "crowdface_read_fbx",
+                            "FBX files need (Assimp)", "FBX files cannot be read"));
   // Assimp 5.2 writes out of bounds if the base64 text of an image ends in more padding characters
   // than base64 allows.
   if (!bytes.starts_with("Kaydara FBX") && bytes.find("===") != bytes.npos) {

@@ -17,10 +17,10 @@ JoinedBorders joined_ids(const FileMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> of_id;
   for (std::uint32_t v = 0; v < mesh.vertex_ids.size(); ++v) {
     const std::uint32_t piece = mesh.pieces.empty() ? 0 : mesh.pieces[v];
-    const auto [place, is_new] = of_id.try_emplace({piece, mesh.vertex_ids[v]},
-                                                   static_cast<std::uint32_t>(result.first.size()));
-    if (is_new) result.first.push_back(v);
-    result.joined.push_back(place->second);
+    const auto [place, is_new] = of_id.try_emplace(
+        {piece, mesh.vertex_ids[v]}, static_cast<std::uint32_t>(result.first_copies.size()));
+    if (is_new) result.first_copies.push_back(v);
+    result.joined_vertex.push_back(place->second);
   }
   return result;
 }
@@ -32,9 +32,9 @@ void join_vertices(FileMesh& mesh) {
                                : joined_ids(mesh);
   mesh.pieces.clear();
   mesh.vertex_ids.clear();
-  mesh.positions = Positions(mesh.positions(by.first, kAllColumns));
-  if (mesh.colours.rows() > 0) mesh.colours = Positions(mesh.colours(by.first, kAllColumns));
-  for (std::uint32_t& vertex : mesh.topology.corner_vertices) vertex = by.joined[vertex];
+  mesh.positions = Positions(mesh.positions(by.first_copies, kAllColumns));
+  if (mesh.colours.rows() > 0) mesh.colours = Positions(mesh.colours(by.first_copies, kAllColumns));
+  for (std::uint32_t& vertex : mesh.topology.corner_vertices) vertex = by.joined_vertex[vertex];
   mesh.topology.vertex_count = mesh.positions.rows();
 }
 

@@ -48,7 +48,7 @@ void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vect
               const std::vector<double>& colours);
 
 /// Note about shapes in a mesh file, which faces take from files of their own (docs/shapes.md).
-inline std::string note_of_shapes(std::size_t count, std::string_view kind) {
+inline std::string shapes_note(std::size_t count, std::string_view kind) {
   return "its " + std::to_string(count) + ' ' + std::string(kind) +
          " are not used: export each as a mesh of its own for `shapes`";
 }

@@ -14,11 +14,11 @@ struct FixedNormals {
   std::vector<std::uint32_t> vertices;
   Positions normals;  ///< #vertices by 3
 
-  /// Writes the given normals into `all`.
-  /// \param all  #V by 3
-  void set(Positions& all) const {
+  /// Writes the given normals into `all_normals`.
+  /// \param all_normals  #V by 3
+  void copy_to(Positions& all_normals) const {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      all.row(vertices[i]) = normals.row(static_cast<Index>(i));
+      all_normals.row(vertices[i]) = normals.row(static_cast<Index>(i));
     }
   }
 };

@@ -13,9 +13,9 @@ namespace crowdface {
 namespace glb {
 inline constexpr std::uint32_t kMagic = 0x46546c67, kContainerVersion = 2;  // "glTF"
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-inline constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
+inline constexpr std::size_t kFileHeaderSize = 12, kChunkHeaderSize = 8;
 /// Number of bytes of headers around the JSON text and before the buffer.
-inline constexpr std::size_t kBinaryHeader = kFileHeader + 2 * kChunkHeader;
+inline constexpr std::size_t kBinaryHeaderSize = kFileHeaderSize + 2 * kChunkHeaderSize;
 }  // namespace glb
 
 /// Constants of the glTF 2.0 specification.
@@ -32,17 +32,17 @@ struct GlbChunks {
 /// The two chunks of a GLB file; nothing if the bytes are not GLB or are truncated.
 inline std::optional<GlbChunks> glb_chunks(std::string_view bytes) {
   using namespace glb;
-  if (bytes.size() < kBinaryHeader || number_at<std::uint32_t>(bytes.data()) != kMagic ||
+  if (bytes.size() < kBinaryHeaderSize || number_at<std::uint32_t>(bytes.data()) != kMagic ||
       number_at<std::uint32_t>(bytes.data() + 4) != kContainerVersion) {
     return std::nullopt;
   }
-  const std::size_t json = number_at<std::uint32_t>(bytes.data() + kFileHeader);
-  if (json > bytes.size() - kBinaryHeader) return std::nullopt;
+  const std::size_t json = number_at<std::uint32_t>(bytes.data() + kFileHeaderSize);
+  if (json > bytes.size() - kBinaryHeaderSize) return std::nullopt;
   const std::size_t binary =
-      number_at<std::uint32_t>(bytes.data() + kFileHeader + kChunkHeader + json);
-  if (binary > bytes.size() - kBinaryHeader - json) return std::nullopt;
-  return GlbChunks{bytes.substr(kFileHeader + kChunkHeader, json),
-                   bytes.substr(kBinaryHeader + json, binary)};
+      number_at<std::uint32_t>(bytes.data() + kFileHeaderSize + kChunkHeaderSize + json);
+  if (binary > bytes.size() - kBinaryHeaderSize - json) return std::nullopt;
+  return GlbChunks{bytes.substr(kFileHeaderSize + kChunkHeaderSize, json),
+                   bytes.substr(kBinaryHeaderSize + json, binary)};
 }
 
 }  // namespace crowdface

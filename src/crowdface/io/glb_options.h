@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// How a surface looks in viewers that do not read textures.
+/// A glTF material: base colour, and indices of the images that it uses.
 struct GlbMaterial {
   std::string name;                            ///< may be empty
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
@@ -41,8 +41,8 @@ struct GlbTarget {
   std::vector<std::uint32_t> vertices;
 };
 
-/// An image whose content differs from file to file.
-struct GlbOwnImage {
+/// An image that every face's file has, with different content in each file.
+struct GlbFaceImage {
   std::string type;    ///< "image/png" or "image/jpeg"
   std::string suffix;  ///< follows the mesh's name in the image's name, such as ".normal"
 };
@@ -62,7 +62,7 @@ struct GlbOptions {
   std::vector<std::string> points;
   GlbSkin skin;  ///< joints under the face's node; positions differ per face
   std::vector<std::uint32_t> vertex_ids;  ///< #V values of `_VERTEX_ID`; empty: 0, 1, 2, …
-  std::vector<GlbOwnImage> images;        ///< the images embedded in every file
+  std::vector<GlbFaceImage> images;       ///< the images embedded in every file
   std::optional<GlbOverlay> overlay = {};
   /// Folder relative to which files without embedded images refer to `GlbOverlay::kFile`.
   std::string shared_folder = ".";

@@ -34,7 +34,7 @@ void add_targets(std::span<const Displacements> moves, std::span<const std::uint
                  Index vertex_count, Json& scene, GlbBuffer& buffer) {
   for (const Displacements& target : moves) {
     const GlbTargetRows moved = target_rows(target.vertices, split, vertex_count);
-    const auto [least, most] = target_bounds(target, moved.moves_all_vertices);
+    const auto [least, most] = displacement_bounds(target, moved.moves_all_vertices);
     buffer.add_zeros(split.size());
     scene["accessors"].back()["min"] = vector_json(least);
     scene["accessors"].back()["max"] = vector_json(most);
@@ -57,14 +57,14 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
       fans_(topology),
       materials_(materials),
       targets_(std::move(targets)),
-      fixed_(std::move(fixed)) {
+      fixed_normals_(std::move(fixed)) {
   require(!materials.empty() && static_cast<Index>(face_materials.size()) == topology.face_count(),
           "GlbPart: a material of each face");
   const SplitVertices split = split_vertices(topology);
-  split_ = split.vertices;
+  source_vertices_ = split.vertices;
   has_uvs_ = !split.uvs.empty() && uvs.rows() > 0;
   if (has_uvs_) shared_ = texture_coordinates(split, uvs);
-  if (influences.group_count() > 0) skin_ = skin_attributes(influences, split_);
+  if (influences.group_count() > 0) skin_ = skin_attributes(influences, source_vertices_);
   for (GlbSkinAttribute& one : skin_) shared_ += std::exchange(one.bytes, {});
   for (std::size_t m = 0; m < materials.size(); ++m) {
     std::size_t indices = 0;
@@ -87,7 +87,7 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
                               std::span<const Displacements> moves, const PartLook& look,
                               std::size_t size) const {
   require(moves.size() == targets_.size(), "GlbPart: displacements of each target");
-  const std::size_t vertices = split_.size();
+  const std::size_t vertices = source_vertices_.size();
   GlbBuffer buffer(scene, size);
   Json attributes = Json::object();
   const auto add_attribute = [&](const std::string& called, const char* type, std::size_t width,
@@ -130,7 +130,7 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
   }
   Json mesh = {{"name", name_}, {"primitives", std::move(primitives)}};
   set_targets(mesh, scene["accessors"].size(), targets_);
-  add_targets(moves, split_, topology_.vertex_count, scene, buffer);
+  add_targets(moves, source_vertices_, topology_.vertex_count, scene, buffer);
   Json node = {{"name", name_}, {"mesh", scene["meshes"].size()}};
   if (skin_.empty()) {
     scene["nodes"][0]["children"].push_back(scene["nodes"].size());
@@ -148,12 +148,12 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
                      std::span<const Displacements> moves, const PartLook& look) const {
   require_finite(positions, topology_.vertex_count, name_);
   Positions normals = vertex_normals(fans_, topology_, positions);
-  fixed_.set(normals);
-  const std::size_t length = 2 * split_.size() * kVectorSize;
+  fixed_normals_.copy_to(normals);
+  const std::size_t length = 2 * source_vertices_.size() * kVectorSize;
   char* const vectors = file.reserve(length);
   char* at = vectors;
   for (const Positions* rows : {&positions, &std::as_const(normals)}) {
-    for (const std::uint32_t vertex : split_) at = put_row(at, *rows, vertex);
+    for (const std::uint32_t vertex : source_vertices_) at = put_row(at, *rows, vertex);
   }
   file.refer_to({vectors, length});
   file.refer_to(shared_);
@@ -163,7 +163,8 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
   }
   for (const Displacements& target : moves) {
     require_finite(target.moves, target.moves.rows(), name_);
-    const GlbTargetRows rows = target_rows(target.vertices, split_, topology_.vertex_count);
+    const GlbTargetRows rows =
+        target_rows(target.vertices, source_vertices_, topology_.vertex_count);
     std::string bytes;
     for (const std::uint32_t vertex : rows.vertices) append_number(bytes, vertex);
     bytes.resize(bytes.size() + rows.rows.size() * kVectorSize);
@@ -174,9 +175,9 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
 }
 
 std::size_t GlbPart::encode_bytes() const {
-  return 2 * split_.size() * kVectorSize +
+  return 2 * source_vertices_.size() * kVectorSize +
          static_cast<std::size_t>(topology_.vertex_count) * 3 * sizeof(double) +
-         targets_.size() * split_.size() * (sizeof(std::uint32_t) + kVectorSize);
+         targets_.size() * source_vertices_.size() * (sizeof(std::uint32_t) + kVectorSize);
 }
 
 }  // namespace crowdface

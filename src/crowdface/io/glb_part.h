@@ -84,7 +84,7 @@ class GlbPart {
   std::string name_;
   Topology topology_;
   NormalFans fans_;
-  std::vector<std::uint32_t> split_;  ///< original vertex of each split vertex
+  std::vector<std::uint32_t> source_vertices_;  ///< original vertex of each split vertex
   bool has_uvs_;
   std::vector<Primitive> primitives_;
   std::vector<GlbPartMaterial> materials_;
@@ -92,7 +92,7 @@ class GlbPart {
   std::vector<GlbImage> images_;        ///< without `bytes`
   std::vector<GlbSkinAttribute> skin_;  ///< without `bytes`; empty: not skinned
   std::vector<std::string> targets_;
-  FixedNormals fixed_;
+  FixedNormals fixed_normals_;
   std::string shared_;  ///< texture coordinates, influences, triangles, images
 };
 

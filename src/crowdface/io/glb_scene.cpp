@@ -113,9 +113,9 @@ void GlbBuffer::add_zeros(std::size_t count) {
   scene_["accessors"].push_back({{"componentType", kFloat}, {"count", count}, {"type", "VEC3"}});
 }
 
-void GlbBuffer::make_sparse(std::size_t some, std::size_t indices, std::size_t values) {
+void GlbBuffer::make_sparse(std::size_t count, std::size_t indices, std::size_t values) {
   scene_["accessors"].back()["sparse"] = {
-      {"count", some},
+      {"count", count},
       {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
       {"values", {{"bufferView", values}}}};
 }
@@ -149,8 +149,8 @@ GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
   return rows;
 }
 
-std::pair<Eigen::RowVector3d, Eigen::RowVector3d> target_bounds(const Displacements& moves,
-                                                                bool moves_all_vertices) {
+std::pair<Eigen::RowVector3d, Eigen::RowVector3d> displacement_bounds(const Displacements& moves,
+                                                                      bool moves_all_vertices) {
   Eigen::RowVector3d least = Eigen::RowVector3d::Zero(), most = least;
   if (moves.moves.rows() == 0) return {least, most};
   least = moves.moves.colwise().minCoeff();

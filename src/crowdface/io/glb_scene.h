@@ -61,9 +61,9 @@ class GlbBuffer {
 
   /// Adds an accessor of `count` zero vectors.
   void add_zeros(std::size_t count);
-  /// Makes the last accessor sparse, with `some` non-zero elements.
+  /// Makes the last accessor sparse, with `count` non-zero elements.
   /// \param indices, values  the buffer views that hold the elements' indices and values.
-  void make_sparse(std::size_t some, std::size_t indices, std::size_t values);
+  void make_sparse(std::size_t count, std::size_t indices, std::size_t values);
 
   /// Writes the buffer's length to the scene.
   void finish();
@@ -94,7 +94,7 @@ GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
 
 /// Minimum and maximum of a target's displacements. They include zero unless the target moves all
 /// vertices.
-std::pair<Eigen::RowVector3d, Eigen::RowVector3d> target_bounds(const Displacements& moves,
-                                                                bool moves_all_vertices);
+std::pair<Eigen::RowVector3d, Eigen::RowVector3d> displacement_bounds(const Displacements& moves,
+                                                                      bool moves_all_vertices);
 
 }  // namespace crowdface

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kOfSet = 4;
 
 /// The inverse rotation applied to a vector.
-Eigen::Vector3d turned_back(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& v) {
+Eigen::Vector3d inversely_rotated(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& v) {
   Eigen::Vector3d back;
   for (Index c = 0; c < 3; ++c) {
     back[c] = rotation(0, c) * v.x() + rotation(1, c) * v.y() + rotation(2, c) * v.z();
@@ -41,13 +41,13 @@ Json rotation_json(const Eigen::Matrix3d& rotation) {
 std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices) {
   std::size_t most = 1;
-  for (const std::uint32_t v : vertices) most = std::max(most, influences.of(v).size());
+  for (const std::uint32_t v : vertices) most = std::max(most, influences.items_of(v).size());
   std::vector<GlbSkinAttribute> attributes;
   for (std::size_t set = 0; set * kOfSet < most; ++set) {
     GlbSkinAttribute joints{concat("JOINTS_", set), gltf::kUnsignedShort, {}};
     GlbSkinAttribute weights{concat("WEIGHTS_", set), gltf::kFloat, {}};
     for (const std::uint32_t v : vertices) {
-      const auto of = influences.of(v);
+      const auto of = influences.items_of(v);
       for (std::size_t i = kOfSet * set; i < kOfSet * (set + 1); ++i) {
         const Influence one = i < of.size() ? of[i] : Influence{0, 0};
         append_number(joints.bytes, static_cast<std::uint16_t>(one.joint));
@@ -83,12 +83,14 @@ void add_joints(const GlbSkin& skin, std::size_t matrices, Json& scene) {
       Json::array({Json{{"joints", std::move(joints)}, {"inverseBindMatrices", matrices}}});
 }
 
-void place_joints(const GlbSkin& skin, std::size_t first, const Positions& places, Json& scene) {
+void set_joint_positions(const GlbSkin& skin, std::size_t first, const Positions& joint_positions,
+                         Json& scene) {
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-    Eigen::Vector3d at = places.row(static_cast<Index>(j)).transpose();
+    Eigen::Vector3d at = joint_positions.row(static_cast<Index>(j)).transpose();
     const std::uint32_t parent = skin.joints[j].parent;
     if (parent != kNoIndex) {
-      at = turned_back(skin.joints[parent].rotation, at - places.row(parent).transpose());
+      at = inversely_rotated(skin.joints[parent].rotation,
+                             at - joint_positions.row(parent).transpose());
     }
     Json& translation = scene["nodes"][first + j]["translation"];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -97,11 +99,11 @@ void place_joints(const GlbSkin& skin, std::size_t first, const Positions& place
   }
 }
 
-char* put_bind_matrices(char* out, const GlbSkin& skin, const Positions& places) {
+char* put_bind_matrices(char* out, const GlbSkin& skin, const Positions& joint_positions) {
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {
     const Eigen::Matrix3d& rotation = skin.joints[j].rotation;
     const Eigen::Vector3d shift =
-        turned_back(rotation, -places.row(static_cast<Index>(j)).transpose());
+        inversely_rotated(rotation, -joint_positions.row(static_cast<Index>(j)).transpose());
     for (Index c = 0; c < 3; ++c) {
       for (Index r = 0; r < 3; ++r) out = put_number(out, to_single(rotation(c, r)));
       out = put_number(out, 0.0F);

@@ -47,16 +47,16 @@ struct GlbSkinAttribute {
 std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices);
 
-/// Adds the nodes of the joints, as children of the first node, and the skin. `place_joints` sets
-/// their positions.
+/// Adds the nodes of the joints, as children of the first node, and the skin. `set_joint_positions`
+/// sets their positions.
 void add_joints(const GlbSkin& skin, std::size_t matrices, nlohmann::ordered_json& scene);
 /// Sets the positions of the joints.
 /// \param first  index of the first joint's node
-/// \param places  #joints by 3
-void place_joints(const GlbSkin& skin, std::size_t first, const Positions& places,
-                  nlohmann::ordered_json& scene);
+/// \param joint_positions  #joints by 3
+void set_joint_positions(const GlbSkin& skin, std::size_t first, const Positions& joint_positions,
+                         nlohmann::ordered_json& scene);
 /// Writes the inverse bind matrices.
 /// \return the end of the output.
-char* put_bind_matrices(char* out, const GlbSkin& skin, const Positions& places);
+char* put_bind_matrices(char* out, const GlbSkin& skin, const Positions& joint_positions);
 
 }  // namespace crowdface

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The container is 28 bytes around a JSON text and a buffer. This file writes the container itself,
-// so that faces share all but two arrays; with tinygltf each face would copy its whole buffer
-// several times (see tests/benchmarks/io_bench.cpp).
+// Writes the GLB container (28 bytes around a JSON text and a buffer) without a library, so that
+// faces share all arrays but two; tinygltf would copy each face's whole buffer several times (see
+// tests/benchmarks/io_bench.cpp).
 #include "crowdface/io/glb_template.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions&
 std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32_t>& ids) {
   std::string bytes;
   bytes.reserve(split.vertices.size() * sizeof(float));
-  // glTF forbids unsigned int for this attribute, and 16 bits are too few.
+  // Store vertex ids as floats: glTF forbids unsigned int for attributes, and 16 bits are too few.
   for (const std::uint32_t vertex : split.vertices) {
     append_number(bytes, static_cast<float>(ids.empty() ? vertex : ids[vertex]));
   }
@@ -118,7 +118,7 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
 /// Adds images, which come last in the buffer. Their sizes and offsets are set for each file.
 /// \param overlay  buffer view of the overlay image, if there is one
 void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOptions& options) {
-  for (const GlbOwnImage& image : options.images) {
+  for (const GlbFaceImage& image : options.images) {
     add_image(scene, scene["bufferViews"].size(), image.suffix, image.type);
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 0}});
   }
@@ -160,14 +160,14 @@ void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32
 
 GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
                          const GlbOptions& options)
-    : vertices_(topology.vertex_count),
-      colours_(options.colours),
-      images_(options.images.size()),
-      points_(static_cast<Index>(options.points.size())) {
+    : vertex_count_(topology.vertex_count),
+      has_colours_(options.colours),
+      image_count_(options.images.size()),
+      point_count_(static_cast<Index>(options.points.size())) {
   constexpr Index kMaxVertices = 1 << 24;
-  if (vertices_ > kMaxVertices || topology.face_count() == 0) {
+  if (vertex_count_ > kMaxVertices || topology.face_count() == 0) {
     throw InvalidInput(concat("GLB: expected a mesh with faces and at most ", kMaxVertices,
-                              " vertices, found ", vertices_, " vertices and ",
+                              " vertices, found ", vertex_count_, " vertices and ",
                               topology.face_count(), " faces"));
   }
   const bool has_normal_map = !topology.corner_uvs.empty() &&
@@ -177,7 +177,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   const SplitVertices split =
       has_normal_map ? split_at_mirrored_uvs(topology, uvs) : split_vertices(topology);
   if (has_normal_map) tangents_.emplace(split, uvs);
-  split_.assign(split.vertices.begin() + vertices_, split.vertices.end());
+  copied_vertices_.assign(split.vertices.begin() + vertex_count_, split.vertices.end());
   const std::vector<Triangles> groups = by_material(split, options);
 
   Json scene;
@@ -199,7 +199,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
                                           has_normal_map, !split.uvs.empty(), skin);
   std::optional<std::size_t> places, picture;
   if (options.overlay) {
-    require(options.overlay->places.size() == static_cast<std::size_t>(vertices_),
+    require(options.overlay->places.size() == static_cast<std::size_t>(vertex_count_),
             "GlbTemplate: a place of each vertex on the overlay");
     buffer.add_view(split.vertices.size() * sizeof(options.overlay->places[0]), kArrayBuffer);
     places = buffer.add_accessor(kUnsignedShort, "VEC2", split.vertices.size());
@@ -210,7 +210,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   std::vector<std::size_t> views;
   for (const GlbTarget& target : options.targets) {
     const std::size_t before = indices.size();
-    targets_.push_back(target_rows(target.vertices, split.vertices, vertices_));
+    targets_.push_back(target_rows(target.vertices, split.vertices, vertex_count_));
     for (const std::uint32_t vertex : targets_.back().vertices) append_number(indices, vertex);
     targets_.back().vertices = {};
     if (target.vertices.empty()) continue;
@@ -252,11 +252,11 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
 }
 
 std::size_t GlbTemplate::vector_bytes() const {
-  return (static_cast<std::size_t>(vertices_) + split_.size()) * kVectorSize;
+  return (static_cast<std::size_t>(vertex_count_) + copied_vertices_.size()) * kVectorSize;
 }
 
 std::size_t GlbTemplate::memory_bytes() const {
-  return shared_.size() + json_.size() + split_.size() * sizeof(split_[0]) +
+  return shared_.size() + json_.size() + copied_vertices_.size() * sizeof(copied_vertices_[0]) +
          target_bytes_ / kVectorSize * sizeof(std::uint32_t) +
          (tangents_ ? tangents_->memory_bytes() : 0);
 }
@@ -267,27 +267,28 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
                                 std::span<const PlacedGlbPart> parts, const Positions& joints,
                                 const ColourRows& colours) const {
   require(moves.size() == targets_.size(), "GlbTemplate: displacements of each target");
-  require(images.size() == images_, "a GLB file with ", images.size(), " images for ", images_);
-  require_finite(positions, vertices_, name);
-  require_finite(normals, vertices_, name);
-  require(!colours_ || colours.rows() == vertices_, "GlbTemplate: a colour of each vertex");
+  require(images.size() == image_count_, "a GLB file with ", images.size(), " images for ",
+          image_count_);
+  require_finite(positions, vertex_count_, name);
+  require_finite(normals, vertex_count_, name);
+  require(!has_colours_ || colours.rows() == vertex_count_, "GlbTemplate: a colour of each vertex");
   Json scene = Json::parse(json_);
   scene["accessors"][0]["min"] = vector_json(positions.colwise().minCoeff());
   scene["accessors"][0]["max"] = vector_json(positions.colwise().maxCoeff());
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     require_finite(moves[t].moves, moves[t].moves.rows(), name);
-    const auto [least, most] = target_bounds(moves[t], targets_[t].moves_all_vertices);
+    const auto [least, most] = displacement_bounds(moves[t], targets_[t].moves_all_vertices);
     Json& accessor = scene["accessors"][first_target_ + t];
     accessor["min"] = vector_json(least);
     accessor["max"] = vector_json(most);
   }
-  require_finite(points, points_, name);
-  for (Index p = 0; p < points_; ++p) {
+  require_finite(points, point_count_, name);
+  for (Index p = 0; p < point_count_; ++p) {
     scene["nodes"][static_cast<std::size_t>(p + 1)]["translation"] = vector_json(points.row(p));
   }
   if (!skin_.joints.empty()) {
     require_finite(joints, static_cast<Index>(skin_.joints.size()), name);
-    place_joints(skin_, static_cast<std::size_t>(1 + points_), joints, scene);
+    set_joint_positions(skin_, static_cast<std::size_t>(1 + point_count_), joints, scene);
     scene["nodes"].back()["name"] = name;
   }
   scene["nodes"][0]["name"] = name;
@@ -306,7 +307,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');
 
-  const std::size_t total = kBinaryHeader + json.size() + binary_size;
+  const std::size_t total = kBinaryHeaderSize + json.size() + binary_size;
   if (total > std::numeric_limits<std::uint32_t>::max()) {
     throw InvalidInput(concat(name, ": a GLB file of ", total,
                               " bytes cannot be; expected at most ",
@@ -324,10 +325,11 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   EncodedFile file;
   file.add(head);
   char* vectors = file.reserve(encode_bytes());
-  put_vectors(vectors, positions, split_);
-  put_vectors(vectors + vector_bytes(), normals, split_);
+  put_vectors(vectors, positions, copied_vertices_);
+  put_vectors(vectors + vector_bytes(), normals, copied_vertices_);
   char* const values = vectors + vertex_bytes();
-  if (colours_) put_vectors(vectors + 2 * vector_bytes(), linear_light(colours), split_);
+  if (has_colours_)
+    put_vectors(vectors + 2 * vector_bytes(), linear_light(colours), copied_vertices_);
   if (tangents_) {
     tangents_->write(values - tangents_->count() * Tangents::kSize, positions, normals);
   }

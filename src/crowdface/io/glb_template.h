@@ -58,16 +58,16 @@ class GlbTemplate {
   std::size_t vector_bytes() const;
   /// Bytes of positions, normals, colours and tangents.
   std::size_t vertex_bytes() const {
-    return (colours_ ? 3 : 2) * vector_bytes() +
+    return (has_colours_ ? 3 : 2) * vector_bytes() +
            (tangents_ ? tangents_->count() * Tangents::kSize : 0);
   }
 
-  Index vertices_;
-  bool colours_;
-  std::size_t images_;
-  Index points_;
+  Index vertex_count_;
+  bool has_colours_;
+  std::size_t image_count_;
+  Index point_count_;
   /// Original vertices of the split vertices with index ≥ #V.
-  std::vector<std::uint32_t> split_;
+  std::vector<std::uint32_t> copied_vertices_;
   std::optional<Tangents> tangents_;    ///< if a material has a normal map
   std::string shared_;                  ///< the part of the buffer that all faces share
   std::vector<GlbTargetRows> targets_;  ///< without the lists of vertices

@@ -10,11 +10,11 @@ namespace crowdface {
 
 std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptView& view) {
   constexpr std::size_t kMaxStride = 256;
-  // The codec's largest compression ratio
-  constexpr std::size_t kMaxTimes = 256, kTail = 4096;
+  // The codec's largest compression ratio, and an allowance for the end of the data in bytes
+  constexpr std::size_t kMaxRatio = 256, kTailBytes = 4096;
   const bool attributes = view.mode == "ATTRIBUTES";
   const bool sound = view.stride > 0 && view.stride <= kMaxStride && view.count > 0 &&
-                     view.count <= (kMaxTimes * bytes.size() + kTail) / view.stride &&
+                     view.count <= (kMaxRatio * bytes.size() + kTailBytes) / view.stride &&
                      (attributes ? view.stride % 4 == 0 : view.stride == 2 || view.stride == 4);
   if (!sound || (view.mode == "TRIANGLES" && view.count % 3 != 0)) return std::nullopt;
   std::string out(view.count * view.stride, '\0');

@@ -103,7 +103,7 @@ Eigen::Vector3d transform_point(const Eigen::Matrix4d& matrix, const double* poi
 
 GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)) {
   if (bytes.starts_with("glTF")) {
-    if (bytes.size() >= glb::kFileHeader && number_at<std::uint32_t>(bytes.data() + 4) == 1) {
+    if (bytes.size() >= glb::kFileHeaderSize && number_at<std::uint32_t>(bytes.data() + 4) == 1) {
       fail("expected glTF 2.0, found version 1: export it again, or gltf-transform copy");
     }
     const auto chunks = glb_chunks(bytes);
@@ -122,7 +122,7 @@ void GltfFile::fail(const std::string& what) const {
   refuse_file(path_, what);
 }
 
-std::string GltfFile::resource(const std::string& uri, const std::string& what) const {
+std::string GltfFile::read_uri(const std::string& uri, const std::string& what) const {
   if (uri.starts_with("data:")) {
     const std::size_t comma = uri.find(',');
     if (comma == uri.npos) fail(concat(what, " has no data"));
@@ -146,9 +146,9 @@ std::string_view GltfFile::buffer(std::size_t number) {
     if (number != 0) fail(what + " has no data");
     return binary_;
   }
-  const auto [known, is_new] = own_buffers_.try_emplace(number);
+  const auto [known, is_new] = decoded_buffers_.try_emplace(number);
   if (!is_new) return known->second;
-  known->second = resource(json.at("uri").get<std::string>(), what);
+  known->second = read_uri(json.at("uri").get<std::string>(), what);
   remaining_numbers_ += kOften * known->second.size();
   return known->second;
 }
@@ -166,7 +166,7 @@ std::string_view GltfFile::view(std::size_t number) {
   };
   for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     if (!json.contains("extensions") || !json["extensions"].contains(name)) continue;
-    const auto [known, is_new] = own_views_.try_emplace(number);
+    const auto [known, is_new] = decoded_views_.try_emplace(number);
     if (!is_new) return known->second;
     const Json& packed = json["extensions"][name];
     auto bytes = decode_meshopt(
@@ -185,8 +185,8 @@ std::string_view GltfFile::view(std::size_t number) {
   return part(json);
 }
 
-/// Limits the total number of values read. A mesh may be used by many nodes, and several accessors
-/// may share the same data.
+/// Limits the total number of values read, because many nodes may use one mesh, and several
+/// accessors may share data.
 void GltfFile::reserve_numbers(std::size_t more) {
   if (more > remaining_numbers_) {
     fail("its meshes and skins use far more numbers than its buffers have bytes");
@@ -194,9 +194,9 @@ void GltfFile::reserve_numbers(std::size_t more) {
   remaining_numbers_ -= more;
 }
 
-std::vector<double> GltfFile::numbers_in(std::size_t number, std::size_t begin, int type,
-                                         std::size_t count, std::size_t width,
-                                         std::size_t accessor) {
+std::vector<double> GltfFile::read_rows(std::size_t number, std::size_t begin, int type,
+                                        std::size_t count, std::size_t width,
+                                        std::size_t accessor) {
   const std::string_view bytes = view(number);
   const std::size_t size = size_of_type(type);
   const std::size_t stride = scene_.at("bufferViews").at(number).value("byteStride", size * width);
@@ -234,14 +234,14 @@ std::vector<double> GltfFile::numbers_in(std::size_t number, std::size_t begin, 
   return numbers;
 }
 
-std::vector<double> GltfFile::numbers(std::size_t accessor, std::size_t width) {
+std::vector<double> GltfFile::read_values(std::size_t accessor, std::size_t width) {
   const Json& json = scene_.at("accessors").at(accessor);
   const auto type = json.at("componentType").get<int>();
   const std::size_t count = json.at("count").get<std::size_t>();
   std::vector<double> numbers;
   if (json.contains("bufferView")) {
-    numbers = numbers_in(json.at("bufferView").get<std::size_t>(),
-                         json.value("byteOffset", std::size_t{0}), type, count, width, accessor);
+    numbers = read_rows(json.at("bufferView").get<std::size_t>(),
+                        json.value("byteOffset", std::size_t{0}), type, count, width, accessor);
   } else {
     if (json.contains("sparse")) {
       // Reading a view enlarges the limit that the next check uses.
@@ -255,12 +255,12 @@ std::vector<double> GltfFile::numbers(std::size_t accessor, std::size_t width) {
     const Json& sparse = json["sparse"];
     const Json &rows = sparse.at("indices"), &values = sparse.at("values");
     const auto some = sparse.at("count").get<std::size_t>();
-    const std::vector<double> at = numbers_in(
+    const std::vector<double> at = read_rows(
         rows.at("bufferView").get<std::size_t>(), rows.value("byteOffset", std::size_t{0}),
         rows.at("componentType").get<int>(), some, 1, accessor);
     const std::vector<double> moved =
-        numbers_in(values.at("bufferView").get<std::size_t>(),
-                   values.value("byteOffset", std::size_t{0}), type, some, width, accessor);
+        read_rows(values.at("bufferView").get<std::size_t>(),
+                  values.value("byteOffset", std::size_t{0}), type, some, width, accessor);
     for (std::size_t i = 0; i < some; ++i) {
       if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {
         fail(concat("accessor ", accessor, " names row ", at[i], " of ", count));
@@ -279,9 +279,9 @@ std::vector<double> GltfFile::numbers(std::size_t accessor, std::size_t width) {
   return numbers;
 }
 
-std::vector<std::uint32_t> GltfFile::whole_numbers(std::size_t accessor, std::size_t width) {
+std::vector<std::uint32_t> GltfFile::read_unsigned_values(std::size_t accessor, std::size_t width) {
   std::vector<std::uint32_t> whole;
-  for (const double number : numbers(accessor, width)) {
+  for (const double number : read_values(accessor, width)) {
     if (number < 0 || number >= kNoIndex) {
       fail(concat("accessor ", accessor, ": expected whole numbers, found ", number));
     }

@@ -31,12 +31,12 @@ class GltfFile {
   /// The values of an accessor in row-major order. Normalized integers become the fractions they
   /// encode; sparse values are filled in.
   /// \throws InvalidInput if a value is not finite.
-  std::vector<double> numbers(std::size_t accessor, std::size_t width);
+  std::vector<double> read_values(std::size_t accessor, std::size_t width);
   /// The values of an accessor as unsigned integers.
-  std::vector<std::uint32_t> whole_numbers(std::size_t accessor, std::size_t width);
+  std::vector<std::uint32_t> read_unsigned_values(std::size_t accessor, std::size_t width);
   /// The data of a URI: embedded, or read from a file beside this one.
   /// \param what  for messages: "its buffer 2"
-  std::string resource(const std::string& uri, const std::string& what) const;
+  std::string read_uri(const std::string& uri, const std::string& what) const;
   /// The uncompressed content of a buffer view.
   std::string_view view(std::size_t number);
 
@@ -48,14 +48,14 @@ class GltfFile {
  private:
   std::string_view buffer(std::size_t number);
   /// Reads `count` rows of `width` numbers from buffer view `number`.
-  std::vector<double> numbers_in(std::size_t number, std::size_t begin, int type, std::size_t count,
-                                 std::size_t width, std::size_t accessor);
+  std::vector<double> read_rows(std::size_t number, std::size_t begin, int type, std::size_t count,
+                                std::size_t width, std::size_t accessor);
   void reserve_numbers(std::size_t more);
 
   std::filesystem::path path_;
   Json scene_;
   std::string_view binary_;
-  std::map<std::size_t, std::string> own_buffers_, own_views_;
+  std::map<std::size_t, std::string> decoded_buffers_, decoded_views_;
   std::size_t remaining_numbers_ = 0;  ///< how many more numbers may be read from this file
 };
 

@@ -37,7 +37,7 @@ struct UvTransform {
   double x = 0, y = 0, rotation = 0, scale_x = 1, scale_y = 1;
 };
 
-/// The range of an accessor's vertices among all vertices.
+/// The rows that an accessor's vertices occupy among the vertices of the whole file.
 struct Rows {
   std::uint32_t first = 0, count = 0;
 };
@@ -55,7 +55,7 @@ class GltfMeshReader {
     std::vector<bool> shown = nodes_of_scene(parents);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       if (!shown[n] || !nodes[n].contains("mesh")) continue;
-      // The transform of a skinned mesh's node has no effect (glTF 2.0, section 3.7.3).
+      // Skinned meshes ignore the transform of their node (glTF 2.0, section 3.7.3).
       const bool bound = nodes[n].contains("skin");
       add_mesh(nodes[n], bound ? Eigen::Matrix4d::Identity() : worlds[n]);
     }
@@ -183,7 +183,7 @@ class GltfMeshReader {
   Primitive read(const GltfJson& json, const std::string& uv_set) {
     const GltfJson& attributes = json.at("attributes");
     const auto rows = [&](const std::string& name, std::size_t width) {
-      return file_.numbers(attributes.at(name).get<std::size_t>(), width);
+      return file_.read_values(attributes.at(name).get<std::size_t>(), width);
     };
     Primitive part;
     part.places = rows("POSITION", 3);
@@ -195,7 +195,7 @@ class GltfMeshReader {
       part.colours = rows("COLOR_0", part.colour_width);
     }
     if (attributes.contains("_VERTEX_ID")) {
-      part.ids = file_.whole_numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
+      part.ids = file_.read_unsigned_values(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
     }
     part.corners = corners_of(json, static_cast<std::uint32_t>(part.places.size() / 3));
     return part;
@@ -203,7 +203,7 @@ class GltfMeshReader {
 
   std::vector<std::uint32_t> corners_of(const GltfJson& json, std::uint32_t count) {
     if (json.contains("indices")) {
-      return file_.whole_numbers(json.at("indices").get<std::size_t>(), 1);
+      return file_.read_unsigned_values(json.at("indices").get<std::size_t>(), 1);
     }
     std::vector<std::uint32_t> corners(count);
     std::iota(corners.begin(), corners.end(), 0U);
@@ -340,7 +340,7 @@ class GltfMeshReader {
         if (primitive.contains("targets")) most = std::max(most, primitive["targets"].size());
       }
     }
-    if (most > 0) mesh_.notes.push_back(note_of_shapes(most, "morph targets"));
+    if (most > 0) mesh_.notes.push_back(shapes_note(most, "morph targets"));
   }
 
   /// \param from  JSON object that may contain a texture reference under `key`
@@ -359,7 +359,7 @@ class GltfMeshReader {
       mesh_.textures.push_back(
           {material, kind,
            image.contains("uri")
-               ? file_.resource(image.at("uri").get<std::string>(), "its texture")
+               ? file_.read_uri(image.at("uri").get<std::string>(), "its texture")
                : std::string(file_.view(image.at("bufferView").get<std::size_t>()))});
     } catch (const std::exception& error) {
       mesh_.notes.push_back(concat("the ", statement_of(kind).name, " texture of ",

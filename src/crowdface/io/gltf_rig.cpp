@@ -79,10 +79,11 @@ class RigReader {
 
   void add(const Json& attributes, std::uint32_t node, std::optional<std::size_t> skin) {
     const std::vector<double> places =
-        file_.numbers(attributes.at("POSITION").get<std::size_t>(), 3);
+        file_.read_values(attributes.at("POSITION").get<std::size_t>(), 3);
     const std::size_t count = places.size() / 3;
     if (attributes.contains("_VERTEX_ID")) {
-      const auto ids = file_.whole_numbers(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
+      const auto ids =
+          file_.read_unsigned_values(attributes.at("_VERTEX_ID").get<std::size_t>(), 1);
       if (ids.size() != count) file_.fail("_VERTEX_ID and POSITION differ in length");
       rig_.vertex_ids.insert(rig_.vertex_ids.end(), ids.begin(), ids.end());
     }
@@ -115,7 +116,7 @@ class RigReader {
     }
     std::vector<double> inverses;
     if (json.contains("inverseBindMatrices")) {
-      inverses = file_.numbers(json.at("inverseBindMatrices").get<std::size_t>(), 16);
+      inverses = file_.read_values(json.at("inverseBindMatrices").get<std::size_t>(), 16);
       if (inverses.size() < 16 * skin.joints.size())
         file_.fail("a skin lacks inverse bind matrices");
     }
@@ -136,8 +137,8 @@ class RigReader {
       const std::string of_weights = concat("WEIGHTS_", set);
       if (!attributes.contains(of_weights)) file_.fail(concat("a mesh lacks ", of_weights));
       bound.push_back(
-          file_.whole_numbers(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
-      weights.push_back(file_.numbers(attributes.at(of_weights).get<std::size_t>(), 4));
+          file_.read_unsigned_values(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
+      weights.push_back(file_.read_values(attributes.at(of_weights).get<std::size_t>(), 4));
       if (bound.back().size() != 4 * count || weights.back().size() != 4 * count) {
         file_.fail("JOINTS_n, WEIGHTS_n and POSITION differ in length");
       }

@@ -47,11 +47,11 @@ const ImageCodec& codec_of(std::string_view format) {
 /// An open image and its header.
 struct OpenPicture {
   const ImageCodec& codec;
-  PictureFacts facts;
+  ImageHeader facts;
   std::unique_ptr<void, void (*)(void*)> picture;
 };
 
-void check_size(const path& file, const PictureFacts& spec, const ImageLimits& limits) {
+void check_size(const path& file, const ImageHeader& spec, const ImageLimits& limits) {
   const auto size =
       concat(spec.width, " x ", spec.height, " pixels of ", spec.channels, " channels");
   if (spec.width < 1 || spec.height < 1 || spec.channels < 1) {
@@ -89,7 +89,7 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 /// Rejects PNG headers that claim more pixels than the file can contain, because memory for all
 /// pixels is allocated before decoding. TIFFs are checked before they are opened (`tiff_defect`);
 /// OpenEXR and JPEG have no such bound, only the memory limit for all images.
-void check_png_claim(const path& file, std::string_view bytes, const PictureFacts& spec) {
+void check_png_claim(const path& file, std::string_view bytes, const ImageHeader& spec) {
   constexpr std::uint64_t kMaxOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
   const std::uint64_t bits = png_bits_per_pixel(bytes);
   const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
@@ -101,7 +101,7 @@ void check_png_claim(const path& file, std::string_view bytes, const PictureFact
                      " bytes, found ", bytes.size(), " (cut short?)"));
 }
 
-void check_kind(const path& file, std::string_view format, const PictureFacts& spec) {
+void check_kind(const path& file, std::string_view format, const ImageHeader& spec) {
   if (spec.deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
   // Only OpenEXR has display windows; offsets in other formats record where the image was cropped
   // from.
@@ -112,7 +112,7 @@ void check_kind(const path& file, std::string_view format, const PictureFacts& s
   }
 }
 
-std::size_t value_count(const PictureFacts& facts) {
+std::size_t value_count(const ImageHeader& facts) {
   return static_cast<std::size_t>(facts.width) * static_cast<std::size_t>(facts.height) *
          static_cast<std::size_t>(facts.channels);
 }
@@ -124,9 +124,9 @@ void* make_room(Image& image, std::size_t values) {
   return pixels.data();
 }
 
-void* make_room(const path& file, const PictureFacts& facts, Image& image) {
+void* make_room(const path& file, const ImageHeader& facts, Image& image) {
   const std::size_t values = value_count(facts);
-  using Values = PictureFacts::Values;
+  using Values = ImageHeader::Values;
   if (facts.values == Values::kBytes) return make_room<std::uint8_t>(image, values);
   if (facts.values == Values::kWords) return make_room<std::uint16_t>(image, values);
   if (facts.values == Values::kFloats) return make_room<float>(image, values);
@@ -134,9 +134,9 @@ void* make_room(const path& file, const PictureFacts& facts, Image& image) {
 }
 
 /// Bytes of the decoded pixels; integers keep their own type.
-std::uint64_t pixel_bytes(const PictureFacts& facts) {
-  const bool bytes = facts.values == PictureFacts::Values::kBytes;
-  const bool words = facts.values == PictureFacts::Values::kWords;
+std::uint64_t pixel_bytes(const ImageHeader& facts) {
+  const bool bytes = facts.values == ImageHeader::Values::kBytes;
+  const bool words = facts.values == ImageHeader::Values::kWords;
   return value_count(facts) * (bytes ? 1 : words ? 2 : sizeof(float));
 }
 
@@ -163,7 +163,7 @@ void check_finite(const path& file, const Image& image) {
 }
 
 /// \param values  number of values in the image.
-std::string encode(const std::string& format, const PictureToEncode& picture, std::size_t values) {
+std::string encode(const std::string& format, const ImageToEncode& picture, std::size_t values) {
   const auto [form, width, height, channels, pixels] = picture;
   require(width > 0 && height > 0 &&
               values == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
@@ -195,7 +195,7 @@ OpenPicture open_checked(const path& file, const MappedFile& mapped, const Image
 /// Copies the pixels from the data window to the display window; pixels outside the data window are
 /// zero.
 template <class T>
-std::vector<T> in_display_window(const std::vector<T>& pixels, const PictureFacts& facts) {
+std::vector<T> in_display_window(const std::vector<T>& pixels, const ImageHeader& facts) {
   const auto channels = static_cast<std::size_t>(facts.channels);
   const auto width = static_cast<std::size_t>(facts.full_width);
   std::vector<T> out(width * static_cast<std::size_t>(facts.full_height) * channels, T{});
@@ -219,18 +219,18 @@ std::vector<T> in_display_window(const std::vector<T>& pixels, const PictureFact
   return out;
 }
 
-void crop_to_display_window(const path& file, const PictureFacts& facts, const ImageLimits& limits,
+void crop_to_display_window(const path& file, const ImageHeader& facts, const ImageLimits& limits,
                             Image& image) {
   if (facts.x == facts.full_x && facts.y == facts.full_y && facts.width == facts.full_width &&
       facts.height == facts.full_height) {
     return;
   }
-  PictureFacts shown = facts;
+  ImageHeader shown = facts;
   shown.width = facts.full_width;
   shown.height = facts.full_height;
   check_size(file, shown, limits);
   const ImageMemory memory =
-      limits.is_own_file ? nullptr : take_image_memory(file, pixel_bytes(shown));
+      limits.is_own_file ? nullptr : reserve_image_memory(file, pixel_bytes(shown));
   std::visit([&](auto& pixels) { pixels = in_display_window(pixels, facts); }, image.pixels);
   image.width = facts.full_width;
   image.height = facts.full_height;
@@ -241,7 +241,7 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
   const auto [codec, facts, picture] = open_checked(file, mapped, limits);
   Image image{facts.width, facts.height, facts.channels,     facts.alpha_channel,
               {},          {},           facts.channel_names};
-  if (!limits.is_own_file) image.memory = take_image_memory(file, pixel_bytes(facts));
+  if (!limits.is_own_file) image.memory = reserve_image_memory(file, pixel_bytes(facts));
   std::string error;
   if (!codec.read(picture.get(), make_room(file, facts, image), error)) {
     throw_if_interrupted();
@@ -254,7 +254,7 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
 
 }  // namespace
 
-ImageMemory take_image_memory(const path& file, std::uint64_t bytes) {
+ImageMemory reserve_image_memory(const path& file, std::uint64_t bytes) {
   const std::uint64_t most = input_limits().image_bytes;
   {
     const std::lock_guard lock(taking);
@@ -282,8 +282,8 @@ Image read_image(const path& file, const ImageLimits& limits) {
   try {
     return decode(file, mapped, limits);
   } catch (const InvalidInput&) {
-    // Decoders report a lack of memory as damage. Decode a second time, to distinguish damaged
-    // data.
+    // Decoders report a lack of memory as damaged data. To tell the two apart, decode a second
+    // time.
     try {
       return decode(file, mapped, limits);
     } catch (const InvalidInput& again) {
@@ -295,38 +295,38 @@ Image read_image(const path& file, const ImageLimits& limits) {
 
 ImageSize read_image_size(const path& file, const ImageLimits& limits) {
   const MappedFile mapped(file);
-  const PictureFacts facts = open_checked(file, mapped, limits).facts;
+  const ImageHeader facts = open_checked(file, mapped, limits).facts;
   return {facts.full_width, facts.full_height, facts.channels,
-          facts.values == PictureFacts::Values::kBytes,
-          facts.values == PictureFacts::Values::kFloats};
+          facts.values == ImageHeader::Values::kBytes,
+          facts.values == ImageHeader::Values::kFloats};
 }
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  return encode("png", {PictureToEncode::Form::kPng, width, height, channels, pixels.data()},
+  return encode("png", {ImageToEncode::Form::kPng, width, height, channels, pixels.data()},
                 pixels.size());
 }
 
 std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels) {
-  return encode("png", {PictureToEncode::Form::kStoredPng, width, height, 3, pixels.data()},
+  return encode("png", {ImageToEncode::Form::kStoredPng, width, height, 3, pixels.data()},
                 pixels.size());
 }
 
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {
-  return encode("jpeg", {PictureToEncode::Form::kJpeg, width, height, 3, pixels.data()},
+  return encode("jpeg", {ImageToEncode::Form::kJpeg, width, height, 3, pixels.data()},
                 pixels.size());
 }
 
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  return encode("png", {PictureToEncode::Form::kWordPng, width, height, channels, pixels.data()},
+  return encode("png", {ImageToEncode::Form::kWordPng, width, height, channels, pixels.data()},
                 pixels.size());
 }
 
 std::string encode_exr(int width, int height, int channels, std::span<const float> pixels) {
   require(channels == 1 || channels == 3, "an OpenEXR of ", channels, " channels");
-  return encode("openexr", {PictureToEncode::Form::kExr, width, height, channels, pixels.data()},
+  return encode("openexr", {ImageToEncode::Form::kExr, width, height, channels, pixels.data()},
                 pixels.size());
 }
 

@@ -19,7 +19,7 @@ using ImageMemory = std::shared_ptr<const void>;
 
 /// Reserves memory for an image. Thread-safe.
 /// \throws InvalidInput, naming the file, if all images together would exceed the limit.
-ImageMemory take_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
+ImageMemory reserve_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
 /// Number of bytes of the memory limit that are not reserved at present.
 std::uint64_t available_image_memory();

@@ -7,7 +7,7 @@ namespace crowdface {
 
 const ImageCodec& image_codec() {
   using Function = const ImageCodec*();
-  static const ImageCodec& codec = *reinterpret_cast<Function*>(project_library_function(
+  static const ImageCodec& codec = *reinterpret_cast<Function*>(load_library_function(
       "libcrowdface_images.so", "crowdface_image_codec", "images need (OpenImageIO)",
       "images can be neither read nor written"))();
   return codec;

@@ -8,7 +8,7 @@
 namespace crowdface {
 
 /// The header of an image file.
-struct PictureFacts {
+struct ImageHeader {
   int width = 0, height = 0, depth = 1, channels = 0;
   int x = 0, y = 0;                                             ///< origin of the data window
   int full_x = 0, full_y = 0, full_width = 0, full_height = 0;  ///< the display window
@@ -22,7 +22,7 @@ struct PictureFacts {
 };
 
 /// Pixels to be encoded as a file.
-struct PictureToEncode {
+struct ImageToEncode {
   enum class Form { kPng, kStoredPng, kWordPng, kJpeg, kExr };
   Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
@@ -39,13 +39,13 @@ struct ImageCodec {
   /// \param bytes  content of the file; must outlive the opened image.
   /// \return null if the image cannot be opened; `error` gives the reason.
   void* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
-                PictureFacts& facts, std::string& error);
+                ImageHeader& facts, std::string& error);
   /// Reads all pixels of an open image.
-  /// \param pixels  buffer for all pixels, of the type given by `PictureFacts::values`.
+  /// \param pixels  buffer for all pixels, of the type given by `ImageHeader::values`.
   /// \return whether the pixels could be read.
   bool (*read)(void* picture, void* pixels, std::string& error);
   void (*close)(void* picture);
-  bool (*encode)(const PictureToEncode& picture, std::string& bytes, std::string& error);
+  bool (*encode)(const ImageToEncode& picture, std::string& bytes, std::string& error);
 };
 
 /// The codec for all formats but PNG, based on OpenImageIO. OpenImageIO depends on some 250

@@ -126,8 +126,9 @@ bool is_list_of_texts(std::string_view value) {
   return value.empty();
 }
 
-/// Whether the size of a value agrees with its type. For some types the decoder ignores the stored
-/// size and uses that of the type; it would then continue at another position than this parser.
+/// Whether the stored size of a value is the size of its type. For some types the decoder ignores
+/// the stored size; if the two sizes differed, it would read the next attribute at another position
+/// than this parser.
 bool has_its_size(const Attribute& attribute) {
   for (const auto& [type, size] : kFixedTypes) {
     if (attribute.type == type) return attribute.value.size() == size;
@@ -139,8 +140,8 @@ bool has_its_size(const Attribute& attribute) {
   return true;
 }
 
-/// The decoder allocates a table with an entry for each row of the window, and buffers as wide as
-/// the window.
+/// The defect of a window that is too large: the decoder allocates a table entry for each row, and
+/// buffers as wide as the window.
 std::string window_defect(const Attribute& attribute, int max_side) {
   if (attribute.type != "box2i" || attribute.value.size() != 16) return {};
   const auto side = [&](std::size_t axis) {

@@ -26,7 +26,7 @@ std::string converted(std::string_view bytes, const char* encoding) {
 
 }  // namespace
 
-std::vector<std::string> legacy_readings(std::string_view bytes) {
+std::vector<std::string> legacy_decodings(std::string_view bytes) {
   std::vector<std::string> readings;
   constexpr std::size_t kLongest = 4096;
   if (is_utf8(bytes) || bytes.size() > kLongest) return readings;

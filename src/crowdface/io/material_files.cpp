@@ -85,7 +85,7 @@ class Collector {
   NamedTextures take_textures() {
     NamedTextures named{std::move(of_kind_), {}, {}};
     if (materials_.size() == 1) named.only_material = *materials_.begin();
-    for (auto& [kind, of_material] : named.of_kind) {
+    for (auto& [kind, of_material] : named.paths_by_kind) {
       const auto only = of_material.find(named.only_material);
       if (only != of_material.end()) of_material.emplace("", only->second);
     }
@@ -94,7 +94,7 @@ class Collector {
   }
 
  private:
-  /// Names of one kind, up to a limit.
+  /// The distinct names of material files, or of textures, up to a limit.
   struct Names {
     std::set<fs::path> known;
     bool full = false;
@@ -133,7 +133,7 @@ class Collector {
       return refuse("is missing; OBJ files still name it, renders omit it");
     }
     if (::access((folder_ / relative).c_str(), R_OK) != 0) {
-      require_stat(folder_ / relative, {errno, std::generic_category()});
+      throw_if_system_error(folder_ / relative, {errno, std::generic_category()});
       return refuse("cannot be read and is not copied");
     }
     if (!is_inside_folder(folder_ / relative, folder_)) {
@@ -168,7 +168,7 @@ class Collector {
     const fs::path file = folder_ / name;
     std::error_code error;
     const bool is_too_large = fs::file_size(file, error) > kLargestMaterialFile;
-    require_stat(file, error);
+    throw_if_system_error(file, error);
     if (is_too_large || error) return;
     textures_of_.clear();
     std::string material;
@@ -186,7 +186,7 @@ class Collector {
       if (seen == Seen::kTooMany) continue;
       const std::optional<TextureKind> kind = texture_kind_of(word);
       if (kind && stays_inside(relative) &&
-          is_inside_folder(folder_ / with_tile(relative, kFirstTile), folder_)) {
+          is_inside_folder(folder_ / udim_tile_path(relative, kFirstTile), folder_)) {
         of_kind_[*kind].emplace(material, (folder_ / relative).lexically_normal());
       }
       taken_[relative].kinds.insert(kind);
@@ -206,7 +206,7 @@ class Collector {
     for (const std::string_view suffix : suffixes) {
       fs::path relative = folder / with_forward_slashes(suffix);
       if (!stays_inside(relative)) continue;
-      if (!exists(relative) && !exists(with_tile(relative, kFirstTile))) continue;
+      if (!exists(relative) && !exists(udim_tile_path(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
     // The path may come from another machine, or have the encoding of another system: look for the
@@ -216,7 +216,7 @@ class Collector {
         const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
         if (beside.filename().empty() || beside.filename() == "." || beside.filename() == "..")
           continue;
-        if (!exists(beside) && !exists(with_tile(beside, kFirstTile))) continue;
+        if (!exists(beside) && !exists(udim_tile_path(beside, kFirstTile))) continue;
         return known->second = beside;
       }
     }
@@ -230,7 +230,7 @@ class Collector {
 
   /// Possible interpretations of a name: in other encodings, then as it stands in the file.
   static std::vector<std::string> readings_of(std::string_view text) {
-    std::vector<std::string> names = legacy_readings(text);
+    std::vector<std::string> names = legacy_decodings(text);
     names.emplace_back(text);
     return names;
   }
@@ -258,7 +258,7 @@ class Collector {
   /// Texture path for the text of each statement; valid within one library.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;
-  /// The kinds and files of one texture name.
+  /// The texture kinds for which one name is used, and its files.
   struct Taken {
     /// Kinds of the statements that name the texture; nothing for unknown statements.
     std::set<std::optional<TextureKind>> kinds;

@@ -15,10 +15,10 @@ namespace crowdface {
 /// A material file or texture to copy beside a mesh, so that the mesh's `mtllib` and its textures
 /// can be found.
 struct MaterialFile {
-  std::filesystem::path from;      ///< source path
-  std::filesystem::path relative;  ///< destination path, relative to the meshes' folder
-  bool is_library = false;         ///< a material file, not a texture
-  /// Kind of the texture; nothing if it is named as several kinds or as an unknown one.
+  std::filesystem::path source;       ///< source path
+  std::filesystem::path destination;  ///< destination path, relative to the meshes' folder
+  bool is_library = false;            ///< a material file, not a texture
+  /// Kind of the texture; nothing if statements of several kinds or an unknown statement name it.
   std::optional<TextureKind> kind = {};
 };
 
@@ -26,8 +26,8 @@ struct MaterialFiles {
   std::vector<MaterialFile> files;  ///< one per destination
   /// Textures whose source file is missing, or whose copy may be missing.
   std::vector<std::string> warnings;
-  /// Whether a material file was found beside the mesh although its path leads elsewhere: the
-  /// `mtllib` line of a written mesh must then name the file that was found.
+  /// Whether a material file was found beside the mesh and not at its path: a written mesh must
+  /// then name the found file in its `mtllib` line.
   bool has_renamed_library = false;
 };
 
@@ -60,7 +60,7 @@ MaterialFiles find_material_files(const std::filesystem::path& mesh,
 struct NamedTextures {
   /// Texture paths by kind and material, relative to the mesh's folder; may contain <UDIM> in place
   /// of a tile number.
-  std::map<TextureKind, std::map<std::string, std::filesystem::path>> of_kind;
+  std::map<TextureKind, std::map<std::string, std::filesystem::path>> paths_by_kind;
   /// The only material that the libraries define, or empty; faces without a material use it.
   std::string only_material;
   /// Problems with libraries and paths, as in `MaterialFiles`.

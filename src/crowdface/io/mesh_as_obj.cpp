@@ -23,10 +23,11 @@ bool is_head_file(const std::filesystem::path& path) {
   const std::string name = lower_case(path.stem().string());
   const bool is_faces = name == "faces" || name == "triangles" || name == "quads";
   return !(is_faces && ending == ".npy") && ending != ".stl" &&
-         std::ranges::find(mesh_endings(), ending) != mesh_endings().end();
+         std::ranges::find(mesh_extensions(), ending) != mesh_extensions().end();
 }
 
-ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path, const std::string& library) {
+ObjFile convert_to_obj(FileMesh mesh, const std::filesystem::path& path,
+                       const std::string& library) {
   if (mesh.topology.face_count() == 0) {
     refuse_file(path,
                 concat("expected a mesh, found ", mesh.positions.rows(), " points and no face"));
@@ -38,7 +39,7 @@ ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path, const std::stri
   if (mesh.colours.rows() > 0) {
     encoded = with_colours(encoded, byte_colours(mesh.colours));
   }
-  MappedFile text = MappedFile::of_text(std::move(encoded));
+  MappedFile text = MappedFile::from_text(std::move(encoded));
   const ObjOutline outline = outline_obj(text.bytes());
   ObjFile file = read_obj(path, std::move(text), outline);
   file.notes = std::move(mesh.notes);
@@ -53,7 +54,8 @@ FileMesh read_joined_mesh(const std::filesystem::path& path) {
 }
 
 ObjFile read_mesh_as_obj(const std::filesystem::path& path) {
-  return right_side_out(is_obj(path) ? read_obj(path) : as_obj(read_joined_mesh(path), path));
+  return with_outward_faces(is_obj(path) ? read_obj(path)
+                                         : convert_to_obj(read_joined_mesh(path), path));
 }
 
 }  // namespace crowdface

@@ -18,7 +18,8 @@ bool is_obj(const std::filesystem::path& path);
 /// \param path  of the source file.
 /// \param library  material file to name in the OBJ text; may be empty.
 /// \throws InvalidInput if the mesh has no faces or positions are not finite.
-ObjFile as_obj(FileMesh mesh, const std::filesystem::path& path, const std::string& library = {});
+ObjFile convert_to_obj(FileMesh mesh, const std::filesystem::path& path,
+                       const std::string& library = {});
 
 /// Reads a mesh of any format and joins vertices that the format split. `notes` reports the join.
 FileMesh read_joined_mesh(const std::filesystem::path& path);

@@ -16,9 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Columns: format, name, extension, report key; has faces, material file; normals; shapes,
-// attachments, textures; reader.
-constexpr std::array<MeshFormatTraits, kMeshFormats> kTraits = {
+// One row per format; the columns are the members of MeshFormatTraits in order.
+constexpr std::array<MeshFormatTraits, kMeshFormatCount> kTraits = {
     {{MeshFormat::kObj, "obj", ".obj", "mesh", true, true, FileNormals::kOnLevels,
       DataStorage::kOwnFiles, DataStorage::kOwnFiles, DataStorage::kOwnFiles,
       [](const fs::path& file, Index) { return read_obj(file).positions; }},

@@ -20,7 +20,7 @@ enum class MeshFormat {
   kPoints,  ///< only positions, .npy
   kUsd,     ///< a USD text layer, .usda
 };
-inline constexpr std::size_t kMeshFormats = 5;
+inline constexpr std::size_t kMeshFormatCount = 5;
 
 /// Where a format stores shapes, attachments or textures.
 enum class DataStorage {

@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-/// File extension for an image, by its first bytes; readers also go by the content, not the name.
+/// The file extension for an image, chosen by its first bytes as readers choose the format.
 std::string_view image_ending(std::string_view bytes) {
   return bytes.starts_with("\x89PNG")          ? ".png"
          : bytes.starts_with("\xff\xd8")       ? ".jpg"

@@ -26,7 +26,7 @@ ColourRows byte_colours(const Positions& shares) {
   return (kMaxByte * shares.array()).round().matrix().cast<std::uint8_t>();
 }
 
-Positions colour_shares(const ColourRows& colours) {
+Positions colour_fractions(const ColourRows& colours) {
   return colours.cast<double>() / kMaxByte;
 }
 
@@ -84,7 +84,7 @@ std::string with_colours(std::string_view text, const ColourRows& colours) {
   return out;
 }
 
-std::optional<std::string> polypaint_at_vertices(std::string_view text) {
+std::optional<std::string> move_polypaint_to_vertices(std::string_view text) {
   constexpr std::size_t kDigitsEach = 8;  // MMRRGGBB: a mask, then the colour
   if (text.find(kPolypaint) == text.npos) return std::nullopt;
   std::vector<std::uint8_t> bytes;

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// Converts colours between bytes and sRGB values from 0 to 1.
 ColourRows byte_colours(const Positions& shares);
-Positions colour_shares(const ColourRows& colours);
+Positions colour_fractions(const ColourRows& colours);
 
 /// The colours of the `v` lines; no rows if any line lacks a colour. Values up to 255 count as
 /// bytes.
@@ -25,6 +25,6 @@ std::string with_colours(std::string_view text, const ColourRows& colours);
 
 /// The text with the colours of `#MRGB` lines moved to the `v` lines; nothing unless `#MRGB` gives
 /// a colour for every vertex.
-std::optional<std::string> polypaint_at_vertices(std::string_view text);
+std::optional<std::string> move_polypaint_to_vertices(std::string_view text);
 
 }  // namespace crowdface

@@ -90,7 +90,7 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
   }
 }
 
-/// Replaces values of the loader by values of the scan wherever the scan's values are better.
+/// Replaces values of the loader by the more accurate values of the scan.
 void take_places(ObjScan scan, ObjFile& result) {
   // Scanned positions are rounded correctly; the loader's positions are not.
   result.positions = std::move(scan.positions);
@@ -109,7 +109,7 @@ ObjScan scan_or_mend(ObjFile& obj, const ObjOutline& outline) {
     refuse_foreign_file(obj.file.bytes(), obj.path);
     auto mended = mend_obj(obj.file.bytes());
     if (!mended) throw;
-    obj.file = MappedFile::of_text(std::move(mended->text));
+    obj.file = MappedFile::from_text(std::move(mended->text));
     obj.notes = std::move(mended->notes);
     obj.is_mended = true;
   }
@@ -167,7 +167,8 @@ FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index fac
     if (begin == end) return;
     const auto [row, is_new] = rows.emplace(name, static_cast<std::uint32_t>(result.names.size()));
     if (is_new) result.names.emplace_back(name);
-    result.of_face.insert(result.of_face.end(), static_cast<std::size_t>(end - begin), row->second);
+    result.material_of_face.insert(result.material_of_face.end(),
+                                   static_cast<std::size_t>(end - begin), row->second);
   };
   use("", 0, ranges.empty() ? face_count : ranges.front().first_face);
   for (std::size_t m = 0; m < ranges.size(); ++m) {

@@ -26,7 +26,8 @@ struct ObjFile {
   std::vector<MaterialRange> groups;
   std::vector<std::string> notes;  ///< repairs and ignored statements, one sentence each
   bool is_mended = false;          ///< whether repairs changed the text
-  /// Path of a file in the folder of the material files, if not in the folder of `path`.
+  /// Path of any file in the folder that holds the material files; empty if that is the folder of
+  /// `path`.
   std::filesystem::path textures_at;
 
   const std::filesystem::path& material_path() const {
@@ -53,7 +54,7 @@ ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file
 struct FaceMaterials {
   std::vector<std::string>
       names;  ///< unique, in order of first use by a face; empty where a face has no material
-  std::vector<std::uint32_t> of_face;  ///< #F indices into `names`
+  std::vector<std::uint32_t> material_of_face;  ///< #F indices into `names`
 };
 
 /// Returns the material of each polygon.

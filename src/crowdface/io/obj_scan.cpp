@@ -116,7 +116,7 @@ class Outliner {
     if (!run_.empty()) hasher_.add(run_);
     run_ = {};
   }
-  /// Hashes the current counts, because relative indices count from here.
+  /// Hashes the numbers of rows so far, because relative indices count back from them.
   void mark_place() { hasher_.add(outline_.vertices).add(outline_.normals); }
 
   ObjOutline outline_;

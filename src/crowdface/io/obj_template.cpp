@@ -103,9 +103,9 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
                          const FixedNormals& fixed)
     : text_(target.file.bytes()),
       topology_(topology),
-      vertices_(topology.vertex_count),
-      colours_(colours) {
-  // Normals that no face uses are ordinary text.
+      vertex_count_(topology.vertex_count),
+      has_colours_(colours) {
+  // If no face uses normals, `vn` lines are copied unchanged.
   const bool has_normals = !target.corner_normals.empty();
   std::uint32_t vertices = 0, normals = 0;
   std::vector<NumberRange> ranges;  // vertices and normals may be interleaved
@@ -126,7 +126,7 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
                       (is_normal ? normals++ : vertices++) & 0x7fffffffU, is_normal});
   }
   if (!ranges.empty()) add_block(ranges);
-  check_row_counts(target, vertices, vertices_, normals);
+  check_row_counts(target, vertices, vertex_count_, normals);
   if (!has_normals) return;
   fans_.emplace(topology, target.corner_normals, normals);
   fix_normals(target.corner_normals, fixed);
@@ -152,7 +152,7 @@ void ObjTemplate::fix_normals(const std::vector<std::uint32_t>& corner_rows,
   }
   for (std::uint32_t row = 0; row < vertices.size(); ++row) {
     const auto found = numbers.find(vertices[row]);
-    if (found != numbers.end()) fixed_.emplace_back(row, fixed.normals.row(found->second));
+    if (found != numbers.end()) fixed_normals_.emplace_back(row, fixed.normals.row(found->second));
   }
 }
 
@@ -169,8 +169,8 @@ void ObjTemplate::add_block(const std::vector<NumberRange>& ranges) {
     old_text -= static_cast<std::size_t>(std::ranges::count_if(
         text_.substr(range.begin, range.length), [](char c) { return !is_blank(c); }));
   }
-  const std::size_t colours = colours_ ? (3 * kLongestSingle + 5) * ranges.size() : 0;
-  buffer_size_ += 3 * kLongestSingle * ranges.size() + colours + old_text + kLongestSingle;
+  const std::size_t colours = has_colours_ ? (3 * kMaxSingleLength + 5) * ranges.size() : 0;
+  buffer_size_ += 3 * kMaxSingleLength * ranges.size() + colours + old_text + kMaxSingleLength;
   block.ranges = ranges;
   blocks_.push_back(std::move(block));
 }
@@ -188,11 +188,11 @@ std::size_t ObjTemplate::encode_bytes() const {
 
 EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& what,
                                 const ColourRows& colours) const {
-  require_finite(positions, vertices_, what);
-  require(!colours_ || colours.rows() == vertices_, "ObjTemplate: a colour of each vertex");
+  require_finite(positions, vertex_count_, what);
+  require(!has_colours_ || colours.rows() == vertex_count_, "ObjTemplate: a colour of each vertex");
   Positions normals;
   if (fans_) normals = fans_->normals(topology_, positions, {0, 0, 0});
-  for (const auto& [row, normal] : fixed_) normals.row(row) = normal;
+  for (const auto& [row, normal] : fixed_normals_) normals.row(row) = normal;
   const Rows rows{positions, normals, colours};
   EncodedFile file;
   char* buffer = file.reserve(buffer_size_);
@@ -219,7 +219,7 @@ char* ObjTemplate::encode_block(const Block& block, const Rows& rows, char* out)
 
 char* ObjTemplate::encode_range(const NumberRange& range, const Rows& rows, char* out) const {
   const std::string_view old = text_.substr(range.begin, range.length);
-  if (!range.is_normal && colours_) {
+  if (!range.is_normal && has_colours_) {
     return write_coloured(out, rows.positions, rows.colours, range.row);
   }
   if (!range.is_normal) return write_like(old, out, rows.positions, range.row);

@@ -55,7 +55,7 @@ class ObjTemplate {
     std::uint32_t row : 31 = 0;
     std::uint32_t is_normal : 1 = 0;
   };
-  /// Successive ranges, formatted by one thread.
+  /// Successive number ranges of the text that one thread formats.
   struct Block {
     /// Offset in the text at which the block starts: the end of the preceding range.
     std::uint64_t begin = 0;
@@ -76,11 +76,11 @@ class ObjTemplate {
 
   std::string_view text_;
   const Topology& topology_;
-  Index vertices_ = 0;
-  bool colours_;
+  Index vertex_count_ = 0;
+  bool has_colours_;
   std::vector<Block> blocks_;
   /// Rows of the normals that have given values, and these values.
-  std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> fixed_;
+  std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> fixed_normals_;
   std::optional<NormalFans> fans_;  ///< polygons around each `vn`; empty if no face uses normals
   std::size_t buffer_size_ = 0;
 };

@@ -17,8 +17,8 @@ struct Picture {
   std::unique_ptr<OIIO::ImageInput> input;
 };
 
-using Values = PictureFacts::Values;
-using Form = PictureToEncode::Form;
+using Values = ImageHeader::Values;
+using Form = ImageToEncode::Form;
 
 Values kind_of_values(const OIIO::TypeDesc& type) {
   if (type.basetype == OIIO::TypeDesc::UINT8) return Values::kBytes;
@@ -31,8 +31,8 @@ OIIO::TypeDesc type_of(Values values) {
   return values == Values::kWords ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
 }
 
-PictureFacts facts_of(const OIIO::ImageSpec& spec) {
-  PictureFacts facts;
+ImageHeader facts_of(const OIIO::ImageSpec& spec) {
+  ImageHeader facts;
   facts.width = spec.width;
   facts.height = spec.height;
   facts.depth = spec.depth;
@@ -55,7 +55,7 @@ PictureFacts facts_of(const OIIO::ImageSpec& spec) {
 /// Decoders receive the mapped bytes: decoders that read files themselves report a failing disk as
 /// a damaged file.
 void* open(const std::string& format, const std::string& file, std::string_view bytes,
-           PictureFacts& facts, std::string& error) {
+           ImageHeader& facts, std::string& error) {
   auto picture = std::make_unique<Picture>(bytes);
   picture->input = OIIO::ImageInput::create(format);
   OIIO::ImageInput* input = picture->input.get();
@@ -119,7 +119,7 @@ const char* describe(Form form, OIIO::ImageSpec& spec) {
     spec.set_format(OIIO::TypeDesc::HALF);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "linear");
-    // Otherwise the writer stores the current time.
+    // A constant date, because the writer would otherwise store the current time.
     spec.attribute("DateTime", "2000:01:01 00:00:00");
     return "openexr";
   }
@@ -128,7 +128,7 @@ const char* describe(Form form, OIIO::ImageSpec& spec) {
   return "jpeg";
 }
 
-bool encode(const PictureToEncode& picture, std::string& bytes, std::string& error) {
+bool encode(const ImageToEncode& picture, std::string& bytes, std::string& error) {
   OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
   const std::string format = describe(picture.form, spec);
   const OIIO::TypeDesc type =

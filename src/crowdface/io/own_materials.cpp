@@ -31,13 +31,14 @@ std::size_t start_of_name(const std::string& rest) {
 
 }  // namespace
 
-OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
-                           const std::vector<std::string>& libraries, const std::string& shared) {
+MergedMaterials::MergedMaterials(const std::filesystem::path& mesh,
+                                 const std::vector<std::string>& libraries,
+                                 const std::string& shared) {
   for (const MaterialFile& file : find_material_files(mesh, libraries).files) {
     if (!file.is_library) continue;
-    std::string folder = file.relative.parent_path().generic_string();
+    std::string folder = file.destination.parent_path().generic_string();
     if (!shared.empty()) folder = concat(shared, folder.empty() ? "" : "/", folder);
-    const std::string text = read_file(file.from);
+    const std::string text = read_file(file.source);
     std::string material;
     for (const std::string_view as_it_stands : split_lines(text)) {
       Line line{std::string(as_it_stands), {}, {}, {}};
@@ -55,7 +56,7 @@ OwnMaterials::OwnMaterials(const std::filesystem::path& mesh,
   }
 }
 
-std::string OwnMaterials::text(const Replacements& textures) const {
+std::string MergedMaterials::text(const Replacements& textures) const {
   std::map<std::string, std::string> old_colours;      // texture paths of each material so far
   std::map<std::string, std::set<TextureKind>> there;  // "" holds the lines before all materials
   for (const Line& line : lines_) {

@@ -11,13 +11,13 @@
 namespace crowdface {
 
 /// The material files of a mesh merged into one, in which textures can be replaced.
-class OwnMaterials {
+class MergedMaterials {
  public:
   /// \param mesh, libraries  as in `find_material_files`; unreadable files are skipped.
   /// \param shared  path from the new file to the textures that are not replaced, such as "..";
   ///                empty: the same folder.
-  OwnMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
-               const std::string& shared = {});
+  MergedMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
+                  const std::string& shared = {});
 
   /// Replacement files by kind and by material; paths may contain <UDIM>. The empty name means the
   /// only material.

@@ -14,10 +14,10 @@ namespace {
 
 constexpr Index kLinesPerBlock = 8192;
 /// Longest line: "vn " and three numbers with separators.
-constexpr std::size_t kLongestLine = 3 + 3 * (kLongestSingle + 1);
+constexpr std::size_t kLongestLine = 3 + 3 * (kMaxSingleLength + 1);
 
 void append_single(std::string& out, double value) {
-  char buffer[kLongestSingle];
+  char buffer[kMaxSingleLength];
   out.append(buffer, write_single(buffer, value));
 }
 
@@ -93,18 +93,18 @@ std::string face_lines(const Topology& topology, const std::vector<MaterialRange
 
 PlainObjTemplate::PlainObjTemplate(const Topology& topology, const TextureCoordinates& uvs,
                                    const std::vector<MaterialRange>& materials, Normals normals)
-    : vertices_(topology.vertex_count),
+    : vertex_count_(topology.vertex_count),
       normals_(normals),
       shared_(uv_lines(uvs) + face_lines(topology, materials, normals == Normals::kVertex)) {}
 
 EncodedFile PlainObjTemplate::encode(const std::string& head, const Positions& positions,
                                      const Positions& normals, const std::string& what) const {
-  require_finite(positions, vertices_, what);
+  require_finite(positions, vertex_count_, what);
   EncodedFile file;
   if (!head.empty()) file.add(head);
   add_rows(file, "v", positions);
   if (normals_ == Normals::kVertex) {
-    require_finite(normals, vertices_, what);
+    require_finite(normals, vertex_count_, what);
     add_rows(file, "vn", normals);
   }
   file.refer_to(shared_);
@@ -113,7 +113,7 @@ EncodedFile PlainObjTemplate::encode(const std::string& head, const Positions& p
 
 std::size_t PlainObjTemplate::encode_bytes() const {
   const std::size_t lines = normals_ == Normals::kVertex ? 2 : 1;
-  return lines * static_cast<std::size_t>(vertices_) * kLongestLine;
+  return lines * static_cast<std::size_t>(vertex_count_) * kLongestLine;
 }
 
 }  // namespace crowdface

@@ -34,7 +34,7 @@ class PlainObjTemplate {
   std::size_t encode_bytes() const;
 
  private:
-  Index vertices_;
+  Index vertex_count_;
   Normals normals_;
   std::string shared_;  ///< texture coordinates and faces
 };

@@ -315,7 +315,7 @@ class PlyReader {
       mesh_.uvs.resize(static_cast<Index>(corner_uvs_.size() / 2), 2);
       std::copy(corner_uvs_.begin(), corner_uvs_.end(), mesh_.uvs.data());
     } else if (has_vertex_uvs_ && mesh_.uvs.allFinite()) {
-      // Programs split vertices at seams if only vertices can have texture coordinates.
+      // Where only vertices can have texture coordinates, the exporter has split vertices at seams.
       topology.corner_uvs = topology.corner_vertices;
       mesh_.pieces.assign(static_cast<std::size_t>(topology.vertex_count), 0);
     } else if (has_vertex_uvs_) {

@@ -32,7 +32,7 @@ std::size_t vertex_size(bool with_normals, bool with_colours) {
 }  // namespace
 
 PlyTemplate::PlyTemplate(const Topology& topology)
-    : vertices_(topology.vertex_count), face_count_(topology.face_count()) {
+    : vertex_count_(topology.vertex_count), face_count_(topology.face_count()) {
   faces_.reserve(static_cast<std::size_t>(face_count_) +
                  topology.corner_vertices.size() * sizeof(std::uint32_t));
   for (Index f = 0; f < face_count_; ++f) {
@@ -48,21 +48,21 @@ PlyTemplate::PlyTemplate(const Topology& topology)
 }
 
 std::size_t PlyTemplate::encode_bytes() const {
-  return static_cast<std::size_t>(vertices_) * vertex_size(true, true);
+  return static_cast<std::size_t>(vertex_count_) * vertex_size(true, true);
 }
 
 EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& normals,
                                 const std::string& what, const ColourRows& colours) const {
-  require_finite(positions, vertices_, what);
+  require_finite(positions, vertex_count_, what);
   const bool with_normals = normals.rows() > 0;
-  if (with_normals) require_finite(normals, vertices_, what);
+  if (with_normals) require_finite(normals, vertex_count_, what);
   const bool with_colours = colours.rows() > 0;
-  require(!with_colours || colours.rows() == vertices_, "PlyTemplate: a colour of each vertex");
+  require(!with_colours || colours.rows() == vertex_count_, "PlyTemplate: a colour of each vertex");
   const std::size_t size = vertex_size(with_normals, with_colours);
   EncodedFile file;
-  file.add(ply_header(vertices_, face_count_, with_normals, with_colours));
-  char* vertices = file.reserve(static_cast<std::size_t>(vertices_) * size);
-  parallel_blocks(vertices_, kRowsPerBlock, [&](Index begin, Index end) {
+  file.add(ply_header(vertex_count_, face_count_, with_normals, with_colours));
+  char* vertices = file.reserve(static_cast<std::size_t>(vertex_count_) * size);
+  parallel_blocks(vertex_count_, kRowsPerBlock, [&](Index begin, Index end) {
     char* out = vertices + static_cast<std::size_t>(begin) * size;
     for (Index i = begin; i < end; ++i) {
       out = put_row(out, positions, i);
@@ -70,7 +70,7 @@ EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& nor
       for (Index c = 0; with_colours && c < 3; ++c) out = put_number(out, colours(i, c));
     }
   });
-  file.refer_to({vertices, static_cast<std::size_t>(vertices_) * size});
+  file.refer_to({vertices, static_cast<std::size_t>(vertex_count_) * size});
   file.refer_to(faces_);
   return file;
 }

@@ -33,7 +33,7 @@ class PlyTemplate {
   std::size_t encode_bytes() const;
 
  private:
-  Index vertices_;
+  Index vertex_count_;
   Index face_count_;
   std::string faces_;  ///< encoded as in the file
 };

@@ -65,7 +65,7 @@ void take_bytes(png_structp png, png_bytep to, std::size_t count) {
 }
 
 void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::string_view bytes,
-               PictureFacts& facts, std::string& error) {
+               ImageHeader& facts, std::string& error) {
   auto opened = std::make_unique<OpenPng>(bytes);
   const png_structp png = opened->png;
   const png_infop info = opened->info;
@@ -87,7 +87,7 @@ void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::
   facts.channels = png_get_channels(png, info);
   facts.alpha_channel = facts.channels % 2 == 0 ? facts.channels - 1 : -1;
   const bool words = png_get_bit_depth(png, info) == 16;
-  facts.values = words ? PictureFacts::Values::kWords : PictureFacts::Values::kBytes;
+  facts.values = words ? ImageHeader::Values::kWords : ImageHeader::Values::kBytes;
   return opened.release();
 }
 
@@ -143,8 +143,8 @@ void flush_nothing(png_structp /*png*/) {}
 
 /// Compression settings for face images: within 7 % of the size of zlib's high levels in a quarter
 /// of the time.
-void set_packing(png_structp png, PictureToEncode::Form form) {
-  if (form == PictureToEncode::Form::kStoredPng) {
+void set_packing(png_structp png, ImageToEncode::Form form) {
+  if (form == ImageToEncode::Form::kStoredPng) {
     png_set_compression_level(png, 0);
     return png_set_filter(png, 0, PNG_FILTER_NONE);
   }
@@ -154,10 +154,10 @@ void set_packing(png_structp png, PictureToEncode::Form form) {
   png_set_filter(png, 0, PNG_FILTER_PAETH);  // by default libpng tries all five filters per row
 }
 
-bool write_png(const PictureToEncode& picture, std::string& bytes, std::string& error) {
+bool write_png(const ImageToEncode& picture, std::string& bytes, std::string& error) {
   constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                   PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
-  const int bits = picture.form == PictureToEncode::Form::kWordPng ? 16 : 8;
+  const int bits = picture.form == ImageToEncode::Form::kWordPng ? 16 : 8;
   const std::size_t row = static_cast<std::size_t>(picture.width) *
                           static_cast<std::size_t>(picture.channels * bits / 8);
   MadePng made(bytes);

@@ -96,8 +96,8 @@ void guard_library_loading() {
   guarded = true;
 }
 
-void* project_library_function(const char* library, const char* function, const char* needs,
-                               const char* failure) {
+void* load_library_function(const char* library, const char* function, const char* needs,
+                            const char* failure) {
   // Third-party programs are linked with the library. This program loads the library from its
   // folder relative to the executable.
   void* opened = open_library(library, RTLD_NOLOAD, needs, failure);

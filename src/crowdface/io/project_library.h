@@ -10,8 +10,8 @@ namespace crowdface {
 /// \param needs, failure  texts for messages: "images need (OpenImageIO)", "images cannot be read".
 /// \throws IoError if the library is not where it was installed, cannot be loaded, or lacks the
 ///     function.
-void* project_library_function(const char* library, const char* function, const char* needs,
-                               const char* failure);
+void* load_library_function(const char* library, const char* function, const char* needs,
+                            const char* failure);
 
 /// Installs handlers of signals and of exit. If a library aborts, calls exit, or needs longer than
 /// a minute while it is being loaded, the handlers end the process with code 74 and a message; this

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 FileMesh mesh_of_obj(ObjFile file) {
   FileMesh mesh;
-  const auto painted = polypaint_at_vertices(file.file.bytes());
+  const auto painted = move_polypaint_to_vertices(file.file.bytes());
   mesh.colours =
-      colour_shares(obj_colours(painted ? *painted : file.file.bytes(), file.positions.rows()));
+      colour_fractions(obj_colours(painted ? *painted : file.file.bytes(), file.positions.rows()));
   mesh.topology = std::move(file.topology);
   mesh.positions = std::move(file.positions);
   mesh.uvs = std::move(file.uvs);
@@ -137,7 +137,7 @@ void require_limits(const FileMesh& mesh, const fs::path& path) {
 
 }  // namespace
 
-const std::vector<std::string_view>& mesh_endings() {
+const std::vector<std::string_view>& mesh_extensions() {
   static const std::vector<std::string_view> endings = {
       ".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx", ".npy", ".usda", ".usd", ".usdc", ".usdz"};
   return endings;
@@ -163,7 +163,7 @@ FileMesh read_mesh(const fs::path& path) {
   } else if (kind == ".npy") {
     mesh = mesh_of_npy(file.bytes(), path);
   } else {
-    std::vector<std::string> endings(mesh_endings().begin(), mesh_endings().end());
+    std::vector<std::string> endings(mesh_extensions().begin(), mesh_extensions().end());
     refuse_file(path, concat("expected a mesh whose name ends in ", join(endings)));
   }
   if (mesh.positions.rows() == 0) {

@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// The file extensions that `read_mesh` accepts, in lower case, ".obj" first.
-const std::vector<std::string_view>& mesh_endings();
+const std::vector<std::string_view>& mesh_extensions();
 
 /// Reads a mesh. The first bytes of the file determine the format; if they do not, the extension
 /// does. (A NumPy array may lack faces.)

@@ -42,19 +42,19 @@ std::string with_turned_faces(std::string_view text) {
 
 }  // namespace
 
-void turn_right_side_out(FileMesh& mesh) {
+void reverse_inward_faces(FileMesh& mesh) {
   if (!is_inside_out(mesh.topology, mesh.positions)) return;
-  turn_faces(mesh.topology);
-  mesh.notes.emplace_back(kTurnedNote);
+  reverse_faces(mesh.topology);
+  mesh.notes.emplace_back(kReversedFacesNote);
 }
 
-ObjFile right_side_out(ObjFile file) {
+ObjFile with_outward_faces(ObjFile file) {
   if (!is_inside_out(file.topology, file.positions)) return file;
-  MappedFile text = MappedFile::of_text(with_turned_faces(file.file.bytes()));
+  MappedFile text = MappedFile::from_text(with_turned_faces(file.file.bytes()));
   const ObjOutline outline = outline_obj(text.bytes());
   ObjFile turned = read_obj(file.path, std::move(text), outline);
   turned.notes = std::move(file.notes);
-  turned.notes.emplace_back(kTurnedNote);
+  turned.notes.emplace_back(kReversedFacesNote);
   turned.is_mended = true;
   turned.textures_at = std::move(file.textures_at);
   return turned;

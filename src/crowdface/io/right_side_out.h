@@ -11,12 +11,12 @@
 namespace crowdface {
 
 /// Text of the note about a mesh whose faces were reversed.
-inline constexpr std::string_view kTurnedNote =
+inline constexpr std::string_view kReversedFacesNote =
     "its faces pointed inward (inside out) and are flipped";
 
 /// Reverses the faces of a mesh that is inside out, and adds a note.
-void turn_right_side_out(FileMesh& mesh);
+void reverse_inward_faces(FileMesh& mesh);
 /// Reverses the faces of an OBJ file that is inside out, also in its text.
-ObjFile right_side_out(ObjFile file);
+ObjFile with_outward_faces(ObjFile file);
 
 }  // namespace crowdface

@@ -22,13 +22,13 @@ inline float to_single(double value) {
 }
 
 /// Length of the longest text of a single-precision number: "-1.17549435e-38".
-inline constexpr std::size_t kLongestSingle = 15;
+inline constexpr std::size_t kMaxSingleLength = 15;
 
 /// Writes the shortest text that reads back as the same single-precision number. `out` needs room
-/// for kLongestSingle characters.
+/// for kMaxSingleLength characters.
 /// \return the end of the output.
 inline char* write_single(char* out, double value) {
-  return std::to_chars(out, out + kLongestSingle, to_single(value)).ptr;
+  return std::to_chars(out, out + kMaxSingleLength, to_single(value)).ptr;
 }
 
 /// Positions rounded as every mesh format stores them, so that results computed from them equal

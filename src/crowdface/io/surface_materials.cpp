@@ -21,8 +21,7 @@ std::vector<float> leading_numbers(std::string_view text) {
   return numbers;
 }
 
-/// The texture whose name ends a statement; among several textures, the texture with the longest
-/// name.
+/// Among the textures whose names are at the end of a statement, the texture with the longest name.
 std::filesystem::path texture_at_end(std::string_view rest, const std::filesystem::path& folder,
                                      const MaterialFiles& files) {
   for (const std::string_view suffix : word_suffixes(rest)) {
@@ -30,7 +29,7 @@ std::filesystem::path texture_at_end(std::string_view rest, const std::filesyste
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::filesystem::path relative = (folder / name).lexically_normal();
     for (const MaterialFile& file : files.files) {
-      if (!file.is_library && file.relative == relative) return file.from;
+      if (!file.is_library && file.destination == relative) return file.source;
     }
   }
   return {};
@@ -62,14 +61,14 @@ std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) 
   std::vector<SurfaceMaterial> materials;
   for (const MaterialFile& file : files.files) {
     if (!file.is_library) continue;
-    const std::string text = read_file(file.from);
+    const std::string text = read_file(file.source);
     for (const std::string_view line : split_lines(text)) {
       throw_if_interrupted();
       const MaterialStatement statement = material_statement(line);
       if (statement.word == "newmtl") {
         materials.push_back({std::string(statement.rest), std::nullopt, 1, {}, {}});
       } else if (!materials.empty()) {
-        take(statement, file.relative.parent_path(), files, materials.back());
+        take(statement, file.destination.parent_path(), files, materials.back());
       }
     }
   }

@@ -25,8 +25,8 @@ double uv_area(const Topology& topology, Index face, const TextureCoordinates& u
   return area;
 }
 
-/// The unit vector of the part of a vector that lies in the plane of a unit normal; zero if this
-/// part vanishes.
+/// Projects a vector onto the plane of a unit normal and normalises the result; zero if the
+/// projection vanishes.
 Eigen::Vector3d in_plane(const Eigen::Vector3d& vector, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d flat = vector - normal * normal.dot(vector);
   const double length = flat.norm();

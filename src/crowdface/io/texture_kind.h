@@ -27,7 +27,7 @@ inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kBump, "map_Bump", "bump"}};
 
 /// Whether previews show a texture of this kind besides the colour map.
-constexpr bool is_shown(TextureKind kind) {
+constexpr bool is_shown_in_previews(TextureKind kind) {
   return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
 }
 

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The entry of a folder with this name; else the first whose name differs only in case.
+/// The folder's entry with this name; if there is none, the first entry whose name differs only in
+/// case.
 std::optional<fs::path> find_entry(const fs::path& folder, const fs::path& name) {
   if (path_exists(folder / name)) return name;
   const std::string wanted = lower_case(name.string());

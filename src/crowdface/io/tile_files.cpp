@@ -25,7 +25,7 @@ int tile_number(double column, double row) {
                             "at column ", column, ", row ", row));
 }
 
-fs::path with_tile(const fs::path& path, int tile) {
+fs::path udim_tile_path(const fs::path& path, int tile) {
   std::string text = path.string();
   for (auto at = text.find(kTileWord); at != text.npos; at = text.find(kTileWord)) {
     text.replace(at, kTileWord.size(), concat(tile));
@@ -47,7 +47,7 @@ std::vector<fs::path> find_tiles(const fs::path& path) {
     if (found.size() < at + kDigits) continue;
     const std::string number = found.substr(at, kDigits);
     const bool digits = std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
-    if (digits && with_tile(name, std::stoi(number)) == fs::path(found)) {
+    if (digits && udim_tile_path(name, std::stoi(number)) == fs::path(found)) {
       tiles.push_back(path.parent_path() / found);
     }
   }

@@ -19,7 +19,7 @@ int tile_number(double column, double row);
 constexpr std::string_view kTileWord = "<UDIM>";
 
 /// The path with each kTileWord replaced by the tile's number.
-std::filesystem::path with_tile(const std::filesystem::path& path, int tile);
+std::filesystem::path udim_tile_path(const std::filesystem::path& path, int tile);
 
 /// The existing tile files, sorted by name, for a path whose file name contains kTileWord; empty
 /// for other paths.

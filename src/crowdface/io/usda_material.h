@@ -19,7 +19,7 @@ struct UsdaSurface {
   std::string holes = {};
   /// Whether the mask is the file's alpha channel; otherwise it is the first channel.
   bool holes_in_alpha = false;
-  /// textures use the primvar `st1` and are clamped; otherwise they use `st` and repeat
+  /// whether textures are clamped and use the primvar `st1`; otherwise they repeat and use `st`
   bool overlay = false;
 };
 

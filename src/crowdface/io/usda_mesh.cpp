@@ -39,7 +39,7 @@ std::string corner_counts(const Topology& topology) {
 }  // namespace
 
 UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Form& form)
-    : vertices_(topology.vertex_count), subdivision_(form.subdivision) {
+    : vertex_count_(topology.vertex_count), subdivision_(form.subdivision) {
   faces_ =
       concat("            uniform bool doubleSided = 1\n            int[] faceVertexCounts = ",
              corner_counts(topology),
@@ -66,7 +66,7 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
     tokens_.push_back(usda_string(target.name));
     indices_.push_back(target.vertices.empty() ? "" : usda_list(target.vertices));
     target_rows_ +=
-        target.vertices.empty() ? static_cast<std::size_t>(vertices_) : target.vertices.size();
+        target.vertices.empty() ? static_cast<std::size_t>(vertex_count_) : target.vertices.size();
   }
 }
 
@@ -74,7 +74,7 @@ void UsdaMesh::add(EncodedFile& file, const PrimPaths& place, const Positions& p
                    const Positions& normals, std::span<const Displacements> moves,
                    const std::string& what, const ColourRows& colours) const {
   require(moves.size() == shapes_.size(), "UsdaMesh: displacements of each target");
-  require_finite(positions, vertices_, what);
+  require_finite(positions, vertex_count_, what);
   Positions extent(2, 3);
   extent << positions.colwise().minCoeff(), positions.colwise().maxCoeff();
   file.add(concat("        def Mesh \"", place.name,
@@ -86,7 +86,7 @@ void UsdaMesh::add(EncodedFile& file, const PrimPaths& place, const Positions& p
   file.add("]\n");
   // Viewers compute the normals of a subdivided surface
   if (subdivision_ == Subdivision::kNone) {
-    require_finite(normals, vertices_, what);
+    require_finite(normals, vertex_count_, what);
     file.add("            normal3f[] normals = [");
     file.add(usda_rows(normals));
     file.add("] (\n                interpolation = \"vertex\"\n            )\n");
@@ -159,7 +159,7 @@ std::size_t UsdaMesh::memory_bytes() const {
 
 std::size_t UsdaMesh::encode_bytes() const {
   // Counts the text of each array and its copy in the file.
-  return 2 * kLongestUsdaRow * (3 * static_cast<std::size_t>(vertices_) + target_rows_);
+  return 2 * kMaxUsdaRowLength * (3 * static_cast<std::size_t>(vertex_count_) + target_rows_);
 }
 
 }  // namespace crowdface

@@ -17,7 +17,7 @@
 
 namespace crowdface {
 
-/// Start of the points of a Mesh prim. The first match in a layer belongs to the face.
+/// Text before the points of a Mesh prim. The first occurrence in a layer is the face's prim.
 inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 
 /// Writes a Mesh prim of one topology: polygons, texture coordinates as the primvar `st`, material
@@ -69,7 +69,7 @@ class UsdaMesh {
                   const std::string& what) const;
   void add_subsets(EncodedFile& file, const PrimPaths& place) const;
 
-  Index vertices_;
+  Index vertex_count_;
   Subdivision subdivision_;
   std::string faces_;  ///< description of the mesh without positions, normals and colours
   std::vector<std::string> materials_;

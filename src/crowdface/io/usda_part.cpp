@@ -28,7 +28,7 @@ UsdaPart::UsdaPart(std::string name, const Topology& topology, const TextureCoor
       topology_(topology),
       fans_(topology_),
       mesh_(topology_, uvs, form_of(materials, std::move(face_materials), targets)),
-      fixed_(std::move(fixed)) {
+      fixed_normals_(std::move(fixed)) {
   for (const Material& material : materials) surfaces_.push_back(material.surface);
 }
 
@@ -37,7 +37,7 @@ void UsdaPart::add_mesh(EncodedFile& file, const std::string& root, const Positi
   file.add("\n");
   require_finite(positions, topology_.vertex_count, what);
   Positions normals = vertex_normals(fans_, topology_, positions);
-  fixed_.set(normals);
+  fixed_normals_.copy_to(normals);
   mesh_.add(file, {root + "/face", name_, concat(root, '/', name_, "_materials")}, positions,
             normals, moves, what);
 }

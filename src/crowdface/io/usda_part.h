@@ -58,7 +58,7 @@ class UsdaPart {
   NormalFans fans_;
   UsdaMesh mesh_;
   std::vector<UsdaSurface> surfaces_;
-  FixedNormals fixed_;
+  FixedNormals fixed_normals_;
 };
 
 /// A `UsdaPart` with its positions in the layer of one face.

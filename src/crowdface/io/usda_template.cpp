@@ -114,8 +114,8 @@ std::string skeleton_text(const std::string& root, std::span<const std::string> 
 UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& uvs,
                            const GlbOptions& options, Subdivision subdivision)
     : mesh_(mesh_of(topology, uvs, options, subdivision)),
-      frame_(usda_frame(options.unit, options.up)),
-      turn_(turn_of(options)),
+      layer_metadata_(usda_layer_metadata(options.unit, options.up)),
+      axis_transform_(turn_of(options)),
       surfaces_(options.materials),
       shared_(options.shared_folder) {
   UsdaNames names;
@@ -131,9 +131,9 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
   const bool acts = !mesh_.tokens().empty();
   EncodedFile file;
   file.add(concat("#usda 1.0\n(\n    customLayerData = {\n        ", kCreator,
-                  "\n    }\n    defaultPrim = \"", prim, "\"\n", frame_, ")\n\ndef Xform \"", prim,
-                  "\" (\n    kind = \"component\"\n)\n{\n    def ", acts ? "SkelRoot" : "Xform",
-                  " \"face\"\n    {\n", turn_));
+                  "\n    }\n    defaultPrim = \"", prim, "\"\n", layer_metadata_,
+                  ")\n\ndef Xform \"", prim, "\" (\n    kind = \"component\"\n)\n{\n    def ",
+                  acts ? "SkelRoot" : "Xform", " \"face\"\n    {\n", axis_transform_));
   mesh_.add(file, {face, "mesh", root + "/materials"}, positions, normals, moves, name, colours);
   for (const PlacedUsdaPart& part : parts) {
     part.part->add_mesh(file, root, *part.positions, part.moves, name);

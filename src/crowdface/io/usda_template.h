@@ -51,8 +51,9 @@ class UsdaTemplate {
   void add_points(EncodedFile& file, const Positions& points, const std::string& what) const;
 
   UsdaMesh mesh_;
-  std::string frame_;  ///< the layer's unit and up axis
-  std::string turn_;   ///< transform of the mesh if the stage's axes differ from the heads' axes
+  std::string layer_metadata_;  ///< the layer's unit and up axis
+  std::string
+      axis_transform_;  ///< transform of the mesh if the stage's axes differ from the heads' axes
   std::vector<GlbMaterial> surfaces_;
   std::string shared_;               ///< see `GlbOptions::shared_folder`
   std::vector<std::string> points_;  ///< prim names of the points

@@ -12,7 +12,7 @@ namespace {
 constexpr Index kRowsOfText = 8192;
 
 void append_row(std::string& out, const Positions& rows, Index i) {
-  char buffer[kLongestUsdaRow + kLongestSingle];
+  char buffer[kMaxUsdaRowLength + kMaxSingleLength];
   char* at = buffer;
   if (i > 0) *at++ = ',';
   for (Index c = 0; c < 3; ++c) {
@@ -80,7 +80,7 @@ std::string usda_rows(const Positions& rows) {
 std::string usda_uvs(const TextureCoordinates& uvs) {
   std::string text = "[";
   for (Index i = 0; i < uvs.rows(); ++i) {
-    char buffer[2 * kLongestSingle];
+    char buffer[2 * kMaxSingleLength];
     char* at = buffer;
     if (i > 0) *at++ = ',';
     *at++ = '(';
@@ -93,7 +93,7 @@ std::string usda_uvs(const TextureCoordinates& uvs) {
   return text + ']';
 }
 
-std::string usda_frame(LengthUnit unit, Axis up) {
+std::string usda_layer_metadata(LengthUnit unit, Axis up) {
   constexpr double kMmPerMetre = 1000;
   const bool is_z = up.index == 2 && up.sign > 0;
   return concat("    metersPerUnit = ", mm_per(unit) / kMmPerMetre, "\n    upAxis = \"",

@@ -32,8 +32,8 @@ std::string usda_string(std::string_view text);
 
 /// Formats rows as USD vectors, "(1,2,3),(4,5,6)", without enclosing brackets. Each number is the
 /// shortest text that reads back as the same single-precision value. A row has at most
-/// kLongestUsdaRow characters.
-inline constexpr std::size_t kLongestUsdaRow = 50;
+/// kMaxUsdaRowLength characters.
+inline constexpr std::size_t kMaxUsdaRowLength = 50;
 std::string usda_rows(const Positions& rows);
 
 /// Formats texture coordinates: "[(0.5,1),(0,0.25)]".
@@ -42,6 +42,6 @@ std::string usda_uvs(const TextureCoordinates& uvs);
 
 /// The layer metadata for unit and up axis. The up axis is Y for heads whose up axis is neither Y
 /// nor Z.
-std::string usda_frame(LengthUnit unit, Axis up);
+std::string usda_layer_metadata(LengthUnit unit, Axis up);
 
 }  // namespace crowdface

@@ -87,7 +87,7 @@ bool UsdaTokens::consume(char sign) {
   return true;
 }
 
-std::string UsdaTokens::skip_rest() {
+std::string UsdaTokens::skip_group() {
   std::string interpolation;
   bool is_next = false;
   for (int open = 1; open > 0;) {
@@ -101,7 +101,7 @@ std::string UsdaTokens::skip_rest() {
   return interpolation;
 }
 
-std::vector<double> UsdaTokens::numbers() {
+std::vector<double> UsdaTokens::read_numbers() {
   std::vector<double> numbers;
   int open = 0;
   do {

@@ -28,9 +28,9 @@ class UsdaTokens {
   bool consume(char sign);
   /// Consumes everything up to the closing bracket of an open group.
   /// \return the interpolation named in the group.
-  std::string skip_rest();
+  std::string skip_group();
   /// All numbers of a value, ignoring brackets.
-  std::vector<double> numbers();
+  std::vector<double> read_numbers();
   /// \throws InvalidInput
   [[noreturn]] void fail(std::string_view what) const;
 

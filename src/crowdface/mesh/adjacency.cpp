@@ -39,7 +39,7 @@ Adjacency build_adjacency(const Topology& topology) {
   std::vector<std::uint8_t> on_boundary(vertices, 0);
   std::vector<std::size_t> kept(vertices, 0);
   parallel_for_each(vertices, kBlock, [&](std::size_t i) {
-    const std::span<std::uint32_t> ring = all.of(i);
+    const std::span<std::uint32_t> ring = all.items_of(i);
     std::ranges::sort(ring);
     for (auto run = ring.begin(); run != ring.end();) {
       const auto run_end = std::find_if(run, ring.end(), [&](auto n) { return n != *run; });
@@ -51,7 +51,7 @@ Adjacency build_adjacency(const Topology& topology) {
   Adjacency result;
   result.boundary.assign(on_boundary.begin(), on_boundary.end());
   result.reserve(vertices, std::accumulate(kept.begin(), kept.end(), std::size_t{0}));
-  for (std::size_t i = 0; i < vertices; ++i) result.add_group(all.of(i).first(kept[i]));
+  for (std::size_t i = 0; i < vertices; ++i) result.add_group(all.items_of(i).first(kept[i]));
   return result;
 }
 
@@ -61,21 +61,22 @@ std::uint32_t Components::largest() const {
 
 Components find_components(const Adjacency& adjacency) {
   Components components;
-  components.of_vertex.assign(static_cast<std::size_t>(adjacency.vertex_count()), kNoIndex);
+  components.component_of_vertex.assign(static_cast<std::size_t>(adjacency.vertex_count()),
+                                        kNoIndex);
   std::vector<std::uint32_t> open;
   for (Index start = 0; start < adjacency.vertex_count(); ++start) {
-    if (components.of_vertex[static_cast<std::size_t>(start)] != kNoIndex) continue;
+    if (components.component_of_vertex[static_cast<std::size_t>(start)] != kNoIndex) continue;
     const auto id = static_cast<std::uint32_t>(components.sizes.size());
     components.sizes.push_back(0);
     open.push_back(static_cast<std::uint32_t>(start));
-    components.of_vertex[static_cast<std::size_t>(start)] = id;
+    components.component_of_vertex[static_cast<std::size_t>(start)] = id;
     while (!open.empty()) {
       const std::uint32_t vertex = open.back();
       open.pop_back();
       ++components.sizes[id];
-      for (const std::uint32_t n : adjacency.of(vertex)) {
-        if (components.of_vertex[n] != kNoIndex) continue;
-        components.of_vertex[n] = id;
+      for (const std::uint32_t n : adjacency.items_of(vertex)) {
+        if (components.component_of_vertex[n] != kNoIndex) continue;
+        components.component_of_vertex[n] = id;
         open.push_back(n);
       }
     }
@@ -88,8 +89,8 @@ double rms_edge_length(const Adjacency& adjacency, const Components& components,
   std::size_t edges = 0;
   double squares = 0;
   for (Index i = 0; i < adjacency.vertex_count(); ++i) {
-    if (components.of_vertex[static_cast<std::size_t>(i)] != component) continue;
-    for (const std::uint32_t n : adjacency.of(i)) {
+    if (components.component_of_vertex[static_cast<std::size_t>(i)] != component) continue;
+    for (const std::uint32_t n : adjacency.items_of(i)) {
       if (n <= i) continue;  // count each edge once
       const double x = positions(i, 0) - positions(n, 0);
       const double y = positions(i, 1) - positions(n, 1);

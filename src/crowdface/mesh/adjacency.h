@@ -25,8 +25,8 @@ Adjacency build_adjacency(const Topology& topology);
 /// The connected component of each vertex; edges connect vertices. Components are numbered in the
 /// order of their first vertices. An isolated vertex is its own component.
 struct Components {
-  std::vector<std::uint32_t> of_vertex;  ///< #V: the component of each vertex
-  std::vector<std::uint32_t> sizes;      ///< number of vertices in each component
+  std::vector<std::uint32_t> component_of_vertex;  ///< #V: the component of each vertex
+  std::vector<std::uint32_t> sizes;                ///< number of vertices in each component
   Index count() const { return static_cast<Index>(sizes.size()); }
   /// The component with the most vertices: the skin.
   std::uint32_t largest() const;

@@ -28,8 +28,8 @@ class DisjointSets {
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  /// Makes `item` a set of its own again. Call this for every item of the old set; otherwise the
-  /// remaining items refer to a wrong root.
+  /// Makes `item` a set of its own again. Must be called for every item of a set, because items
+  /// that are left out would keep a wrong root.
   void release(std::uint32_t item) { parent_[item] = item; }
 
  private:

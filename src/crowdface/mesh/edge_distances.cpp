@@ -53,7 +53,7 @@ void EdgeDistances::settle(const MayLead& may_lead, const Settled& settled) {
     settled_[vertex] = true;
     reached_.push_back(vertex);
     if (settled(vertex)) return;
-    for (const std::uint32_t next : adjacency_.of(vertex)) {
+    for (const std::uint32_t next : adjacency_.items_of(vertex)) {
       if (settled_[next]) continue;
       double squared = 0;
       for (int c = 0; c < 3; ++c) {
@@ -121,7 +121,7 @@ std::vector<std::uint32_t> nearest_along_edges(const Adjacency& adjacency,
     const auto [distance, v] = open.top();
     open.pop();
     if (distance > distances[v]) continue;
-    for (const std::uint32_t next : adjacency.of(v)) {
+    for (const std::uint32_t next : adjacency.items_of(v)) {
       const double there = distance + (row3(positions, next) - row3(positions, v)).norm();
       if (there >= distances[next]) continue;
       distances[next] = there;

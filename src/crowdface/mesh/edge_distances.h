@@ -34,7 +34,7 @@ class EdgeDistances {
   }
   /// Index of the nearest source in the list of sources. If several sources are equally near, the
   /// first of them. kNoIndex if the search did not reach the vertex.
-  std::uint32_t source(std::uint32_t vertex) const {
+  std::uint32_t nearest_source(std::uint32_t vertex) const {
     return settled_[vertex] ? sources_[vertex] : kNoIndex;
   }
   /// The vertices that the search reached, nearest first.

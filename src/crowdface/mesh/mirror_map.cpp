@@ -10,7 +10,7 @@ constexpr Index kRows = 4096;  ///< rows in each parallel task
 
 }  // namespace
 
-Eigen::Vector3d MirrorPlane::image(const Eigen::Vector3d& point) const {
+Eigen::Vector3d MirrorPlane::mirrored(const Eigen::Vector3d& point) const {
   return point - 2 * (normal.dot(point) - offset) * normal;
 }
 
@@ -24,7 +24,7 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
         place += map.shares[i][c] * positions.row(map.corners[i][c]).transpose();
       }
     }
-    image.row(v) = map.plane.image(place).transpose();
+    image.row(v) = map.plane.mirrored(place).transpose();
   });
   for (std::size_t i = 0; i < map.unpaired.size(); ++i) {
     image.row(map.unpaired[i]) += map.unpaired_offsets.row(static_cast<Index>(i));
@@ -32,7 +32,7 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
   return image;
 }
 
-Positions blend_with_image(const Positions& positions, const Positions& image, double w) {
+Positions blend_with_mirrored(const Positions& positions, const Positions& image, double w) {
   Positions result(positions.rows(), 3);
   // Interpolates from the nearer end, so that both ends are reproduced bitwise.
   const bool near_image = w > 0.5;
@@ -45,7 +45,7 @@ Positions blend_with_image(const Positions& positions, const Positions& image, d
   return result;
 }
 
-double mirror_share(double asymmetry, bool mirrored) {
+double mirrored_weight(double asymmetry, bool mirrored) {
   return (mirrored ? 1 + asymmetry : 1 - asymmetry) / 2;
 }
 

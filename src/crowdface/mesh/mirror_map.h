@@ -16,7 +16,7 @@ struct MirrorPlane {
   double offset = 0;                   ///< distance d from the origin along n
 
   /// The mirror image of a point.
-  Eigen::Vector3d image(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d mirrored(const Eigen::Vector3d& point) const;
 };
 
 /// Maps each vertex to its mirror point, a point on the surface on the other side of the head. The
@@ -43,11 +43,11 @@ Positions mirrored(const MirrorMap& map, const Positions& positions);
 
 /// Returns (1 − w)·A + w·M(A) for given A and M(A). The result is bitwise equal to A for w = 0, to
 /// M(A) for w = 1, and to A where A and M(A) are equal.
-Positions blend_with_image(const Positions& positions, const Positions& image, double w);
+Positions blend_with_mirrored(const Positions& positions, const Positions& image, double w);
 
 /// Weight of the mirror image in a head whose differences between left and right are scaled by the
-/// factor a = `asymmetry`: A' = (1 + a)/2·A + (1 − a)/2·M(A). If `mirrored` is set, A and M(A)
-/// change places.
-double mirror_share(double asymmetry, bool mirrored);
+/// factor a = `asymmetry`: A' = (1 + a)/2·A + (1 − a)/2·M(A). If `mirrored` is true, A and M(A) are
+/// exchanged.
+double mirrored_weight(double asymmetry, bool mirrored);
 
 }  // namespace crowdface

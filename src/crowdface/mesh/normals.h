@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// The polygons that meet at each normal (at a vertex, or at a `vn` of a file), computed once for
-/// all meshes of a topology. With this list, threads sum the normals independently, and each sum
-/// always has the same order.
+/// For each normal (of a vertex, or a `vn` of a file), the polygons whose normals it sums; computed
+/// once for all meshes of a topology. With this list, threads sum the normals independently, and
+/// each sum always has the same order.
 class NormalFans {
  public:
   /// One normal for each vertex.
@@ -31,7 +31,7 @@ class NormalFans {
 
   Index rows() const { return static_cast<Index>(faces_.group_count()); }
   /// The polygons that meet at one normal, ascending.
-  std::span<const std::uint32_t> polygons_at(Index row) const { return faces_.of(row); }
+  std::span<const std::uint32_t> polygons_at(Index row) const { return faces_.items_of(row); }
   std::size_t memory_bytes() const {
     return (faces_.offsets.size() + faces_.items.size()) * sizeof(std::uint32_t);
   }

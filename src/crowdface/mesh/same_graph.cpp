@@ -157,14 +157,14 @@ class Matcher {
   /// have the same colour as the seed's vertex, and keeps the match with the smallest distance.
   /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
-    // Known if a component that has been matched shares the vertex.
+    // The match of this vertex in b, if a matched component shares the vertex; otherwise kNoIndex.
     const std::uint32_t known = to_b_[a_.vertex(seed)];
     double best = std::numeric_limits<double>::infinity();
     std::optional<Pairs> nearest;
     std::size_t tried = 0;
     for (const std::uint32_t candidate : with_colour_.at(a_.colours()[a_.vertex(seed)])) {
       if (known != kNoIndex ? candidate != known : to_a_[candidate] != kNoIndex) continue;
-      for (const std::uint32_t corner : corners_at_b_.of(candidate)) {
+      for (const std::uint32_t corner : corners_at_b_.items_of(candidate)) {
         if (++tried > kMaxCandidates) break;
         auto pairs = walk(seed, corner);
         if (!pairs) continue;
@@ -249,7 +249,7 @@ class Matcher {
     for (std::uint32_t& in_b : to_b_) {
       if (in_b != kNoIndex) continue;
       while (w < to_a_.size() && to_a_[w] != kNoIndex) ++w;
-      if (w == to_a_.size() || !corners_at_b_.of(w).empty()) return false;
+      if (w == to_a_.size() || !corners_at_b_.items_of(w).empty()) return false;
       in_b = w++;
     }
     return true;

@@ -29,8 +29,8 @@ std::vector<Triangle> triangles_of(const Topology& topology) {
 
 std::vector<Triangle> triangles_of(const Topology& topology, const Components& components,
                                    std::uint32_t component) {
-  return triangles_where(topology,
-                         [&](std::uint32_t v) { return components.of_vertex[v] == component; });
+  return triangles_where(
+      topology, [&](std::uint32_t v) { return components.component_of_vertex[v] == component; });
 }
 
 Topology topology_of(const std::vector<Triangle>& triangles, Index vertex_count) {

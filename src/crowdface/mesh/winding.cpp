@@ -59,7 +59,7 @@ bool is_inside_out(const Topology& topology, const Positions& positions) {
   return outward_share(topology, positions, areas, middle / weight) < -kMinInwardShare;
 }
 
-void turn_faces(Topology& topology) {
+void reverse_faces(Topology& topology) {
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto [begin, end] = topology.corners(f);
     for (auto* of_corners : {&topology.corner_vertices, &topology.corner_uvs}) {

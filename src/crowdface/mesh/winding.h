@@ -11,7 +11,7 @@ float winding(const Topology& topology, const Positions& positions);
 
 /// Reverses the orientation of all polygons: each keeps its first corner, and its other corners
 /// change to reverse order.
-void turn_faces(Topology& topology);
+void reverse_faces(Topology& topology);
 
 /// Whether the polygons of a mesh clearly face inwards. Directions are relative to the
 /// area-weighted centre, so that small parts next to a large open surface have little effect.

@@ -22,7 +22,7 @@ std::vector<Triangle> triangles_around(const Topology& topology, const Adjacency
   std::vector<bool> touched(static_cast<std::size_t>(topology.vertex_count), false);
   for (const std::uint32_t v : moved) {
     touched[v] = true;
-    for (const std::uint32_t other : adjacency.of(v)) touched[other] = true;
+    for (const std::uint32_t other : adjacency.items_of(v)) touched[other] = true;
   }
   std::vector<Triangle> triangles;
   for (const Triangle& triangle : triangles_of(topology)) {

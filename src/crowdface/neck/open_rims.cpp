@@ -63,7 +63,7 @@ Rim rim_through(std::span<const std::uint32_t> vertices, const Adjacency& adjace
   }();
   const auto neighbours = [&](std::uint32_t v) {
     std::vector<std::uint32_t> own;
-    for (const std::uint32_t other : adjacency.of(v)) {
+    for (const std::uint32_t other : adjacency.items_of(v)) {
       if (std::ranges::binary_search(sorted, other)) own.push_back(other);
     }
     return own;

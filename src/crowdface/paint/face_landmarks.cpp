@@ -32,7 +32,7 @@ class HeadRays {
            const Positions& positions, const FaceMarks& marks, double mm)
       : positions_(positions), marks_(marks), mm_(mm), side_(marks.axes.side()) {
     for (const Triangle& t : triangles_of(topology)) {
-      const PartClass of_part = parts.classes[components.of_vertex[t[0]]];
+      const PartClass of_part = parts.classes[components.component_of_vertex[t[0]]];
       if (of_part == PartClass::kBound) continue;  // lashes and tear lines
       triangles_.push_back(t);
       quads_.push_back({t[0], t[1], t[2], t[2]});
@@ -523,7 +523,7 @@ FaceLandmarks find_face_landmarks(const Topology& topology, const Components& co
                                   const HeadAxes& axes) {
   HeadShape head;
   head.positions = positions;
-  for (const std::uint32_t c : components.of_vertex) {
+  for (const std::uint32_t c : components.component_of_vertex) {
     head.skin.push_back(parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : parts.parts) {

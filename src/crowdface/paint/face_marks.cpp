@@ -246,7 +246,7 @@ HeadShape shape_of_mean(const HeadSet& heads) {
   const Adjacency adjacency = build_adjacency(heads.topology);
   const Components components = find_components(adjacency);
   const PartList parts = find_parts(heads.topology, adjacency, components, head.positions);
-  for (const std::uint32_t c : components.of_vertex) {
+  for (const std::uint32_t c : components.component_of_vertex) {
     head.skin.push_back(parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : parts.parts) {

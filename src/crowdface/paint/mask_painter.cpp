@@ -77,7 +77,7 @@ double edge_length(const Positions& positions, const std::vector<Touched>& touch
                    const CompressedRows<std::uint32_t>& neighbours) {
   double sum = 0;
   for (std::size_t i = 0; i < touched.size(); ++i) {
-    for (const std::uint32_t n : neighbours.of(i)) {
+    for (const std::uint32_t n : neighbours.items_of(i)) {
       sum += (row3(positions, n) - row3(positions, touched[i].vertex)).norm();
     }
   }
@@ -95,7 +95,7 @@ void smooth_once(const std::vector<Touched>& touched,
   Alpha next(static_cast<Index>(touched.size()), alpha.cols());
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const auto& [v, strength] = touched[i];
-    const auto around = neighbours.of(i);
+    const auto around = neighbours.items_of(i);
     const double share = around.empty() ? 0 : strength / static_cast<double>(around.size());
     for (Index k = 0; k < alpha.cols(); ++k) {
       double value = alpha(v, k);
@@ -115,7 +115,7 @@ void grow_once(const std::vector<Touched>& touched, const CompressedRows<std::ui
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const auto& [v, strength] = touched[i];
     double most = alpha(v, region);
-    for (const std::uint32_t n : neighbours.of(i)) most = std::max(most, alpha(n, region));
+    for (const std::uint32_t n : neighbours.items_of(i)) most = std::max(most, alpha(n, region));
     share.push_back(alpha(v, region) + strength * (most - alpha(v, region)));
   }
   for (std::size_t i = 0; i < touched.size(); ++i) {
@@ -141,7 +141,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
   std::vector<SurfacePoint> all = places;
   if (brush.mirror) {
     for (const SurfacePoint& place : places) {
-      all.push_back(surface_.nearest(mirror_.image(place.position)));
+      all.push_back(surface_.nearest(mirror_.mirrored(place.position)));
     }
   }
   // The strength is constant in the core of the brush and falls off towards its rim.

@@ -46,7 +46,7 @@ std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Position
     if (!adjacency.boundary[v]) continue;
     auto& there = vertices_at[{positions(v, 0), positions(v, 1), positions(v, 2)}];
     const auto is_of_same = [&](std::uint32_t other) {
-      return components.of_vertex[other] == components.of_vertex[v];
+      return components.component_of_vertex[other] == components.component_of_vertex[v];
     };
     if (std::ranges::none_of(there, is_of_same)) there.push_back(v);
   }
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Position
 std::vector<std::uint32_t> used_vertices(const Adjacency& adjacency) {
   std::vector<std::uint32_t> used;
   for (std::uint32_t v = 0; v < adjacency.group_count(); ++v) {
-    if (!adjacency.of(v).empty()) used.push_back(v);
+    if (!adjacency.items_of(v).empty()) used.push_back(v);
   }
   if (used.empty()) used.push_back(0);
   return used;
@@ -85,7 +85,7 @@ std::vector<std::uint32_t> SurfaceDistance::adjacent_vertices(std::uint32_t vert
   std::vector<std::uint32_t> out;
   std::uint32_t at = vertex;
   do {
-    const auto neighbours = adjacency_.of(at);
+    const auto neighbours = adjacency_.items_of(at);
     out.insert(out.end(), neighbours.begin(), neighbours.end());
     at = twins_[at];
   } while (at != vertex);
@@ -106,7 +106,7 @@ std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::vertices_within(
   for (const SurfacePoint& place : points) {
     // Start from all corners of the polygon that contains the place's triangle, so that both
     // triangles of a quad are treated alike.
-    for (const std::uint32_t f : faces_.of(place.corners[0])) {
+    for (const std::uint32_t f : faces_.items_of(place.corners[0])) {
       const auto face = topology_.face(f);
       if (!contains(face, place.corners[1]) || !contains(face, place.corners[2])) continue;
       for (const std::uint32_t v : face) {
@@ -123,7 +123,7 @@ std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::vertices_within(
     out.push_back({vertex, way});
     if (twins_[vertex] != vertex) reached(twins_[vertex], way);
     const Eigen::Vector3d here = row3(positions_, vertex);
-    for (const std::uint32_t f : faces_.of(vertex)) {
+    for (const std::uint32_t f : faces_.items_of(vertex)) {
       const auto face = topology_.face(f);
       for (std::size_t i = 0; i < face.size(); ++i) {
         const std::uint32_t to = face[i];

@@ -18,7 +18,7 @@ std::vector<std::uint32_t> ring_of(const Topology& topology, const VertexFaces& 
                                    const std::array<std::uint32_t, 3>& corners) {
   std::vector<std::uint32_t> ring;
   for (const std::uint32_t corner : corners) {
-    for (const std::uint32_t f : faces.of(corner)) {
+    for (const std::uint32_t f : faces.items_of(corner)) {
       ring.insert(ring.end(), topology.face(f).begin(), topology.face(f).end());
     }
   }
@@ -62,7 +62,7 @@ Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) c
   // position.
   const Eigen::Vector3d first = row3(positions, sites_[site][0]);
   Eigen::Vector3d along = Eigen::Vector3d::Zero(), across = along;
-  for (const RingVertex& ring : rings_.of(site)) {
+  for (const RingVertex& ring : rings_.items_of(site)) {
     const Eigen::Vector3d from = row3(positions, ring.vertex) - first;
     along += ring.along * from;
     across += ring.across * from;
@@ -76,7 +76,7 @@ Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const
 }
 
 bool Anchors::is_unmoved(std::size_t site, const Positions& before, const Positions& after) const {
-  return std::ranges::all_of(rings_.of(site), [&](const RingVertex& ring) {
+  return std::ranges::all_of(rings_.items_of(site), [&](const RingVertex& ring) {
     return before.row(ring.vertex) == after.row(ring.vertex);
   });
 }

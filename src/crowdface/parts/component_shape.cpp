@@ -74,13 +74,13 @@ void measure_roughness(const Topology& topology, const Components& components,
     sums[c] += off * off;
   };
   for (Index v = 0; v < topology.vertex_count; ++v) {
-    add(components.of_vertex[static_cast<std::size_t>(v)], positions.row(v).transpose());
+    add(components.component_of_vertex[static_cast<std::size_t>(v)], positions.row(v).transpose());
   }
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = topology.face(f);
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const std::uint32_t v : face) middle += positions.row(v).transpose();
-    add(components.of_vertex[face[0]], middle / static_cast<double>(face.size()));
+    add(components.component_of_vertex[face[0]], middle / static_cast<double>(face.size()));
   }
   for (std::size_t c = 0; c < shapes.size(); ++c) {
     shapes[c].roughness =
@@ -104,8 +104,8 @@ double distance_to(const PointGrid& skin, const Positions& positions,
 
 std::vector<std::vector<std::uint32_t>> vertices_of_components(const Components& components) {
   std::vector<std::vector<std::uint32_t>> members(components.sizes.size());
-  for (std::uint32_t v = 0; v < components.of_vertex.size(); ++v) {
-    members[components.of_vertex[v]].push_back(v);
+  for (std::uint32_t v = 0; v < components.component_of_vertex.size(); ++v) {
+    members[components.component_of_vertex[v]].push_back(v);
   }
   return members;
 }
@@ -152,7 +152,7 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
   std::vector<double> area(count, 0.0), perimeter(count, 0.0);
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = topology.face(f);
-    const std::size_t c = components.of_vertex[face[0]];
+    const std::size_t c = components.component_of_vertex[face[0]];
     ++shapes[c].polygon_count;
     area[c] += face_area_vector(topology, f, positions).norm() / 2;
   }
@@ -160,9 +160,9 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
   // narrow strips, but the openness of strips is large anyway.
   for (Index i = 0; i < topology.vertex_count; ++i) {
     if (!adjacency.boundary[static_cast<std::size_t>(i)]) continue;
-    for (const std::uint32_t n : adjacency.of(i)) {
+    for (const std::uint32_t n : adjacency.items_of(i)) {
       if (static_cast<Index>(n) < i || !adjacency.boundary[n]) continue;
-      perimeter[components.of_vertex[n]] += (positions.row(i) - positions.row(n)).norm();
+      perimeter[components.component_of_vertex[n]] += (positions.row(i) - positions.row(n)).norm();
     }
   }
   for (std::size_t c = 0; c < count; ++c) {

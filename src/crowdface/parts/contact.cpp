@@ -162,7 +162,7 @@ Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions&
   for (std::size_t k = 0; k < 3; ++k) {
     if (place.shares[k] <= 0) continue;
     Eigen::Vector3d at_corner = Eigen::Vector3d::Zero();
-    for (const std::uint32_t f : faces_->of(place.corners[k])) {
+    for (const std::uint32_t f : faces_->items_of(place.corners[k])) {
       const auto face = topology_->face(f);
       const Eigen::Vector3d first = skin.row(face[0]).transpose();
       for (std::size_t j = 1; j + 1 < face.size(); ++j) {

@@ -36,7 +36,7 @@ Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, 
 }
 
 bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b) {
-  return a == b || contains(adjacency.of(a), b);
+  return a == b || contains(adjacency.items_of(a), b);
 }
 
 /// Returns whether two edges belong to the same polygon, so that they can be consecutive in a cut.
@@ -87,7 +87,7 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
   for (const std::uint32_t a : vertices) {
     const double at = off_cut(a);
     if (std::abs(at) > reach) continue;
-    for (const std::uint32_t b : adjacency.of(a)) {
+    for (const std::uint32_t b : adjacency.items_of(a)) {
       if (b < a || side[a] * side[b] <= 0) continue;
       const double bt = off_cut(b);
       if ((at > 0) == (bt > 0)) continue;

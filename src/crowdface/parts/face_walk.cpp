@@ -16,7 +16,7 @@ MirroredWalk::MirroredWalk(const Topology& topology, const VertexFaces& vertex_f
       is_visited_(static_cast<std::size_t>(topology.face_count()), false) {}
 
 std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge) const {
-  for (const std::uint32_t f : vertex_faces_.of(edge.from)) {
+  for (const std::uint32_t f : vertex_faces_.items_of(edge.from)) {
     const auto face = topology_.face(f);
     for (std::size_t c = 0; c < face.size(); ++c) {
       const std::size_t next = c + 1 == face.size() ? 0 : c + 1;

@@ -121,7 +121,7 @@ void agree_on_sides(FacingGroup& group) {
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {
-    for (const std::uint32_t n : adjacency.of(pair.low)) {
+    for (const std::uint32_t n : adjacency.items_of(pair.low)) {
       sum += (row3(positions, n) - row3(positions, pair.low)).norm();
       ++count;
     }

@@ -51,7 +51,7 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
   for (const Vertices& vertices : components) {
     boxes.push_back(bounding_box(mean, vertices));
     Box& image = images.emplace_back();
-    for (const std::uint32_t v : vertices) image.extend(plane.image(row3(mean, v)));
+    for (const std::uint32_t v : vertices) image.extend(plane.mirrored(row3(mean, v)));
   }
   struct Pair {
     bool unlike;
@@ -119,7 +119,7 @@ class PlaceFinder {
     double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
     for (const Seed& seed : seeds) {
       // Try a walk from each edge that leaves the seed.
-      for (const std::uint32_t f : vertex_faces_.of(seed.vertex)) {
+      for (const std::uint32_t f : vertex_faces_.items_of(seed.vertex)) {
         const auto face = topology_.face(f);
         const auto corner = std::ranges::find(face, seed.vertex);
         const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
@@ -155,7 +155,7 @@ class PlaceFinder {
       const auto near = grid_there.nearest(point);
       const bool agreed = near.distance <= kNearness * edge_length(near.vertex) &&
                           grid_here.nearest(image(near.vertex)).vertex == v;
-      if (agreed || vertex_faces_.of(near.vertex).empty()) {
+      if (agreed || vertex_faces_.items_of(near.vertex).empty()) {
         set_partner(found.map, v, near.vertex);
         distances[i] = near.distance;
         return;
@@ -184,11 +184,11 @@ class PlaceFinder {
   }
 
  private:
-  Eigen::Vector3d image(std::uint32_t vertex) const { return plane_.image(row3(mean_, vertex)); }
+  Eigen::Vector3d image(std::uint32_t vertex) const { return plane_.mirrored(row3(mean_, vertex)); }
 
   double edge_length(std::uint32_t vertex) const {
     double sum = 0, count = 0;
-    for (const std::uint32_t f : vertex_faces_.of(vertex)) {
+    for (const std::uint32_t f : vertex_faces_.items_of(vertex)) {
       const auto face = topology_.face(f);
       for (std::size_t c = 0; c < face.size(); ++c) {
         sum += (row3(mean_, face[c]) - row3(mean_, face[(c + 1) % face.size()])).norm();
@@ -266,8 +266,8 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   FoundMirror found;
   MirrorMap& map = found.map;
   const VertexFaces around(topology);
-  map.corners.resize(components.of_vertex.size());
-  map.shares.resize(components.of_vertex.size());
+  map.corners.resize(components.component_of_vertex.size());
+  map.shares.resize(components.component_of_vertex.size());
   const Box box = bounding_box(mean, skin);
   const double extent = box.sizes().maxCoeff();
   // Find the mirror plane of the skin.

@@ -53,7 +53,7 @@ class PlaneSearch {
   template <class PlaceOf>
   MirrorPlane next(const MirrorPlane& plane, const PlaceOf& place_of) {
     parallel_for_each(some_.size(), [&](std::size_t i) {
-      const Eigen::Vector3d image = plane.image(row3(mean_, some_[i]));
+      const Eigen::Vector3d image = plane.mirrored(row3(mean_, some_[i]));
       places_[i] = place_of(grid_.nearest(image).vertex, image);
     });
     PlaneFit fit;
@@ -64,7 +64,7 @@ class PlaneSearch {
   void keep_best(const MirrorPlane& tried) {
     double squares = 0;
     for (std::size_t i = 0; i < some_.size(); ++i) {
-      const Eigen::Vector3d off = tried.image(row3(mean_, some_[i])) - places_[i];
+      const Eigen::Vector3d off = tried.mirrored(row3(mean_, some_[i])) - places_[i];
       squares += off.squaredNorm();
     }
     if (squares >= least_) return;

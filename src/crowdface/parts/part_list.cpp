@@ -123,10 +123,10 @@ void join_touching(const Positions& positions, const Components& components,
   for (const std::uint32_t c : rigid) {
     if (!eyeball[c]) vertices.insert(vertices.end(), members[c].begin(), members[c].end());
   }
-  ProximityJoiner tree(positions, vertices, components.of_vertex, grouping);
+  ProximityJoiner tree(positions, vertices, components.component_of_vertex, grouping);
   for (const std::uint32_t v : vertices) {
     throw_if_interrupted();
-    tree.join_near(positions.row(v).transpose(), reach, components.of_vertex[v]);
+    tree.join_near(positions.row(v).transpose(), reach, components.component_of_vertex[v]);
   }
 }
 
@@ -226,7 +226,7 @@ Components join_skin(const Components& components, const PartList& parts) {
     joined.sizes[first] += joined.sizes[c];
     joined.sizes[c] = 0;
   }
-  for (std::uint32_t& c : joined.of_vertex) {
+  for (std::uint32_t& c : joined.component_of_vertex) {
     if (parts.classes[c] == PartClass::kSkin && parts.shapes[c].polygon_count > 0) c = first;
   }
   return joined;
@@ -239,7 +239,7 @@ std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& aro
   }
   std::vector<std::uint32_t> skin;
   for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
-    if (is_skin[v] && !around.of(v).empty()) skin.push_back(v);
+    if (is_skin[v] && !around.items_of(v).empty()) skin.push_back(v);
   }
   return skin;
 }

@@ -39,8 +39,8 @@ class PointGrid {
   std::size_t index_of(const Cell& cell) const;
   /// The vertices in the consecutive cells `first` to `last`, both included.
   std::span<const std::uint32_t> vertices_in_cells(std::size_t first, std::size_t last) const {
-    return {vertices_by_cell_.of(first).data(),
-            vertices_by_cell_.of(last).data() + vertices_by_cell_.of(last).size()};
+    return {vertices_by_cell_.items_of(first).data(),
+            vertices_by_cell_.items_of(last).data() + vertices_by_cell_.items_of(last).size()};
   }
 
   const Positions& positions_;

@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDependent = 1e-12;
 
 double dot(const Vector& a, const Vector& b, std::size_t n) {
-  return fixed_dot({a.data(), n}, {b.data(), n});
+  return fixed_order_dot({a.data(), n}, {b.data(), n});
 }
 
 /// Returns L⁻ᵀ b.

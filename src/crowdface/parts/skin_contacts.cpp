@@ -79,7 +79,7 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
 void round_off(const Adjacency& adjacency, const Positions& mean, double size, Sides& sides) {
   double squares = 0, count = 0;
   for (const std::uint32_t v : sides.vertices) {
-    for (const std::uint32_t n : adjacency.of(v)) {
+    for (const std::uint32_t n : adjacency.items_of(v)) {
       const Eigen::Vector3d edge = (mean.row(n) - mean.row(v)).transpose();
       squares += edge.squaredNorm();
       ++count;
@@ -100,13 +100,13 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   for (std::size_t i = 0; i < rows; ++i) {
     side[i] = sides.side[sides.vertices[i]];
     std::vector<std::uint32_t> around;
-    for (const std::uint32_t n : adjacency.of(sides.vertices[i])) around.push_back(row_of[n]);
+    for (const std::uint32_t n : adjacency.items_of(sides.vertices[i])) around.push_back(row_of[n]);
     neighbours.add_group(around);
   }
   std::vector<double> next = side;
   for (int step = 0; step < steps; ++step) {
     parallel_for_each(rows, kRowsPerBlock, [&](std::size_t i) {
-      const auto around = neighbours.of(i);
+      const auto around = neighbours.items_of(i);
       double sum = 0;
       for (const std::uint32_t n : around) sum += side[n];
       next[i] = (side[i] + sum / static_cast<double>(std::max<std::size_t>(around.size(), 1))) / 2;
@@ -181,7 +181,7 @@ void SkinContacts::find_motions(Contact& contact) const {
     const auto add_vertex = [&](std::uint32_t v, double share) {
       const std::uint32_t row = index_in_list(contact.vertices, v);
       if (row == kNoIndex) return;
-      for (const auto& [section, weight] : contact.kernels.of(row)) {
+      for (const auto& [section, weight] : contact.kernels.items_of(row)) {
         PointMotions& point_motions = contact.point_motions[section - contact.begin];
         point_motions.heights.back() += share * weight * up.dot(sections_[section].up);
         point_motions.depths.back() += share * weight * deep.dot(sections_[section].up);
@@ -276,7 +276,7 @@ void SkinContacts::move(const Contact& contact, std::span<const double> amplitud
   for (std::size_t p = contact.begin; p < contact.end; ++p) ups.push_back(sections_[p].up);
   parallel_for_each(contact.vertices.size(), kMovedPerBlock, [&](std::size_t i) {
     double x = 0, y = 0, z = 0;
-    for (const auto& [section, weight] : contact.kernels.of(i)) {
+    for (const auto& [section, weight] : contact.kernels.items_of(i)) {
       const Eigen::Vector3d& up = ups[section - contact.begin];
       const double share = weight * amplitudes[section - contact.begin];
       x += share * up.x();

@@ -47,9 +47,9 @@ SurfacePoint nearest_point_around(const Topology& topology, const VertexFaces& f
                                   const Positions& positions, std::uint32_t vertex,
                                   const Eigen::Vector3d& point) {
   std::vector<std::uint32_t> near;
-  for (const std::uint32_t f : faces.of(vertex)) {
+  for (const std::uint32_t f : faces.items_of(vertex)) {
     for (const std::uint32_t v : topology.face(f)) {
-      near.insert(near.end(), faces.of(v).begin(), faces.of(v).end());
+      near.insert(near.end(), faces.items_of(v).begin(), faces.items_of(v).end());
     }
   }
   std::ranges::sort(near);
@@ -68,7 +68,7 @@ std::uint32_t walk_to_nearest_vertex(const Topology& topology, const VertexFaces
   };
   double least = square_to(start);
   for (std::uint32_t vertex = start;;) {
-    for (const std::uint32_t f : faces.of(vertex)) {
+    for (const std::uint32_t f : faces.items_of(vertex)) {
       for (const std::uint32_t v : topology.face(f)) {
         const double square = square_to(v);
         if (square >= least) continue;
@@ -88,7 +88,7 @@ SurfacePoint nearest_point_from(const Topology& topology, const VertexFaces& fac
   SurfacePoint best = bare_vertex(positions, start, point);
   std::uint32_t vertex = start, before = kNoIndex;
   for (int step = 0; step < kMaxSteps; ++step) {
-    for (const std::uint32_t f : faces.of(vertex)) {
+    for (const std::uint32_t f : faces.items_of(vertex)) {
       const auto face = topology.face(f);
       if (!contains(face, before)) try_face(face, positions, point, best);
     }

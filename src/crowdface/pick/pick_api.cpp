@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxLandmarks = 100, kLongestName = 64;
+constexpr std::size_t kMaxLandmarks = 100, kMaxNameLength = 64;
 
 Json list_of(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});
@@ -64,9 +64,9 @@ std::uint32_t number_of(const Json& json, Index count, const std::string& key) {
 /// The name of a landmark. \throws UsageError if a landmark file cannot hold the name.
 std::string name_in(const Json& body) {
   std::string name = text_in(body, "name");
-  if (name.empty() || name.size() > kLongestName || printable(name) != name ||
+  if (name.empty() || name.size() > kMaxNameLength || printable(name) != name ||
       name.find('\n') != std::string::npos) {
-    throw UsageError(concat("name: expected 1 to ", kLongestName,
+    throw UsageError(concat("name: expected 1 to ", kMaxNameLength,
                             " letters without control characters, found ",
                             quoted(std::string_view(name))));
   }

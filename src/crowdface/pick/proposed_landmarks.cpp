@@ -29,7 +29,7 @@ PickableMesh make_pickable(const WrapTemplate& shape, const Positions& positions
     for (std::uint32_t& v : t) v = shape.skin.vertices[v];
   }
   for (const Triangle& t : occluding_triangles(shape)) {
-    const PartClass of_part = shape.parts.classes[shape.components.of_vertex[t[0]]];
+    const PartClass of_part = shape.parts.classes[shape.components.component_of_vertex[t[0]]];
     if (of_part != PartClass::kSkin) others.push_back(t);
   }
   return {positions, std::move(skin), others};

@@ -124,7 +124,7 @@ std::map<std::string, PickedPlace> suggest_on_template(
     if (!other) continue;
     const PickedPlace here = mesh.place_at_vertex(*landmark.vertex);
     const Eigen::Vector3d facing = here.normal - 2 * plane.normal.dot(here.normal) * plane.normal;
-    const auto there = mesh.nearest(plane.image(here.point), facing, kMinNormalCosine, kReachMm);
+    const auto there = mesh.nearest(plane.mirrored(here.point), facing, kMinNormalCosine, kReachMm);
     if (there) places[*other] = mesh.place_at_vertex(there->vertex);
   }
   for (const PickedLandmark& landmark : landmarks) {

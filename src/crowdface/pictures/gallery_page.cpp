@@ -19,7 +19,7 @@ std::optional<fs::path> gallery_page_folder() {
   }
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  require_stat("/proc/self/exe", error);
+  throw_if_system_error("/proc/self/exe", error);
   if (error) return std::nullopt;
   return program.parent_path().parent_path() / "share/crowdface/gallery";
 }

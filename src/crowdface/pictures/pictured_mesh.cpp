@@ -34,7 +34,7 @@ std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& faces) {
   std::vector<TexturePlace> places;
   const VertexFaces around(faces.topology);
   for (const std::uint32_t vertex : rim) {
-    for (const std::uint32_t face : around.of(vertex)) {
+    for (const std::uint32_t face : around.items_of(vertex)) {
       const auto corners = faces.topology.face(face), uvs = faces.topology.face_uvs(face);
       for (std::size_t c = 0; c < uvs.size(); ++c) {
         if (corners[c] != vertex || uvs[c] == kNoIndex) continue;

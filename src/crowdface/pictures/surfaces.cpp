@@ -73,9 +73,9 @@ std::vector<bool> see_through_materials(const Inputs& inputs) {
   std::vector<std::vector<Index>> faces(inputs.materials.names.size());
   std::vector<bool> is_skin(faces.size(), false), see_through(faces.size(), false);
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const std::uint32_t material = inputs.materials.of_face[static_cast<std::size_t>(f)];
+    const std::uint32_t material = inputs.materials.material_of_face[static_cast<std::size_t>(f)];
     faces[material].push_back(f);
-    const std::uint32_t component = inputs.components.of_vertex[topology.face(f)[0]];
+    const std::uint32_t component = inputs.components.component_of_vertex[topology.face(f)[0]];
     if (component == inputs.components.largest()) is_skin[material] = true;
   }
   if (std::ranges::find(is_skin, false) == is_skin.end()) return see_through;
@@ -91,7 +91,7 @@ std::vector<bool> see_through_materials(const Inputs& inputs) {
 }  // namespace
 
 Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
-  const std::vector<std::uint32_t>& of_face = inputs.materials.of_face;
+  const std::vector<std::uint32_t>& of_face = inputs.materials.material_of_face;
   const std::size_t count = inputs.materials.names.size();
   std::vector<SurfaceKind> kinds(count);
   std::vector<std::optional<Eigen::Array3f>> paints(count);
@@ -121,8 +121,8 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
   }
   for (std::size_t f = 0; f < surfaces.kinds.size(); ++f) {
     const std::uint32_t first = inputs.faces.topology.face(static_cast<Index>(f))[0];
-    if (surfaces.kinds[f] == SurfaceKind::kSkin && eyeball[inputs.components.of_vertex[first]] &&
-        !chosen[of_face[f]]) {
+    if (surfaces.kinds[f] == SurfaceKind::kSkin &&
+        eyeball[inputs.components.component_of_vertex[first]] && !chosen[of_face[f]]) {
       surfaces.kinds[f] = SurfaceKind::kEye;
     }
   }

@@ -70,7 +70,7 @@ std::string pack_face(
           topology.vertex_count, " vertices");
   std::string bytes = pack_points(vertices, frame, positions);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    Eigen::Vector3d normal = normal_at(topology, positions, vertex_faces.of(vertices[v]));
+    Eigen::Vector3d normal = normal_at(topology, positions, vertex_faces.items_of(vertices[v]));
     if (adjust_normal) normal = adjust_normal(v, normal);
     const Eigen::Vector2d square = unfolded(normal);
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);

@@ -136,9 +136,9 @@ class Canvas {
   /// Converts weights to bytes. The rounding error goes to the largest byte, so that the bytes of a
   /// texel add up to 255.
   std::vector<std::vector<std::uint8_t>> images() const {
-    const std::size_t images = (regions_ + kRegionsOfImage - 1) / kRegionsOfImage;
+    const std::size_t images = (regions_ + kRegionsPerImage - 1) / kRegionsPerImage;
     std::vector<std::vector<std::uint8_t>> out(
-        images, std::vector<std::uint8_t>(kRegionsOfImage * count(), 0));
+        images, std::vector<std::uint8_t>(kRegionsPerImage * count(), 0));
     std::vector<int> bytes(regions_);
     for (std::size_t i = 0; i < count(); ++i) {
       if (painted_[i] == 0) continue;
@@ -152,7 +152,7 @@ class Canvas {
       }
       *std::ranges::max_element(bytes) += rest;
       for (std::size_t k = 0; k < regions_; ++k) {
-        out[k / kRegionsOfImage][kRegionsOfImage * i + k % kRegionsOfImage] =
+        out[k / kRegionsPerImage][kRegionsPerImage * i + k % kRegionsPerImage] =
             static_cast<std::uint8_t>(bytes[k]);
       }
     }
@@ -241,7 +241,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {
       if (!is_prior(v)) continue;
-      for (const UvSample& sample : samples.of(v)) {
+      for (const UvSample& sample : samples.items_of(v)) {
         if (sample.tile != tile) continue;
         places.push_back(canvas.texels(sample.u - column, sample.v - row));
         weights.push_back(alpha.row(v).data());
@@ -265,8 +265,8 @@ MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& p
     const auto mask = path.parent_path() / (stem + path.extension().string());
     out.masks.push_back(mask);
     for (const auto& [number_of_tile, images] : masks.tiles) {
-      out.files.emplace_back(with_tile(mask, number_of_tile),
-                             encode_png(masks.size, masks.size, kRegionsOfImage, images[i]));
+      out.files.emplace_back(udim_tile_path(mask, number_of_tile),
+                             encode_png(masks.size, masks.size, kRegionsPerImage, images[i]));
     }
   }
   return out;

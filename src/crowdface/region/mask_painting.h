@@ -13,7 +13,7 @@
 namespace crowdface {
 
 /// Number of regions in one mask image: each of the channels red, green and blue holds one region.
-inline constexpr Index kRegionsOfImage = 3;
+inline constexpr Index kRegionsPerImage = 3;
 
 /// The mask images of all tiles. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to
 /// images of `size` × `size` × 3 bytes, first row at v = 1. Image i holds regions 3·i to 3·i + 2.

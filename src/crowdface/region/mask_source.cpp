@@ -36,7 +36,7 @@ bool MaskSource::is_tiled() const {
 }
 
 std::string MaskSource::tile_path(int tile) const {
-  return is_tiled() ? with_tile(path_, tile).string() : path_;
+  return is_tiled() ? udim_tile_path(path_, tile).string() : path_;
 }
 
 Image MaskSource::read(int tile) const {

@@ -209,9 +209,9 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
     }
     channels += static_cast<Index>(masks[i].channels());
   }
-  // With one channel for two regions, the second region gets the remainder.
-  const bool leaves_a_rest = channels == 1 && regions == 2;
-  if (channels < regions && !leaves_a_rest) {
+  // A single channel suffices for two regions: the second gets 1 minus the first.
+  const bool second_gets_remainder = channels == 1 && regions == 2;
+  if (channels < regions && !second_gets_remainder) {
     throw InvalidInput(concat("expected a mask channel for each of ", regions, " regions, found ",
                               channels, " in ", masks.empty() ? "no image" : join(found)));
   }
@@ -413,7 +413,7 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
   std::set<int> needed_tiles;
   for (Index v = 0; v < topology.vertex_count; ++v) {
     if (!is_needed(v)) continue;
-    for (const UvSample& sample : samples.of(v)) needed_tiles.insert(sample.tile);
+    for (const UvSample& sample : samples.items_of(v)) needed_tiles.insert(sample.tile);
   }
   std::vector<LoadedMask> loaded;
   loaded.reserve(masks.size());
@@ -428,7 +428,7 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
   std::vector<std::uint8_t> uncovered(static_cast<std::size_t>(topology.vertex_count), 0);
   const bool by_vertex = all_hold_vertex_weights(masks);
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
-    const auto places = samples.of(i);
+    const auto places = samples.items_of(i);
     if (normalised_mean(loaded, channels, i, places, weights.alpha.row(i))) return;
     weights.alpha(i, regions - 1) = 1;
     uncovered[static_cast<std::size_t>(i)] =
@@ -448,7 +448,7 @@ std::vector<double> mask_values(const Topology& topology, const TextureCoordinat
   check_channels({mask}, {loaded}, 1);
   std::vector<double> values(static_cast<std::size_t>(topology.vertex_count), 0.0);
   for (Index i = 0; i < topology.vertex_count; ++i) {
-    values[static_cast<std::size_t>(i)] = loaded.at_vertex(i, samples.of(i), 0).value_or(0);
+    values[static_cast<std::size_t>(i)] = loaded.at_vertex(i, samples.items_of(i), 0).value_or(0);
   }
   return values;
 }

@@ -52,7 +52,7 @@ void check_every_used_vertex(const Topology& topology, const UvSamples& samples,
                              const std::vector<bool>& needed) {
   for (Index f = 0; f < topology.face_count(); ++f) {
     for (const std::uint32_t vertex : topology.face(f)) {
-      if (!samples.of(vertex).empty() || (!needed.empty() && !needed[vertex])) continue;
+      if (!samples.items_of(vertex).empty() || (!needed.empty() && !needed[vertex])) continue;
       throw InvalidInput(concat(
           "masks need texture coordinates: vertex ", std::uint64_t{vertex} + 1, " of face ", f + 1,
           " has no texture coordinate (vertex weights, as text or .npy, do not need them)"));
@@ -79,7 +79,7 @@ UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& 
   constexpr Index kBlock = 16384;
   std::vector<std::size_t> kept(static_cast<std::size_t>(topology.vertex_count));
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
-    const std::span<UvSample> places = corners.of(i);
+    const std::span<UvSample> places = corners.items_of(i);
     // Sort the samples, so that the last bits of their mean do not depend on the order of the
     // faces.
     std::sort(places.begin(), places.end());
@@ -88,7 +88,7 @@ UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& 
   });
   UvSamples out;
   out.reserve(kept.size(), std::accumulate(kept.begin(), kept.end(), std::size_t{0}));
-  for (std::size_t i = 0; i < kept.size(); ++i) out.add_group(corners.of(i).first(kept[i]));
+  for (std::size_t i = 0; i < kept.size(); ++i) out.add_group(corners.items_of(i).first(kept[i]));
   return out;
 }
 

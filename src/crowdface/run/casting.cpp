@@ -124,10 +124,10 @@ void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePla
   if (!has_children || !has_tint) return;
   std::vector<double> tones = skin_tones(inputs);
   if (tones.empty()) return;
-  const ColourShares colour_shares(config, inputs);
+  const ColourShares colour_fractions(config, inputs);
   choose_skin_of_children(
       {config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
-       [&](const Recipe& recipe) { return colour_shares.shares_of(recipe); },
+       [&](const Recipe& recipe) { return colour_fractions.shares_of(recipe); },
        twin_families(config)},
       crowd);
 }

@@ -58,14 +58,15 @@ class MaterialCopies {
     std::map<std::pair<fs::path, std::string>, Dyed> all;
     for (const AttachmentLook& look : looks) {
       for (const AttachmentFile& file : files_of(look)) {
-        const fs::path to = attachment_folder(look.item->name, look.label()) / file.file.relative;
+        const fs::path to =
+            attachment_folder(look.item->name, look.label()) / file.file.destination;
         if (file.is_coloured) {
-          Dyed& dyed = all[{file.file.from, look.label()}];
-          dyed.neutral = file.file.from;
+          Dyed& dyed = all[{file.file.source, look.label()}];
+          dyed.neutral = file.file.source;
           dyed.colour = *look.colour;
           dyed.copies.push_back(to);
         } else {
-          copy({file.file.from, to}, look.item->name);
+          copy({file.file.source, to}, look.item->name);
         }
       }
     }
@@ -106,13 +107,13 @@ class MaterialCopies {
  private:
   void copy(const MaterialFile& material, const std::string& head) {
     throw_if_interrupted();
-    const auto [digest, is_unread] = read_.try_emplace(material.from);
-    if (is_unread) digest->second = hash_file(material.from).digest;
-    const auto [first, is_new] = copied_.emplace(material.relative, digest->second);
+    const auto [digest, is_unread] = read_.try_emplace(material.source);
+    if (is_unread) digest->second = hash_file(material.source).digest;
+    const auto [first, is_new] = copied_.emplace(material.destination, digest->second);
     if (is_new) {
-      write(material.relative, MappedFile(material.from).bytes());
+      write(material.destination, MappedFile(material.source).bytes());
     } else if (first->second != digest->second) {
-      heads_of_warning_[concat(material.relative.string(),
+      heads_of_warning_[concat(material.destination.string(),
                                " differs between heads; the first head's file is used")]
           .push_back(head);
     }

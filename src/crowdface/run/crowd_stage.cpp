@@ -80,8 +80,8 @@ std::string format_stage(const Config& config, const Inputs& inputs,
                          std::span<const FacePlan> crowd) {
   const std::string root = usda_name(config.crowd.name);
   std::string text = concat("#usda 1.0\n(\n    defaultPrim = \"", root, "\"\n",
-                            usda_frame(config.faces.units, config.faces.up), ")\n\ndef Xform \"",
-                            root, "\" (\n    kind = \"group\"\n)\n{\n");
+                            usda_layer_metadata(config.faces.units, config.faces.up),
+                            ")\n\ndef Xform \"", root, "\" (\n    kind = \"group\"\n)\n{\n");
   const Rows rows = rows_of(config, inputs, crowd.size());
   const CrowdDirectory here{".", config.output.faces_per_folder.value_or(0)};
   UsdaNames names;

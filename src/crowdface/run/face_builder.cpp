@@ -105,7 +105,8 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) con
 
 void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (recipe.asymmetry != 1) {
-    face = blend_with_image(face, mirrored(mirror(), face), mirror_share(recipe.asymmetry, false));
+    face = blend_with_mirrored(face, mirrored(mirror(), face),
+                               mirrored_weight(recipe.asymmetry, false));
   }
   correct_contacts(recipe, face);
   if (follower_) follower_->follow(recipe.target, face);
@@ -146,8 +147,8 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
     mixed = target_positions(inputs_.faces, recipe);
     if (recipe.asymmetry != 1) {
-      mixed = blend_with_image(*mixed, mirrored(mirror(), *mixed),
-                               mirror_share(recipe.asymmetry, false));
+      mixed = blend_with_mirrored(*mixed, mirrored(mirror(), *mixed),
+                                  mirrored_weight(recipe.asymmetry, false));
     }
   }
   const Positions& target =
@@ -202,7 +203,7 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
 void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {
-    const Eigen::Vector3d image = mirror().plane.image(contacts_->section(p).middle);
+    const Eigen::Vector3d image = mirror().plane.mirrored(contacts_->section(p).middle);
     std::size_t other = p;
     double nearest = HUGE_VAL;
     for (std::size_t q = 0; q < own.size(); ++q) {

@@ -158,7 +158,7 @@ void FaceTraits::mirror_wanted(Positions& face) const {
     for (std::size_t c = 0; c < 3; ++c) {
       point += mirror_->shares[v][c] * row3(face, mirror_->corners[v][c]);
     }
-    point = mirror_->plane.image(point);
+    point = mirror_->plane.mirrored(point);
     const auto kept = std::ranges::lower_bound(mirror_->unpaired, v);
     if (kept != mirror_->unpaired.end() && *kept == v) {
       point += row3(mirror_->unpaired_offsets, kept - mirror_->unpaired.begin());

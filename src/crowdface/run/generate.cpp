@@ -194,7 +194,7 @@ enum class Purpose {
 
 /// Maximum memory of the process, in bytes.
 std::uint64_t memory_for(const GenerateOptions& options) {
-  return options.memory > 0 ? options.memory : machine_memory() / 4 * 3;
+  return options.memory > 0 ? options.memory : usable_memory() / 4 * 3;
 }
 
 /// All stages after casting; the folder must be ready. \return a summary for the user.
@@ -317,7 +317,7 @@ bool makes_faces(const Config& config, const GenerateOptions& options) {
 
 /// Casts the crowd and fills its folder, except for finished work.
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
-             const LogMemory& memory, StageSeconds& stages) {
+             const LogBuffer& memory, StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
   check_output(job, options.replace);
   const bool is_new = purpose == Purpose::kGenerate && makes_faces(job.config, options);
@@ -360,7 +360,7 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
         "--force cannot be combined with --shard, because one shard would remove the files of "
         "another; replace the old crowd with crowdface plan --force first");
   }
-  const LogMemory memory;  // buffers messages: the crowd's log is opened only after casting
+  const LogBuffer memory;  // buffers messages: the crowd's log is opened only after casting
   StageSeconds stages;
   const Job job = timed(stages, "read", load);
   if (options.dry_run) {
@@ -417,7 +417,7 @@ void generate(const Config& config, const GenerateOptions& options) {
 
 void gather(const fs::path& crowd_directory, const fs::path& cache) {
   const CrowdDirectory directory{crowd_directory};
-  const LogMemory memory;
+  const LogBuffer memory;
   StageSeconds stages;
   const Job job = timed(stages, "read", [&] { return load_job(directory.config(), {}, cache); });
   GenerateOptions options;

@@ -102,7 +102,7 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
   const bool is_body = inputs.neck && inputs.neck->is_body(item);
   const PointGrid grid(is_body ? inputs.mean : inputs.attachments.fitted_to, skin_vertices(inputs));
   const auto nearest = [&](const Eigen::Vector3d& point) {
-    return inputs.rig.skin.influences.of(grid.nearest(point).vertex);
+    return inputs.rig.skin.influences.items_of(grid.nearest(point).vertex);
   };
   const bool is_rigid = item.moves == AttachmentMove::kRigid;
   const Eigen::Vector3d middle = points.colwise().mean().transpose();
@@ -123,7 +123,7 @@ struct GlbLook {
 GlbLook look_of(const Attachment& item, bool own_texture) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   GlbLook look;
-  look.of_face = std::move(named.of_face);
+  look.of_face = std::move(named.material_of_face);
   if (own_texture) {
     for (const std::string& name : named.names) {
       GlbPartMaterial& material = look.materials.emplace_back();

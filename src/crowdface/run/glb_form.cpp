@@ -139,7 +139,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   options.unit = config.faces.units;
   options.up = config.faces.up;
   options.front = config.faces.front;
-  options.face_materials = inputs.materials.of_face;
+  options.face_materials = inputs.materials.material_of_face;
   options.points = inputs.points.names;
   options.skin = inputs.rig.skin;
   for (const Shape& shape : inputs.shapes.shapes) {

@@ -53,7 +53,7 @@ struct MeshEncoding {
 
 constexpr std::uint64_t kVector = 3 * sizeof(float);
 
-constexpr std::array<MeshEncoding, kMeshFormats> kEncodings = {{
+constexpr std::array<MeshEncoding, kMeshFormatCount> kEncodings = {{
     {MeshFormat::kObj, obj_encoders,
      [](const MeshSize& size) { return size.obj_bytes * (1 + size.shapes); }},
     {MeshFormat::kPly, ply_encoders,

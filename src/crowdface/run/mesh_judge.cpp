@@ -46,7 +46,8 @@ PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) 
   std::set<std::uint32_t> seen;  // components with at least one polygon that renders show
   for (std::size_t f = 0; f < kinds.size(); ++f) {
     if (kinds[f] == SurfaceKind::kHidden) continue;
-    seen.insert(inputs.skin.of_vertex[inputs.faces.topology.face(static_cast<Index>(f))[0]]);
+    seen.insert(
+        inputs.skin.component_of_vertex[inputs.faces.topology.face(static_cast<Index>(f))[0]]);
   }
   std::vector<std::uint32_t> components;
   for (const Part& part : inputs.parts.parts) {

@@ -22,8 +22,8 @@ std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const Measu
     shares.push_back(std::min(1.0, std::max(level.level.share, kMinTriangles / triangles)));
   }
   return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}},
-                       face_materials(item.file.materials, topology.face_count()).of_face, shares,
-                       borders);
+                       face_materials(item.file.materials, topology.face_count()).material_of_face,
+                       shares, borders);
 }
 
 }  // namespace

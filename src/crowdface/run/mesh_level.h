@@ -62,7 +62,7 @@ template <class T>
 CompressedRows<T> at_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
   CompressedRows<T> some;
   if (whole.group_count() == 0) return some;
-  for (const std::uint32_t row : rows) some.add_group(whole.of(row));
+  for (const std::uint32_t row : rows) some.add_group(whole.items_of(row));
   return some;
 }
 

@@ -24,7 +24,7 @@ std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
   const FaceMaterials materials = face_materials(file.materials, faces);
   std::vector<MaterialRange> ranges;
   for (std::size_t t = 0; t < level.faces.size(); ++t) {
-    const std::string& name = materials.names[materials.of_face[level.faces[t]]];
+    const std::string& name = materials.names[materials.material_of_face[level.faces[t]]];
     if (name.empty() || (!ranges.empty() && ranges.back().name == name)) continue;
     ranges.push_back({name, static_cast<Index>(t)});
   }
@@ -42,7 +42,7 @@ std::string library_line(const std::vector<MaterialFile>& files,
   std::string line;
   for (const MaterialFile& file : files) {
     if (!file.is_library) continue;
-    line += concat(line.empty() ? "mtllib " : " ", (from / file.relative).generic_string());
+    line += concat(line.empty() ? "mtllib " : " ", (from / file.destination).generic_string());
   }
   return line;
 }

@@ -36,7 +36,7 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
 void refuse_to_write_over_config(const Config& config, const CrowdDirectory& directory) {
   std::error_code error;
   const bool is_same = fs::equivalent(config.file, directory.config(), error);
-  require_stat(directory.config(), error);
+  throw_if_system_error(directory.config(), error);
   if (!is_same) return;
   if (path_exists(directory.plan())) return;  // the config belongs to a crowd
   if (read_file(config.file) == config_in_folder(config, directory)) return;

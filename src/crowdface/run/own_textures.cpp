@@ -84,7 +84,7 @@ std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
   std::map<std::string, std::size_t> pictures;
   for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
     if (layout.of_face[f] == kNoIndex) continue;
-    pictures.try_emplace(materials.names[materials.of_face[f]], layout.of_face[f]);
+    pictures.try_emplace(materials.names[materials.material_of_face[f]], layout.of_face[f]);
   }
   return pictures;
 }
@@ -160,7 +160,7 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
     const Index target = face.recipe.target;
     if (of_target_.contains(target)) continue;
     const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
-    Materials materials{OwnMaterials(file.material_path(), file.material_libraries, shared), {}};
+    Materials materials{MergedMaterials(file.material_path(), file.material_libraries, shared), {}};
     std::size_t first = 0;
     const auto add = [&](const HeadTextures& textures) {
       if (!textures.blend()) return;
@@ -196,7 +196,7 @@ std::vector<std::string_view> OwnTextures::glb_images(const Encoded& encoded) co
 
 EncodedFile OwnTextures::material_file(const FacePlan& face) const {
   const Materials& materials = of_target_.at(face.recipe.target);
-  OwnMaterials::Replacements textures;
+  MergedMaterials::Replacements textures;
   for (const auto& [kind, pictures] : materials.pictures) {
     for (const auto& [material, index] : pictures) {
       const PictureName& picture = pictures_[index];

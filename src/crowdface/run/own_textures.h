@@ -70,7 +70,7 @@ class OwnTextures {
   /// The materials of a target head, and the image (index into face_picture_names) of each by kind
   /// and material name.
   struct Materials {
-    OwnMaterials file;
+    MergedMaterials file;
     std::map<TextureKind, std::map<std::string, std::size_t>> pictures;
   };
 

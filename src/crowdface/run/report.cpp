@@ -301,7 +301,7 @@ std::string format_timings(const StageSeconds& stages, const StageTimes& busy, s
                                          [](auto& a, auto& b) { return a.second < b.second; });
   for (const auto& [part, seconds] : parts) timings["busy_seconds"][part] = rounded(seconds);
   timings["slowest"] = slowest->first;
-  timings["peak_memory_bytes"] = peak_memory();
+  timings["peak_memory_bytes"] = peak_memory_bytes();
   return timings.dump(2) + "\n";
 }
 

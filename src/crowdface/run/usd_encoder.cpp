@@ -50,7 +50,7 @@ struct PrimLook {
 PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource& source) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   if (has_texture_of_face(source, item)) {
-    PrimLook look{std::move(prim), {}, std::move(named.of_face)};
+    PrimLook look{std::move(prim), {}, std::move(named.material_of_face)};
     for (const std::string& name : named.names) {
       look.materials.push_back({name, {}});
       look.materials.back().surface.picture =
@@ -60,12 +60,12 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource
   }
   const std::string shared = source.shared.empty() ? "." : source.shared;
   const auto file_of = [&](const fs::path& from) {
-    const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::from);
+    const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::source);
     fs::path folder = fs::path(shared) / attachment_folder(item.name);
     if (item.tint != Tint::kNone) folder /= UsdaPart::kLookName;
-    return (folder / file->relative).generic_string();
+    return (folder / file->destination).generic_string();
   };
-  PrimLook look{std::move(prim), {}, std::move(named.of_face)};
+  PrimLook look{std::move(prim), {}, std::move(named.material_of_face)};
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     look.materials.push_back({material.name, {}});
     try {

@@ -135,7 +135,7 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
 }
 
 std::vector<fs::path> scans_in(const fs::path& folder) {
-  std::vector<std::string> endings(mesh_endings().begin(), mesh_endings().end());
+  std::vector<std::string> endings(mesh_extensions().begin(), mesh_extensions().end());
   std::vector<fs::path> scans = files_of(folder, endings);
   if (scans.empty()) {
     refuse_file(folder, concat("expected scans (", join(endings), "), found none"));
@@ -200,7 +200,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
     digest.add("--texture").add(inputs.texture_size).add(options.delight ? 1 : 0);
     for (const MaterialFile& used :
          find_material_files(inputs.file.material_path(), inputs.file.material_libraries).files) {
-      digest.add(hash_file(used.from).digest);
+      digest.add(hash_file(used.source).digest);
     }
   }
   inputs.digest = digest.digest();

@@ -53,7 +53,7 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
 
 std::vector<Task> tasks_without_textures(const WrapOptions& options) {
   if (options.batch.empty()) {
-    const fs::path head = output_file(options.out);
+    const fs::path head = checked_output_path(options.out);
     return {make_task(options.scan, head, head.parent_path())};
   }
   std::vector<Task> tasks;
@@ -328,7 +328,7 @@ void wrap_scans(const WrapOptions& options) {
   refuse_to_write_over_inputs(options, tasks);
   if (!options.dry_run && !options.batch.empty()) {
     make_directories(fs::path(options.out) / "reports");
-    remove_leftovers(options.out);
+    remove_temporary_files(options.out);
   }
   std::vector<Task> own;
   for (std::size_t i = 0; i < tasks.size(); ++i) {

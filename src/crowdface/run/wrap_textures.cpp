@@ -60,12 +60,13 @@ TextureFiles WrapTextures::files_of(const fs::path& head, const fs::path& report
 
 std::string WrapTextures::materials_text(const TextureFiles& files) const {
   const std::string name = files.materials.stem().string();
-  OwnMaterials::Replacements textures;
+  MergedMaterials::Replacements textures;
   for (const auto& [material, picture] : target_.pictures_by_material()) {
     textures[TextureKind::kColour][material.empty() ? kSkinMaterial : material] =
         map_name(name, "colour", target_.picture_names()[picture], kTileWord);
   }
-  return OwnMaterials(inputs_.file.material_path(), inputs_.file.material_libraries).text(textures);
+  return MergedMaterials(inputs_.file.material_path(), inputs_.file.material_libraries)
+      .text(textures);
 }
 
 /// Copies the textures that the head keeps, such as the eyes' textures.
@@ -73,7 +74,7 @@ void WrapTextures::copy_other_textures(const fs::path& folder) const {
   const ObjFile& file = inputs_.file;
   NamedTextures named = find_textures(file.material_path(), file.material_libraries);
   std::set<fs::path> kept;
-  for (const auto& [kind, of_material] : named.of_kind) {
+  for (const auto& [kind, of_material] : named.paths_by_kind) {
     for (const auto& [material, path] : of_material) {
       if (kind == TextureKind::kColour && target_.pictures_by_material().contains(material))
         continue;
@@ -83,10 +84,10 @@ void WrapTextures::copy_other_textures(const fs::path& folder) const {
   }
   for (const MaterialFile& other :
        find_material_files(file.material_path(), file.material_libraries).files) {
-    const fs::path to = folder / other.relative;
-    if (!kept.contains(other.from) || path_exists(to)) continue;
+    const fs::path to = folder / other.destination;
+    if (!kept.contains(other.source) || path_exists(to)) continue;
     make_directories(to.parent_path());
-    write_file(to, read_file(other.from));
+    write_file(to, read_file(other.source));
   }
 }
 
@@ -130,7 +131,7 @@ void add_texture_files(const fs::path& scan, Hasher& hasher) {
     libraries.emplace_back(material_statement(line).rest);
   }
   for (const MaterialFile& used : find_material_files(scan, libraries).files) {
-    hasher.add(hash_file(used.from).digest);
+    hasher.add(hash_file(used.source).digest);
   }
 }
 

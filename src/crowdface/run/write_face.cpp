@@ -23,12 +23,12 @@ void write_attachment_materials(const Job& job, const FacePlan& face, const fs::
   for (const AttachmentLook& look : job.inputs.attachments.looks(face)) {
     for (const AttachmentFile& file : files_of(look)) {
       const fs::path to =
-          folder / attachment_folder(look.item->name, look.label()) / file.file.relative;
+          folder / attachment_folder(look.item->name, look.label()) / file.file.destination;
       make_directories(to.parent_path());
       if (file.is_coloured) {
-        write_file(to, coloured_texture(file.file.from, *look.colour));
+        write_file(to, coloured_texture(file.file.source, *look.colour));
       } else {
-        write_file(to, MappedFile(file.file.from).bytes());
+        write_file(to, MappedFile(file.file.source).bytes());
       }
     }
   }

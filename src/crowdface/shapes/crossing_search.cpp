@@ -53,7 +53,7 @@ class Rings {
       const std::size_t end = reached_.size();
       for (; begin < end; ++begin) {
         for (const std::uint32_t v : triangles_[reached_[begin]]) {
-          for (const std::uint32_t other : around_.of(v)) {
+          for (const std::uint32_t other : around_.items_of(v)) {
             if (seen_[other] == from) continue;
             seen_[other] = from;
             reached_.push_back(other);

@@ -144,7 +144,7 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
 
 Eigen::Matrix3d FrameField::map_at(std::size_t i, const Frames& frames) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
-  for (const NodeWeight& share : node_weights_.of(i))
+  for (const NodeWeight& share : node_weights_.items_of(i))
     map += share.weight * frames.node_maps[share.node];
   return map;
 }

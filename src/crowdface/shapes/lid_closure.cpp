@@ -266,7 +266,7 @@ void LidClosure::move_lids(std::size_t count, const Eigen::Vector3d& up, const P
   for (std::size_t i = 0; i < count; ++i) {
     const LidVertex& lid = lid_vertices_[i];
     const Eigen::Vector3d move = row3(carried, lid.row);
-    const double gain = fixed_dot(gain_effects(i), gains);
+    const double gain = fixed_order_dot(gain_effects(i), gains);
     moves.row(lid.row) = (move + gain * move.dot(up) * up).transpose();
   }
 }

@@ -166,7 +166,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
       std::vector<std::uint32_t> wider;
       for (const std::uint32_t t : near) {
         for (const std::uint32_t corner : skin.triangles[t]) {
-          const auto of = skin.vertex_triangles.of(corner);
+          const auto of = skin.vertex_triangles.items_of(corner);
           wider.insert(wider.end(), of.begin(), of.end());
         }
       }

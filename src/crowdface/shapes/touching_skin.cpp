@@ -68,7 +68,7 @@ std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions
     const Eigen::Vector3d at = row3(shaped, v), move = move_of(v);
     if (move.squaredNorm() == 0) continue;
     double reach = kMeetingReach * extent;
-    for (const std::uint32_t t : skin.vertex_triangles.of(v)) {
+    for (const std::uint32_t t : skin.vertex_triangles.items_of(v)) {
       for (const std::uint32_t w : skin.triangles[t]) {
         const double edge = (row3(shaped, w) - at).norm();
         reach = std::max(reach, kMeetingReachEdges * edge);

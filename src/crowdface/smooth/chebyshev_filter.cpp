@@ -91,7 +91,7 @@ class Recurrence {
   /// exact.
   std::vector<RowArray<T>> take_sums() {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
-      const T sum = static_cast<T>(sum_of(input_.series[s]));
+      const T sum = static_cast<T>(coefficient_sum(input_.series[s]));
       for (const Tile& tile : tiling_.tiles) {
         for (std::uint32_t r = tile.first; r < tile.first + fixed_rows(tile); ++r) {
           for (int c = 0; c < 4; ++c) sums_[s][r].value[c] = sum * input_.values[r].value[c];

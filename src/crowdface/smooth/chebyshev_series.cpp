@@ -48,7 +48,7 @@ ChebyshevSeries displacement_series(OperatorKind kind, std::uint64_t level, doub
   return series;
 }
 
-double sum_of(const ChebyshevSeries& series) {
+double coefficient_sum(const ChebyshevSeries& series) {
   const double sum = accurate_sum(series);
   constexpr double kRounding = 1e-12;
   if (std::abs(sum - 1) < kRounding) return 1;

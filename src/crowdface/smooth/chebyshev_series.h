@@ -31,6 +31,6 @@ ChebyshevSeries displacement_series(OperatorKind kind, std::uint64_t level,
 
 /// The sum of the coefficients: the factor by which the series scales the value of a fixed vertex.
 /// Sums within rounding of 0 or 1 are returned as exactly 0 or 1.
-double sum_of(const ChebyshevSeries& series);
+double coefficient_sum(const ChebyshevSeries& series);
 
 }  // namespace crowdface

@@ -10,6 +10,6 @@ using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Row
 
 /// Number of rows in each parallel task. The number is constant, so that results do not depend on
 /// the thread count.
-inline constexpr Eigen::Index kRowBlock = 4096;
+inline constexpr Eigen::Index kRowsPerTask = 4096;
 
 }  // namespace crowdface

@@ -36,27 +36,26 @@ void round_to_int16(const float* from, std::size_t count, float scale, std::int1
 /// Multiplies and adds with separate rounding (no FMA), so that the number of fields kept does not
 /// depend on the instruction set. For each level, adds up the fields from the last to the first
 /// until their sum exceeds the limit; the field added last and all fields before it must be kept.
-TruncationError choose_fewest_functions(const float* fields, std::size_t count,
-                                        const float* functions, std::size_t stride,
-                                        std::size_t levels, float most) {
+TruncationError choose_fewest_fields(const float* fields, std::size_t count, const float* functions,
+                                     std::size_t stride, std::size_t levels, float most) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
   const auto limit = hn::Set(lanes, most);
-  HWY_ALIGN float left[3 * kFieldTile];
+  HWY_ALIGN float left[3 * kTileVertices];
   // worst[p]: the largest error if the tile keeps p fields
   std::vector<TruncationError> worst(count + 1);
   std::size_t kept = 0;
   for (std::size_t level = 0; level < levels; ++level, functions += stride) {
-    std::fill_n(left, 3 * kFieldTile, 0.0F);
+    std::fill_n(left, 3 * kTileVertices, 0.0F);
     for (std::size_t p = count; p-- > kept;) {
       const auto function = hn::Set(lanes, functions[p]);
-      const float* field = fields + p * 3 * kFieldTile;
+      const float* field = fields + p * 3 * kTileVertices;
       auto largest = hn::Zero(lanes);
-      for (std::size_t i = 0; i < kFieldTile; i += width) {
+      for (std::size_t i = 0; i < kTileVertices; i += width) {
         auto squared = hn::Zero(lanes);
         for (std::size_t c = 0; c < 3; ++c) {
-          float* to = left + c * kFieldTile + i;
-          const auto value = hn::LoadU(lanes, field + c * kFieldTile + i);
+          float* to = left + c * kTileVertices + i;
+          const auto value = hn::LoadU(lanes, field + c * kTileVertices + i);
           const auto sum = hn::Add(hn::Load(lanes, to), hn::Mul(function, value));
           hn::Store(sum, lanes, to);
           squared = hn::Add(squared, hn::Mul(sum, sum));
@@ -71,7 +70,7 @@ TruncationError choose_fewest_functions(const float* fields, std::size_t count,
       if (here > worst[p].squared_error) worst[p] = {0, here, level};
     }
   }
-  worst[kept].kept = kept;
+  worst[kept].kept_fields = kept;
   return worst[kept];
 }
 
@@ -89,7 +88,7 @@ void row_products(const float* columns, std::size_t count, std::size_t row, doub
       const V factor = hn::Set(lanes, static_cast<double>(column[row]));
       for (std::size_t s = 0; s < kSums; ++s) {
         const V value = hn::PromoteTo(lanes, hn::LoadU(narrow_lanes, column + begin + s * width));
-        sums[s] = fused(factor, value, sums[s]);
+        sums[s] = fused_multiply_add(factor, value, sums[s]);
       }
     }
     for (std::size_t s = 0; s < kSums; ++s) {
@@ -105,18 +104,16 @@ HWY_AFTER_NAMESPACE();
 namespace crowdface {
 
 HWY_EXPORT(round_to_int16);
-HWY_EXPORT(choose_fewest_functions);
+HWY_EXPORT(choose_fewest_fields);
 HWY_EXPORT(row_products);
 
 void round_to_int16(const float* from, std::size_t count, float scale, std::int16_t* to) {
   HWY_DYNAMIC_DISPATCH(round_to_int16)(from, count, scale, to);
 }
 
-TruncationError choose_fewest_functions(const float* fields, std::size_t count,
-                                        const float* functions, std::size_t stride,
-                                        std::size_t levels, float most) {
-  return HWY_DYNAMIC_DISPATCH(choose_fewest_functions)(fields, count, functions, stride, levels,
-                                                       most);
+TruncationError choose_fewest_fields(const float* fields, std::size_t count, const float* functions,
+                                     std::size_t stride, std::size_t levels, float most) {
+  return HWY_DYNAMIC_DISPATCH(choose_fewest_fields)(fields, count, functions, stride, levels, most);
 }
 
 void row_products(const float* columns, std::size_t count, std::size_t row, double* products) {

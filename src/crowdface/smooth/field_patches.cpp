@@ -89,7 +89,7 @@ class PatchMaker {
     for (std::size_t h = 0; h < heads_.size(); ++h) {
       for (std::size_t i = 0; i < vertices.size(); ++i) {
         const TileFields tile = heads_[h].fields.at(vertices[i]);
-        const std::int16_t* numbers = tile.numbers + 3 * (vertices[i] % kFieldTile);
+        const std::int16_t* numbers = tile.numbers + 3 * (vertices[i] % kTileVertices);
         float* to = first + i;
         for (std::size_t p = 0; p < tile.count; ++p, numbers += kTileValues) {
           const float heavy = tile.steps[p] * static_cast<float>(error_weights_[h][p]);
@@ -174,7 +174,7 @@ class PatchMaker {
       for (std::size_t j = 0; j < size; ++j) {
         const std::uint32_t vertex = vertices[skeleton_[j]];
         const TileFields tile = heads_[h].fields.at(vertex);
-        const std::int16_t* numbers = tile.numbers + 3 * (vertex % kFieldTile);
+        const std::int16_t* numbers = tile.numbers + 3 * (vertex % kTileVertices);
         for (std::size_t p = 0; p < tile.count; ++p, numbers += kTileValues) {
           for (std::size_t c = 0; c < 3; ++c) {
             values_[p * values + c * size + j] = tile.steps[p] * static_cast<float>(numbers[c]);

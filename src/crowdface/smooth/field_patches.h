@@ -39,10 +39,10 @@ struct FieldPatch {
   /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
   bool is_whole() const { return skeleton == vertices.size(); }
   /// Count of 16-bit numbers stored for each field: 3·#skeleton, rounded up to a multiple of
-  /// kPatchStep.
+  /// kPatchPadding.
   std::size_t values() const { return values_of(skeleton); }
   static std::size_t values_of(std::size_t skeleton) {
-    return (3 * skeleton + kPatchStep - 1) / kPatchStep * kPatchStep;
+    return (3 * skeleton + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
   }
 };
 
@@ -70,7 +70,7 @@ struct PatchLists {
 class FieldPatches {
  public:
   FieldPatches() = default;
-  /// Makes the object from lists, if they are valid.
+  /// Makes the patches from stored lists, if the lists are valid.
   /// \param ranks  #heads: number of fields of each head.
   /// \return       nothing if `interpolate_fields` could not have made these lists for heads with
   ///               these numbers of fields.

@@ -7,13 +7,13 @@ namespace crowdface {
 
 /// Vertices per tile. A tile stores all its fields contiguously, so that blending reads one block
 /// of memory per head.
-inline constexpr std::size_t kFieldTile = 64;
-inline constexpr std::size_t kTileValues = 3 * kFieldTile;
+inline constexpr std::size_t kTileVertices = 64;
+inline constexpr std::size_t kTileValues = 3 * kTileVertices;
 
 /// Vertices per patch (FieldPatches); the last patch may have fewer.
 inline constexpr std::size_t kPatchVertices = 128;
 /// Each field's row of values is padded to a multiple of this number, so that rows consist of whole
 /// vectors on any instruction set.
-inline constexpr std::size_t kPatchStep = 16;
+inline constexpr std::size_t kPatchPadding = 16;
 
 }  // namespace crowdface

@@ -12,7 +12,7 @@ Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::
   // Deliberately simple code: the reference for tests of the fast filter.
   Columns now = values, next(values.rows(), values.cols());
   for (std::uint64_t l = 0; l < level; ++l) {
-    parallel_for_each(values.rows(), kRowBlock, [&](Index i) {
+    parallel_for_each(values.rows(), kRowsPerTask, [&](Index i) {
       const auto ring = smoothing.neighbours(i);
       for (Index c = 0; c < values.cols(); ++c) {
         double mean = 0;

@@ -51,7 +51,7 @@ NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacemen
     rows.push_back(static_cast<std::uint32_t>(most));
   }
   NodeDisplacements sample;
-  sample.nodes = static_cast<Index>(displacements.size());
+  sample.node_count = static_cast<Index>(displacements.size());
   for (const std::uint32_t r : rows) {
     for (const FieldRows& node : displacements) {
       for (int c = 0; c < 3; ++c) sample.values.push_back(static_cast<double>(node[r].value[c]));
@@ -102,7 +102,7 @@ class TileFitter {
       const auto of_field = [&](std::size_t p) {
         return std::span(std::as_const(by_vertex)).subspan(p * kTileValues, kTileValues);
       };
-      // Skip trailing fields whose upper bounds have a negligible sum, without evaluating their
+      // Skip trailing fields whose error bounds have a negligible sum, without computing their
       // error at each level.
       std::size_t looked_at = count_;
       double skipped = 0;
@@ -121,12 +121,12 @@ class TileFitter {
       const double most =
           std::min(tolerance_ - rounded.back(), kTruncationShare * tolerance_) - skipped;
       const TruncationError left_out =
-          choose_fewest_functions(by_coordinate.data(), looked_at, functions_.data(), count_,
-                                  static_cast<std::size_t>(directions_.functions.rows()),
-                                  most > 0 ? static_cast<float>(most * most) : 0.0F);
-      fitted.fields.add(by_vertex, left_out.kept);
-      const double missed =
-          std::sqrt(static_cast<double>(left_out.squared_error)) + skipped + rounded[left_out.kept];
+          choose_fewest_fields(by_coordinate.data(), looked_at, functions_.data(), count_,
+                               static_cast<std::size_t>(directions_.functions.rows()),
+                               most > 0 ? static_cast<float>(most * most) : 0.0F);
+      fitted.fields.add(by_vertex, left_out.kept_fields);
+      const double missed = std::sqrt(static_cast<double>(left_out.squared_error)) + skipped +
+                            rounded[left_out.kept_fields];
       if (missed > fitted.max_error) {
         fitted.max_error = missed;
         fitted.level = left_out.level;
@@ -153,21 +153,21 @@ class TileFitter {
   }
 
   /// Computes c_p at the tile's vertices for all p; zero beyond the last vertex.
-  /// \param by_coordinate  receives #fields by 3 by kFieldTile.
-  /// \param by_vertex      receives #fields by kFieldTile by 3.
+  /// \param by_coordinate  receives #fields by 3 by kTileVertices.
+  /// \param by_vertex      receives #fields by kTileVertices by 3.
   void combine(Index tile, std::vector<float>& by_coordinate, std::vector<float>& by_vertex) const {
-    const std::size_t begin = static_cast<std::size_t>(tile) * kFieldTile;
+    const std::size_t begin = static_cast<std::size_t>(tile) * kTileVertices;
     const std::size_t count =
-        std::min(kFieldTile, static_cast<std::size_t>(filter_.vertex_count()) - begin);
-    std::vector<Row<float>> in(count_ * kFieldTile), out(count_ * kFieldTile);
+        std::min(kTileVertices, static_cast<std::size_t>(filter_.vertex_count()) - begin);
+    std::vector<Row<float>> in(count_ * kTileVertices), out(count_ * kTileVertices);
     std::vector<const Row<float>*> inputs;
     std::vector<Row<float>*> outputs;
     for (std::size_t n = 0; n < count_; ++n) {
       for (std::size_t i = 0; i < count; ++i) {
-        in[n * kFieldTile + i] = displacements_[n][filter_.row_of_vertex()[begin + i]];
+        in[n * kTileVertices + i] = displacements_[n][filter_.row_of_vertex()[begin + i]];
       }
-      inputs.push_back(&in[n * kFieldTile]);
-      outputs.push_back(&out[n * kFieldTile]);
+      inputs.push_back(&in[n * kTileVertices]);
+      outputs.push_back(&out[n * kTileVertices]);
     }
     combine_rows(inputs.data(), count_, combining_.data(), count_, count, outputs.data());
     by_coordinate.assign(count_ * kTileValues, 0.0F);
@@ -175,8 +175,8 @@ class TileFitter {
     for (std::size_t p = 0; p < count_; ++p) {
       for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
-          const float value = out[p * kFieldTile + i].value[c];
-          by_coordinate[p * kTileValues + c * kFieldTile + i] = value;
+          const float value = out[p * kTileVertices + i].value[c];
+          by_coordinate[p * kTileValues + c * kTileVertices + i] = value;
           by_vertex[p * kTileValues + 3 * i + c] = value;
         }
       }
@@ -238,8 +238,8 @@ ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
 
 }  // namespace
 
-std::vector<double> basis_functions(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
-                                    std::uint64_t level) {
+std::vector<double> basis_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
+                                 std::uint64_t level) {
   const std::vector<double> weights = nodes.weights(level);
   std::vector<double> functions(static_cast<std::size_t>(mixing.cols()), 0.0);
   for (Index p = 0; p < mixing.cols(); ++p) {
@@ -272,9 +272,9 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
                            const NodeFields& node_fields, double tolerance) {
   const std::vector<FieldRows>& displacements = node_fields.displacements;
   const Probes& probes = node_fields.probes;
-  const TestedLevels tested = test_levels(nodes);
+  const TestedLevels tested = make_tested_levels(nodes);
   const Columns exact = exact_displacements(probes, filter.kind(), tested.levels);
-  // The nodes alone already have an error; the fields may use the rest of the tolerance.
+  // Interpolation between nodes has an error; the fields may use the remaining tolerance.
   const ProbeError of_nodes =
       probe_error(exact, tested.weights, [&](Index v, Index n, Index c) -> double {
         const std::uint32_t vertex = probes.vertices[static_cast<std::size_t>(v)];

@@ -29,8 +29,8 @@ struct LevelBasis {
 };
 
 /// φ_p(L) for all p, of a basis with this `mixing` matrix.
-std::vector<double> basis_functions(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
-                                    std::uint64_t level);
+std::vector<double> basis_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
+                                 std::uint64_t level);
 
 /// The result of one filter pass over a head.
 struct NodeFields {

@@ -24,7 +24,7 @@ double LevelFields::value(Index field, Index vertex, Index coordinate) const {
   const TileFields tile = at(v);
   if (f >= tile.count) return 0;
   const std::size_t place =
-      f * kTileValues + 3 * (v % kFieldTile) + static_cast<std::size_t>(coordinate);
+      f * kTileValues + 3 * (v % kTileVertices) + static_cast<std::size_t>(coordinate);
   return static_cast<double>(tile.steps[f]) * static_cast<double>(tile.numbers[place]);
 }
 

@@ -31,16 +31,16 @@ struct LevelFields {
   std::span<const std::uint32_t> first;
   /// #stored fields: quantization steps, in the unit of the positions
   std::span<const float> steps;
-  /// kFieldTile by 3 per stored field; zero beyond the last vertex.
+  /// kTileVertices by 3 per stored field; zero beyond the last vertex.
   std::span<const std::int16_t> numbers;
   std::shared_ptr<const void> owner;  ///< keeps the three lists alive
 
   static std::size_t tile_count(std::size_t vertices) {
-    return (vertices + kFieldTile - 1) / kFieldTile;
+    return (vertices + kTileVertices - 1) / kTileVertices;
   }
   /// The fields of the tile that contains a vertex.
   TileFields at(std::size_t vertex) const {
-    const std::size_t tile = vertex / kFieldTile, begin = first[tile];
+    const std::size_t tile = vertex / kTileVertices, begin = first[tile];
     return {first[tile + 1] - begin, steps.data() + begin, numbers.data() + begin * kTileValues};
   }
   double value(Index field, Index vertex, Index coordinate) const;

@@ -85,14 +85,14 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
   std::vector<Spectrum> left;
   left.reserve(candidates.size());
   for (const std::uint64_t level : candidates) left.push_back(displacement(level));
-  const double enough = max_residual * max_residual * fixed_dot(left.back(), left.back());
+  const double enough = max_residual * max_residual * fixed_order_dot(left.back(), left.back());
   std::vector<std::uint64_t> chosen;
   while (chosen.size() < std::min(kMaxNodes, candidates.size())) {
     // The next node is the candidate with the largest residual.
     std::size_t worst = 0;
     double most = -1;
     for (std::size_t i = 0; i < left.size(); ++i) {
-      const double length = fixed_dot(left[i], left[i]);
+      const double length = fixed_order_dot(left[i], left[i]);
       if (length > most) most = length, worst = i;
     }
     if (most <= enough) break;
@@ -102,7 +102,7 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
         direction, directions_.size(), [&](std::size_t m) { return std::span(directions_[m]); },
         [](std::size_t, double) {});
     for (Spectrum& spectrum : left)
-      subtract_scaled(fixed_dot(spectrum, direction), direction, spectrum);
+      subtract_scaled(fixed_order_dot(spectrum, direction), direction, spectrum);
     chosen.push_back(candidates[worst]);
     directions_.push_back(std::move(direction));
   }
@@ -114,7 +114,7 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
     const Spectrum node = displacement(level);
     std::vector<double> row;
     for (std::size_t q = 0; q <= triangle_.size(); ++q)
-      row.push_back(fixed_dot(node, directions_[q]));
+      row.push_back(fixed_order_dot(node, directions_[q]));
     triangle_.push_back(std::move(row));
   }
 }
@@ -133,7 +133,7 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   const Spectrum wanted = displacement(level);
   std::vector<double> share;
   share.reserve(directions_.size());
-  for (const Spectrum& direction : directions_) share.push_back(fixed_dot(wanted, direction));
+  for (const Spectrum& direction : directions_) share.push_back(fixed_order_dot(wanted, direction));
   for (std::size_t p = choice_order_.size(); p-- > 0;) {
     const double weight = share[p] / triangle_[p][p];
     for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangle_[p][q];

@@ -55,10 +55,10 @@ Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd 
 /// The second moments of the nodes' displacements: dot products of two nodes, summed over the
 /// sample's vertices, #nodes by #nodes.
 Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
-  Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(sample.nodes, sample.nodes);
+  Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(sample.node_count, sample.node_count);
   const double* vertex = sample.values.data();
-  for (Index v = 0; v < sample.vertices(); ++v, vertex += 3 * sample.nodes) {
-    for (Index p = 0; p < sample.nodes; ++p) {
+  for (Index v = 0; v < sample.vertex_count(); ++v, vertex += 3 * sample.node_count) {
+    for (Index p = 0; p < sample.node_count; ++p) {
       const double* a = vertex + 3 * p;
       for (Index q = 0; q <= p; ++q) {
         const double* b = vertex + 3 * q;
@@ -66,7 +66,7 @@ Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
       }
     }
   }
-  for (Index p = 0; p < sample.nodes; ++p) {
+  for (Index p = 0; p < sample.node_count; ++p) {
     for (Index q = 0; q < p; ++q) moments(q, p) = moments(p, q);
   }
   return moments;
@@ -95,7 +95,7 @@ using Lanes = std::array<float, kLanes>;
 /// \param fields  receives 3·#nodes by kLanes.
 void combine_fields(const Directions& directions, const NodeDisplacements& sample, Index begin,
                     Index end, std::vector<Lanes>& fields) {
-  const Index nodes = sample.nodes;
+  const Index nodes = sample.node_count;
   fields.assign(static_cast<std::size_t>(3 * nodes), Lanes{});
   for (Index v = begin; v < end; ++v) {
     const double* displacement = sample.values.data() + 3 * nodes * v;
@@ -114,16 +114,16 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
   }
 }
 
-/// The largest error at the sample, for each tested level and each number of directions kept:
-/// #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
+/// The largest error over the sampled vertices, for each tested level and each number of kept
+/// directions: #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
 Eigen::MatrixXd max_errors(const Directions& directions, const NodeDisplacements& sample) {
-  const Index nodes = sample.nodes, levels = directions.functions.rows();
+  const Index nodes = sample.node_count, levels = directions.functions.rows();
   // Transpose the matrix, so that the functions of one level are contiguous.
   const Eigen::MatrixXf functions = directions.functions.transpose().cast<float>();
   Eigen::MatrixXf most = Eigen::MatrixXf::Zero(nodes + 1, levels);
   std::mutex mutex;
   constexpr Index kBlock = 32 * kLanes;
-  parallel_blocks(sample.vertices(), kBlock, [&](Index begin, Index end) {
+  parallel_blocks(sample.vertex_count(), kBlock, [&](Index begin, Index end) {
     std::vector<Lanes> mine(static_cast<std::size_t>(levels * nodes)), fields;
     for (Index v = begin; v < end; v += kLanes) {
       combine_fields(directions, sample, v, std::min(v + kLanes, end), fields);
@@ -167,7 +167,7 @@ Index min_rank(const Eigen::MatrixXd& max_errors, double tolerance) {
 
 }  // namespace
 
-TestedLevels test_levels(const LevelNodes& nodes) {
+TestedLevels make_tested_levels(const LevelNodes& nodes) {
   constexpr int kSteps = 128;
   std::vector<std::uint64_t> levels = nodes.levels();
   for (const std::uint64_t level : levels_dense_at_start(nodes.max_level(), kSteps)) {

@@ -15,14 +15,14 @@ struct TestedLevels {
   std::vector<std::uint64_t> levels;
   Eigen::MatrixXd weights;  ///< #levels by #nodes
 };
-TestedLevels test_levels(const LevelNodes& nodes);
+TestedLevels make_tested_levels(const LevelNodes& nodes);
 
 /// Displacements of some vertices at the nodes: coordinate c of vertex v at node n is
 /// values[(v·#nodes + n)·3 + c].
 struct NodeDisplacements {
-  Index nodes = 0;
+  Index node_count = 0;
   std::vector<double> values;
-  Index vertices() const { return static_cast<Index>(values.size()) / (3 * nodes); }
+  Index vertex_count() const { return static_cast<Index>(values.size()) / (3 * node_count); }
 };
 
 /// Orthogonal directions in the space of vertex trajectories (displacement over levels), most

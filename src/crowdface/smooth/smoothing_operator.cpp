@@ -10,7 +10,7 @@ SmoothingOperator::SmoothingOperator(const Adjacency& adjacency, Boundary bounda
   for (Index i = 0; i < adjacency.vertex_count(); ++i) {
     const bool stays =
         boundary == Boundary::kFixed && adjacency.boundary[static_cast<std::size_t>(i)];
-    neighbours_.add_group(stays ? std::span<const std::uint32_t>() : adjacency.of(i));
+    neighbours_.add_group(stays ? std::span<const std::uint32_t>() : adjacency.items_of(i));
   }
 }
 

@@ -28,7 +28,7 @@ class SmoothingOperator {
   OperatorKind kind() const { return kind_; }
 
   /// Neighbours of vertex i, ascending; empty if vertex i is fixed.
-  std::span<const std::uint32_t> neighbours(Index i) const { return neighbours_.of(i); }
+  std::span<const std::uint32_t> neighbours(Index i) const { return neighbours_.items_of(i); }
 
  private:
   OperatorKind kind_;

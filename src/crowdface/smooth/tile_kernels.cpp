@@ -29,7 +29,8 @@ void step_run(const ValenceRun& run, const std::uint32_t* ring, T scale, const R
         sum = hn::Add(sum, hn::Load(lanes, now[ring[n]].value + l));
       }
       const auto before = hn::Load(lanes, row->value + l);
-      hn::Store(fused_less(factor, sum, before), lanes, row->value + l);  // Eq. 1 in the recurrence
+      hn::Store(fused_multiply_subtract(factor, sum, before), lanes,
+                row->value + l);  // Eq. 1 in the recurrence
     }
   }
 }
@@ -38,7 +39,7 @@ template <class T>
 void step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings, T scale,
           const Row<T>* now, Row<T>* previous) {
   for (const ValenceRun* run = runs; run != runs + run_count; ++run) {
-    const std::uint32_t* ring = rings + run->ring;
+    const std::uint32_t* ring = rings + run->first_neighbour;
     switch (run->valence) {
       case 4:
         step_run<4>(*run, ring, scale, now, previous);
@@ -61,15 +62,16 @@ void add_scaled_rows(T factor, const Row<T>* values, std::size_t count, Row<T>* 
   const T* const end = sum + 4 * (count / 2 * 2);
   for (; sum != end; sum += 8, value += 8) {
     for (std::size_t l = 0; l < 8; l += hn::Lanes(lanes)) {
-      const auto added = fused(a, hn::LoadU(lanes, value + l), hn::LoadU(lanes, sum + l));
+      const auto added =
+          fused_multiply_add(a, hn::LoadU(lanes, value + l), hn::LoadU(lanes, sum + l));
       hn::StoreU(added, lanes, sum + l);
     }
   }
   if (count % 2 != 0) {
     const hn::CappedTag<T, 4> four;
     for (std::size_t l = 0; l < 4; l += hn::Lanes(four)) {
-      const auto added =
-          fused(hn::Set(four, factor), hn::LoadU(four, value + l), hn::LoadU(four, sum + l));
+      const auto added = fused_multiply_add(hn::Set(four, factor), hn::LoadU(four, value + l),
+                                            hn::LoadU(four, sum + l));
       hn::StoreU(added, four, sum + l);
     }
   }
@@ -95,7 +97,7 @@ void combine_some(Lanes lanes, const Row<float>* const* inputs, std::size_t inpu
     const auto value = hn::LoadU(lanes, values_of(inputs[n]) + begin);
     const float* factor = factors + n * output_count + first;
     for (std::size_t o = 0; o < kOutputs; ++o) {
-      sums[o] = fused(hn::Set(lanes, factor[o]), value, sums[o]);
+      sums[o] = fused_multiply_add(hn::Set(lanes, factor[o]), value, sums[o]);
     }
   }
   for (std::size_t o = 0; o < kOutputs; ++o) {

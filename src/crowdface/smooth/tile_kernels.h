@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Three values and one unused value, so that a row fills vector registers.
+/// Three values, padded by an unused value so that a row fills vector registers.
 template <class T>
 struct alignas(4 * sizeof(T)) Row {
   T value[4];

@@ -11,10 +11,10 @@ namespace crowdface {
 
 /// Consecutive rows of a tile whose vertices have the same valence.
 struct ValenceRun {
-  std::uint32_t first = 0;    ///< first local row
-  std::uint32_t count = 0;    ///< number of rows
-  std::uint32_t valence = 0;  ///< number of neighbours of each vertex, at least 1
-  std::uint32_t ring = 0;     ///< index of the first neighbour in `Tile::rings`
+  std::uint32_t first = 0;            ///< first local row
+  std::uint32_t count = 0;            ///< number of rows
+  std::uint32_t valence = 0;          ///< number of neighbours of each vertex, at least 1
+  std::uint32_t first_neighbour = 0;  ///< index of the first neighbour in `Tile::rings`
 };
 
 /// A part of the mesh on which several steps of the recurrence run without data from other tiles,

@@ -173,7 +173,7 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
     for (Index v = begin; v < end; ++v) {
       std::ranges::fill(sums, 0.0F);
       std::ranges::fill(counts, 0.0F);
-      for (const Sample& sample : samples.of(v)) {
+      for (const Sample& sample : samples.items_of(v)) {
         for (std::size_t h = 0; h < heads; ++h) {
           const TextureMap* map = maps[sample.picture][h].get();
           Eigen::Array3f difference = Eigen::Array3f::Zero();
@@ -262,7 +262,7 @@ SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
   smooth_known(
       filter, scale.detail_iterations, heads,
       [&](std::size_t head, std::uint32_t vertex) {
-        return mean_numbers(samples.of(vertex), maps, head);
+        return mean_numbers(samples.items_of(vertex), maps, head);
       },
       [&](std::size_t head, std::uint32_t vertex, const Row<float>& means) {
         std::copy_n(means.value, 3, statistics.coarse_values[head].row(vertex).data());

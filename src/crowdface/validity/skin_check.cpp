@@ -69,7 +69,7 @@ double visible_back_area(const TriangleScene& scene, const std::vector<Triangle>
   std::vector<std::uint32_t> waiting;
   const auto look_around = [&](std::uint32_t triangle) {
     for (const std::uint32_t vertex : triangles[triangle]) {
-      for (const std::uint32_t other : around.of(vertex)) {
+      for (const std::uint32_t other : around.items_of(vertex)) {
         if (seen[other]) continue;
         seen[other] = true;
         waiting.push_back(other);

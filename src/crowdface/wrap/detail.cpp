@@ -71,15 +71,15 @@ class SmoothFit {
   Eigen::VectorXd times(const Eigen::VectorXd& weights, const Eigen::VectorXd& x) const {
     Eigen::VectorXd off(x.size()), y(x.size());
     parallel_for_each(x.size(), kDetailBlock, [&](Index i) {
-      const auto around = adjacency_.of(i);
+      const auto around = adjacency_.items_of(i);
       double sum = 0;
       for (const std::uint32_t n : around) sum += x(n);
       off(i) = around.empty() ? 0 : x(i) - sum / static_cast<double>(around.size());
     });
     parallel_for_each(x.size(), kDetailBlock, [&](Index i) {
       double sum = off(i);
-      for (const std::uint32_t n : adjacency_.of(i)) {
-        sum -= off(n) / static_cast<double>(adjacency_.of(n).size());
+      for (const std::uint32_t n : adjacency_.items_of(i)) {
+        sum -= off(n) / static_cast<double>(adjacency_.items_of(n).size());
       }
       y(i) = weights(i) * x(i) + stiffness_ * sum;
     });
@@ -187,7 +187,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
     for (const std::uint32_t i : turned) {
       for (const std::uint32_t v : skin.triangles[i]) {
         add(v);
-        for (const std::uint32_t n : skin.adjacency.of(v)) add(n);
+        for (const std::uint32_t n : skin.adjacency.items_of(v)) add(n);
       }
     }
     std::ranges::sort(evened);
@@ -196,7 +196,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
     const double kept = round < kEvenOnly ? 1 : kKeptOffset;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {
-        const auto around = skin.adjacency.of(v);
+        const auto around = skin.adjacency.items_of(v);
         double sum = 0;
         for (const std::uint32_t n : around) sum += along(n);
         along(v) = kept * sum / static_cast<double>(around.size());

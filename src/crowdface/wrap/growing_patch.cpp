@@ -26,7 +26,7 @@ void GrowingPatch::grow() {
   ++ring_;
   for (std::size_t i = 0, known = vertices_.size(); i < known; ++i) {
     if (rings_[i] < ring_ - 1) continue;
-    for (const std::uint32_t n : skin_.adjacency.of(vertices_[i])) {
+    for (const std::uint32_t n : skin_.adjacency.items_of(vertices_[i])) {
       if (is_member_[n]) continue;
       is_member_[n] = true;
       vertices_.push_back(n);
@@ -59,7 +59,7 @@ void PatchMender::mend_around(const Triangle& triangle,
   const auto count_bad = [&] {
     std::vector<std::uint32_t> bad;
     for (const std::uint32_t v : patch.vertices()) {
-      for (const std::uint32_t t : triangles_of_vertex_.of(v)) {
+      for (const std::uint32_t t : triangles_of_vertex_.items_of(v)) {
         if (is_bad(skin_.triangles[t])) bad.push_back(t);
       }
     }

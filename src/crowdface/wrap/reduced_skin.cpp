@@ -32,7 +32,7 @@ std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
     SurfaceHit best;
     best.distance = 1e300;
     const auto look_around = [&](std::uint32_t vertex) {
-      for (const std::uint32_t t : around.of(vertex)) {
+      for (const std::uint32_t t : around.items_of(vertex)) {
         SurfaceHit hit = nearest_on_triangle(corners, small.triangles[t], point);
         hit.triangle = t;
         if (hit.distance < best.distance) best = hit;
@@ -40,7 +40,7 @@ std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
     };
     if (const std::uint32_t from = source[static_cast<std::size_t>(v)]; from != kNoIndex) {
       look_around(from);
-      for (const std::uint32_t n : small.adjacency.of(from)) look_around(n);
+      for (const std::uint32_t n : small.adjacency.items_of(from)) look_around(n);
     }
     if (best.triangle == kNoIndex) best = tree.nearest(point, 1e300);
     auto& place = vertex_positions[static_cast<std::size_t>(v)];

@@ -103,7 +103,8 @@ Surfaces surfaces_of(const WrapTemplate& shape) {
   }
   Surfaces surfaces;
   for (Index f = 0; f < shape.topology.face_count(); ++f) {
-    surfaces.kinds.push_back(of_component[shape.components.of_vertex[shape.topology.face(f)[0]]]);
+    surfaces.kinds.push_back(
+        of_component[shape.components.component_of_vertex[shape.topology.face(f)[0]]]);
   }
   return surfaces;
 }

@@ -65,7 +65,7 @@ Scan of_modelled_head(const Scan& scan, const std::function<bool(PartClass)>& is
     return scan;
   Scan kept = scan;
   keep_triangles(kept, [&](std::size_t i) {
-    return is_wanted(parts.classes[components.of_vertex[scan.triangles[i][0]]]);
+    return is_wanted(parts.classes[components.component_of_vertex[scan.triangles[i][0]]]);
   });
   return kept;
 }

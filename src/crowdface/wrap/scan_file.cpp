@@ -87,7 +87,7 @@ Scan read_scan(const std::filesystem::path& path) {
 }
 
 Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
-  turn_right_side_out(mesh);
+  reverse_inward_faces(mesh);
   Scan scan{std::move(mesh.positions), triangles_of(mesh.topology), std::move(mesh.notes)};
   scan.sources.resize(scan.triangles.size());
   std::iota(scan.sources.begin(), scan.sources.end(), 0U);

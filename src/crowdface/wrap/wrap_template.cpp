@@ -39,7 +39,7 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
   result.components = find_components(result.adjacency);
   result.parts = find_parts(topology, result.adjacency, result.components, positions, {}, axes);
   const Components joined = join_skin(result.components, result.parts);
-  const std::uint32_t skin = joined.of_vertex.empty() ? 0 : joined.largest();
+  const std::uint32_t skin = joined.component_of_vertex.empty() ? 0 : joined.largest();
 
   result.skin.triangles = triangles_of(topology, joined, skin);
   std::vector<Triangle>& triangles = result.skin.triangles;
@@ -61,7 +61,7 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
 HeadShape head_shape(const WrapTemplate& shape) {
   HeadShape head;
   head.positions = shape.positions;
-  for (const std::uint32_t c : shape.components.of_vertex) {
+  for (const std::uint32_t c : shape.components.component_of_vertex) {
     head.skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : shape.parts.parts) {
@@ -73,7 +73,7 @@ HeadShape head_shape(const WrapTemplate& shape) {
 std::vector<Triangle> occluding_triangles(const WrapTemplate& shape) {
   std::vector<Triangle> solid;
   for (const Triangle& t : triangles_of(shape.topology)) {
-    if (shape.parts.classes[shape.components.of_vertex[t[0]]] != PartClass::kBound) {
+    if (shape.parts.classes[shape.components.component_of_vertex[t[0]]] != PartClass::kBound) {
       solid.push_back(t);
     }
   }
