@@ -222,7 +222,7 @@ Eigen::MatrixXd distances(const HeadSet& heads,
   if (!axis) throw UsageError(concat("front: expected an axis such as +Z, found ", quoted(front)));
   const auto length = parse_length_unit(unit);
   if (!length) throw UsageError(concat("unit: expected a unit such as cm, found ", quoted(unit)));
-  const std::vector<double> areas = face_areas(
+  const std::vector<double> areas = face_vertex_areas(
       heads.topology, find_components(build_adjacency(heads.topology)), mean_head(heads),
       value_of<FaceArea>({{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}}, "area", area),
       *axis);

@@ -67,7 +67,7 @@ class PythonJob {
   Index vertex_count() const { return job_.inputs.faces.topology.vertex_count; }
 
   std::vector<std::string> cast() {
-    MeshDefects defects;
+    FindMeshDefects defects;
     if (candidates_are_built(job_.config)) {
       defects = mesh_defects(job_.config, job_.inputs, builder());
     }

@@ -81,7 +81,7 @@ std::filesystem::path CacheOption::cache_path() const {
 
 void ConfigOptions::add_to(CLI::App& command) {
   add_option(command, "config", config, "CONFIG", "The config file (docs/config.md)").required();
-  add_repeated(command, "--set", overrides.set, "KEY.PATH=VALUE",
+  add_repeated(command, "--set", overrides.assignments, "KEY.PATH=VALUE",
                "Override one config value, such as smoothing.boundary=free");
   add_optional(command, "--seed", overrides.seed, "N", "Override crowd.seed");
   add_optional(command, "--count", overrides.count, "N", "Override crowd.count");

@@ -206,12 +206,13 @@ void init(const InitOptions& options) {
   const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
   if (files.size() < kMinHeads || files.size() > kMaxHeads) {
-    const std::string left_out = left_out_of_heads(heads);
-    throw MissingInput(concat(heads.string(), ": expected ", kMinHeads, " to ", kMaxHeads,
-                              " heads (OBJ, PLY, GLB, glTF, FBX, USD, NumPy), found ", files.size(),
-                              left_out.empty() ? pattern_below(heads) : concat("; ", left_out)));
+    const std::string left_out = other_meshes_message(heads);
+    throw MissingInput(
+        concat(heads.string(), ": expected ", kMinHeads, " to ", kMaxHeads,
+               " heads (OBJ, PLY, GLB, glTF, FBX, USD, NumPy), found ", files.size(),
+               left_out.empty() ? suggested_head_pattern(heads) : concat("; ", left_out)));
   }
-  if (const std::string left_out = left_out_of_heads(heads); !left_out.empty()) {
+  if (const std::string left_out = other_meshes_message(heads); !left_out.empty()) {
     log_warning(left_out);
   }
   // Refuse to overwrite inputs or an existing config.
@@ -228,7 +229,7 @@ void init(const InitOptions& options) {
   StarterFacts facts;
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();
   facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
-  refuse_path_no_config_can_hold(facts.heads);
+  require_storable_path(facts.heads);
   const Seen seen = look_at(files, mask.empty());
   if (!seen.has_uvs && !mask.empty()) {
     log_warning(concat("no regions: the heads have no texture coordinates, which the mask ", mask,
@@ -243,7 +244,7 @@ void init(const InitOptions& options) {
   for (const fs::path& head : files) {
     facts.names.push_back(head.stem().string());
     if (!is_name(facts.names.back())) {
-      throw InvalidInput(objection_to_head_name(facts.names.back(), head));
+      throw InvalidInput(invalid_head_name_message(facts.names.back(), head));
     }
   }
   const auto up = seen.first.col(facts.up.index);

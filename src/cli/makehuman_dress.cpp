@@ -97,7 +97,8 @@ Picture shrunk(Picture picture, int max_texels) {
 }
 
 /// Makes a hair texture neutral, so that it can be tinted with any hair colour: grey with the mean
-/// linear light kNeutralLight. Keeps the relative brightness of the texels, with less contrast.
+/// linear light kNeutralTextureMean. Keeps the relative brightness of the texels, with less
+/// contrast.
 void make_neutral(Picture& picture) {
   const std::vector<float>& light = light_of_srgb8_values();
   const auto lightness = [&](const std::array<std::uint8_t, 4>& texel) {
@@ -113,7 +114,7 @@ void make_neutral(Picture& picture) {
   const double mean = sum / weight;
   for (auto& texel : picture.texels) {
     const double factor = std::min(2.0, 0.4 + 0.6 * lightness(texel) / mean);
-    texel[0] = texel[1] = texel[2] = srgb8_of_light(kNeutralLight * factor);
+    texel[0] = texel[1] = texel[2] = srgb8_of_light(kNeutralTextureMean * factor);
   }
 }
 

@@ -69,7 +69,7 @@ std::vector<std::string> config_arguments(const ConfigOptions& options, const fs
   const auto add = [&](const char* name, const std::string& value) {
     arguments.insert(arguments.end(), {name, value});
   };
-  for (const std::string& value : options.overrides.set) add("--set", value);
+  for (const std::string& value : options.overrides.assignments) add("--set", value);
   if (options.overrides.seed) add("--seed", *options.overrides.seed);
   if (options.overrides.count) add("--count", *options.overrides.count);
   for (const std::string& file : options.overrides.review)

@@ -20,8 +20,8 @@ double uniform(std::uint64_t index, const char* purpose) {
   return random_between({1, index, purpose, 0}, 0, 1);
 }
 
-/// Heads whose fields are noise, so that no vertex is told from others, three regions in bands with soft edges (a tenth of the vertices in
-/// two of them), and recipes of four sources each.
+/// Heads whose fields are noise, so that no vertex is told from others, three regions in bands with
+/// soft edges (a tenth of the vertices in two of them), and recipes of four sources each.
 struct Crowd {
   Crowd(Index heads, Index rank, Index vertices, std::size_t count) {
     faces.topology.vertex_count = vertices;
@@ -146,7 +146,7 @@ void BM_BlendBands(benchmark::State& state) {
       RegionRecipe& three = banded[f].regions[static_cast<std::size_t>(k)];
       three = one;
       for (Index b = 1; b < 3; ++b) {
-        BandRecipe& band = three.finer.emplace_back(one);
+        BandRecipe& band = three.finer_bands.emplace_back(one);
         band.iterations = b == 1 ? 20 : 3;
         band.weights = neighbours(heads, lend, f, k, b);
         band.extrapolation = 1.1;

@@ -63,7 +63,8 @@ class Blend : public ::testing::Test {
     }
     return levels;
   }
-  /// Each patch by all of its vertices, as fields are noise; the skeletons of faces that are alike have tests of their own.
+  /// Each patch by all of its vertices, as fields are noise; the skeletons of faces that are alike
+  /// have tests of their own.
   FieldPatches patches_of(const std::vector<HeadLevels>& levels) const {
     const std::vector<std::uint64_t> tested = {1, 3, 10, 30, 60};
     return interpolate_fields(levels, tested, hilbert_order(head(0)), 1e-4);
@@ -87,7 +88,7 @@ class Blend : public ::testing::Test {
   /// Bands from coarse to fine, each with whom, where it begins, and how strong.
   static RegionRecipe bands(const std::vector<RegionRecipe>& each) {
     RegionRecipe result = each.front();
-    for (std::size_t b = 1; b < each.size(); ++b) result.finer.push_back(each[b]);
+    for (std::size_t b = 1; b < each.size(); ++b) result.finer_bands.push_back(each[b]);
     return result;
   }
   /// Σ_k α_k [ S_{L_k1} B + Σ_b e_kb Σ_i ω̂_kbi (S_{L_k,b+1} C_i − S_{L_kb} C_i) ], term by term.
@@ -101,11 +102,12 @@ class Blend : public ::testing::Test {
       for (const SourceWeight& part : target_shares(recipe)) {
         face += part.weight * level_of(static_cast<std::size_t>(part.head), r.iterations);
       }
-      for (std::size_t b = 0; b <= r.finer.size(); ++b) {
-        const BandRecipe& band = b == 0 ? r : r.finer[b - 1];
+      for (std::size_t b = 0; b <= r.finer_bands.size(); ++b) {
+        const BandRecipe& band = b == 0 ? r : r.finer_bands[b - 1];
         for (const SourceWeight& source : band.weights) {
           const auto h = static_cast<std::size_t>(source.head);
-          const Positions end = b < r.finer.size() ? level_of(h, r.finer[b].iterations) : head(h);
+          const Positions end =
+              b < r.finer_bands.size() ? level_of(h, r.finer_bands[b].iterations) : head(h);
           face += band.extrapolation * source.weight * (end - level_of(h, band.iterations));
         }
       }
@@ -181,10 +183,10 @@ TEST_F(Blend, BandsThatAreAlikeAreOneBand) {
 TEST_F(Blend, ABandWithoutWidthAddsNothing) {
   const Recipe two = recipe(1, {bands({region({{0, 1}}, 20, 1.1), region({{2, 1}}, 6)})});
   Recipe more = two;
-  more.regions[0].finer.insert(more.regions[0].finer.begin(), region({{1, 1}}, 6, 2));
+  more.regions[0].finer_bands.insert(more.regions[0].finer_bands.begin(), region({{1, 1}}, 6, 2));
   const auto fits = cubic_fits(60);
   EXPECT_LT(difference(blender(fits, one_).blend(more), blender(fits, one_).blend(two)), 1e-5);
-  more.regions[0].finer.push_back(region({{1, 1}}, 0, 3));  // a cubic is not exact at level 0
+  more.regions[0].finer_bands.push_back(region({{1, 1}}, 0, 3));  // a cubic is not exact at level 0
   EXPECT_LT(difference(blend_exact(faces_, filter(), one_, more),
                        blend_exact(faces_, filter(), one_, two)),
             1e-12);
@@ -199,7 +201,7 @@ TEST_F(Blend, ChangingOneBandGivesTheBitsOfBlending) {
   const auto fits = cubic_fits(60);
   const CrowdBlender all = blender(fits, two_);
   Recipe after = banded();
-  after.regions[1].finer[0].weights = {{1, 1}};
+  after.regions[1].finer_bands[0].weights = {{1, 1}};
   Positions face = all.blend(banded());
   all.change(banded(), after, face);
   EXPECT_EQ(face, all.blend(after));

@@ -30,62 +30,65 @@ void expect_weights(const Weights& found, const Weights& expected) {
 
 TEST(WeightsAt, PartitionSumsToOneWithTheTarget) {
   const double sum = 1 + 1. / 4 + 1. / 9 + 1. / 16;
-  expect_weights(weights_at(kAnchors, 2, kAll, kOrigin, kPartition, std::nullopt),
+  expect_weights(weights_at_position(kAnchors, 2, kAll, kOrigin, kPartition, std::nullopt),
                  {{0, 1 / sum}, {1, 1. / 4 / sum}, {2, 1. / 9 / sum}, {3, 1. / 16 / sum}});
 }
 
 TEST(WeightsAt, PartitionCountsTheTargetEvenIfItIsNoSource) {
   const double sum = 1 + 1. / 9;
-  expect_weights(weights_at(kAnchors, 2, {0}, kOrigin, kPartition, std::nullopt),
+  expect_weights(weights_at_position(kAnchors, 2, {0}, kOrigin, kPartition, std::nullopt),
                  {{0, 1 / sum}, {2, 1. / 9 / sum}});
 }
 
 TEST(WeightsAt, PrintedCountsTheTargetInTheDenominatorOnly) {
   const double sum = 1 + 1. / 4 + 1. / 9 + 1. / 16;
   const Weights expected = {{0, 1 / sum}, {1, 1. / 4 / sum}, {3, 1. / 16 / sum}};
-  expect_weights(weights_at(kAnchors, 2, kAll, kOrigin, kPrinted, std::nullopt), expected);
-  expect_weights(weights_at(kAnchors, 2, {0, 1, 3}, kOrigin, kPrinted, std::nullopt), expected);
+  expect_weights(weights_at_position(kAnchors, 2, kAll, kOrigin, kPrinted, std::nullopt), expected);
+  expect_weights(weights_at_position(kAnchors, 2, {0, 1, 3}, kOrigin, kPrinted, std::nullopt),
+                 expected);
 }
 
 TEST(WeightsAt, OnAnAnchorItsHeadTakesAll) {
   for (const PlanePoint& m : {kAnchors[1], PlanePoint(kAnchors[1] + PlanePoint(1e-200, 0))}) {
-    expect_weights(weights_at(kAnchors, 1, kAll, m, kPartition, std::nullopt), {{1, 1}});
-    expect_weights(weights_at(kAnchors, 0, kAll, m, kPartition, std::nullopt), {{1, 1}});
-    expect_weights(weights_at(kAnchors, 1, kAll, m, kPrinted, std::nullopt), {});
-    expect_weights(weights_at(kAnchors, 0, kAll, m, kPrinted, std::nullopt), {{1, 1}});
+    expect_weights(weights_at_position(kAnchors, 1, kAll, m, kPartition, std::nullopt), {{1, 1}});
+    expect_weights(weights_at_position(kAnchors, 0, kAll, m, kPartition, std::nullopt), {{1, 1}});
+    expect_weights(weights_at_position(kAnchors, 1, kAll, m, kPrinted, std::nullopt), {});
+    expect_weights(weights_at_position(kAnchors, 0, kAll, m, kPrinted, std::nullopt), {{1, 1}});
   }
 }
 
 TEST(WeightsAt, HeadsAtOneAnchorShare) {
   const std::vector<PlanePoint> anchors = {{1, 0}, {0, 2}, {0, 2}};
-  expect_weights(weights_at(anchors, 0, {0, 1, 2}, anchors[1], kPartition, std::nullopt),
+  expect_weights(weights_at_position(anchors, 0, {0, 1, 2}, anchors[1], kPartition, std::nullopt),
                  {{1, 0.5}, {2, 0.5}});
-  expect_weights(weights_at(anchors, 1, {0, 1, 2}, anchors[1], kPrinted, std::nullopt), {{2, 0.5}});
+  expect_weights(weights_at_position(anchors, 1, {0, 1, 2}, anchors[1], kPrinted, std::nullopt),
+                 {{2, 0.5}});
 }
 
 TEST(WeightsAt, MostSourcesKeepTheLargestAndNormaliseAgain) {
   // The target's ω_0 = 1/16 always stays and is not counted.
   const double with_target = 1 + 1. / 4 + 1. / 16;
-  expect_weights(weights_at(kAnchors, 3, kAll, kOrigin, kPartition, 2),
+  expect_weights(weights_at_position(kAnchors, 3, kAll, kOrigin, kPartition, 2),
                  {{0, 1 / with_target}, {1, 1. / 4 / with_target}, {3, 1. / 16 / with_target}});
-  expect_weights(weights_at(kAnchors, 1, kAll, kOrigin, kPartition, 1), {{0, 0.8}, {1, 0.2}});
-  expect_weights(weights_at(kAnchors, 1, kAll, kOrigin, kPartition, 99),
-                 weights_at(kAnchors, 1, kAll, kOrigin, kPartition, std::nullopt));
+  expect_weights(weights_at_position(kAnchors, 1, kAll, kOrigin, kPartition, 1),
+                 {{0, 0.8}, {1, 0.2}});
+  expect_weights(weights_at_position(kAnchors, 1, kAll, kOrigin, kPartition, 99),
+                 weights_at_position(kAnchors, 1, kAll, kOrigin, kPartition, std::nullopt));
   const double sum = 1 + 1. / 4 + 1. / 16;
-  expect_weights(weights_at(kAnchors, 3, kAll, kOrigin, kPrinted, 2),
+  expect_weights(weights_at_position(kAnchors, 3, kAll, kOrigin, kPrinted, 2),
                  {{0, 1 / sum}, {1, 1. / 4 / sum}});
 }
 
 TEST(WeightsAt, OfEqualWeightsTheFirstIsKept) {
   const std::vector<PlanePoint> anchors = {{3, 0}, {0, 1}, {1, 0}, {0, -1}};
   const double sum = 1. / 9 + 2;
-  expect_weights(weights_at(anchors, 0, kAll, kOrigin, kPartition, 2),
+  expect_weights(weights_at_position(anchors, 0, kAll, kOrigin, kPartition, 2),
                  {{0, 1. / 9 / sum}, {1, 1 / sum}, {2, 1 / sum}});
 }
 
 TEST(WeightsAt, FarAndNearAnchorsStayFinite) {
   const std::vector<PlanePoint> anchors = {{1e6, 1e6}, {-1e6, 0}, {1e-150, 0}, {1e200, 0}};
-  const Weights weights = weights_at(anchors, 0, kAll, kOrigin, kPartition, std::nullopt);
+  const Weights weights = weights_at_position(anchors, 0, kAll, kOrigin, kPartition, std::nullopt);
   double sum = 0;
   for (const SourceWeight& w : weights) {
     EXPECT_TRUE(std::isfinite(w.weight)) << w.head;

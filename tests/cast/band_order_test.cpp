@@ -15,7 +15,7 @@ Recipe recipe_of(const std::vector<std::vector<std::uint64_t>>& levels) {
   Recipe recipe;
   for (const auto& of_region : levels) {
     RegionRecipe region;
-    region.finer.resize(of_region.size() - 1);
+    region.finer_bands.resize(of_region.size() - 1);
     for (std::size_t b = 0; b < of_region.size(); ++b) {
       band_of(region, b).iterations = of_region[b];
       band_of(region, b).smoothness = static_cast<double>(of_region[b]) / 100;
@@ -40,14 +40,14 @@ std::vector<std::uint64_t> taken_over(const std::vector<std::size_t>& parts,
   Recipe recipe = recipe_of({{9, 5, 1}, to});
   std::vector<std::size_t> of_second_region;
   for (const std::size_t band : parts) of_second_region.push_back(to.size() + band);
-  take_over(of_second_region, recipe_of({{7, 3, 2}, from}), recipe);
+  copy_bands(of_second_region, recipe_of({{7, 3, 2}, from}), recipe);
   EXPECT_THAT(levels_of(recipe.regions[0]), ElementsAre(9, 5, 1)) << "nothing of it is taken";
   return levels_of(recipe.regions[1]);
 }
 
 TEST(BandOrder, TheFinerBandGivesWay) {
   Recipe recipe = recipe_of({{40, 60, 50}});
-  keep_order(recipe.regions[0]);
+  restore_level_order(recipe.regions[0]);
   EXPECT_THAT(levels_of(recipe.regions[0]), ElementsAre(40, 40, 40));
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 using Point = std::vector<double>;
 
-/// Points dropped into a cube, dense in its middle, each from as many draws as are wanted that keep the
-/// distance; ends where a point fails a thousand times.
+/// Points dropped into a cube, dense in its middle, each from as many draws as are wanted that keep
+/// the distance; ends where a point fails a thousand times.
 struct FirstFit {
   std::vector<Point> placed;
   std::uint64_t draws = 0;
@@ -80,8 +80,8 @@ TEST(CapacityForecast, TellsEarlyHowManyPointsWillFit) {
       const std::uint64_t too_near = fit.place(kWanted);
       if (too_near >= 1000) break;
       forecast.add(too_near, kWanted);
-      if (early == 0 && forecast.faces()) {
-        early = *forecast.faces();
+      if (early == 0 && forecast.estimated_faces()) {
+        early = *forecast.estimated_faces();
         told_at = fit.placed.size();
       }
     }
@@ -93,7 +93,8 @@ TEST(CapacityForecast, TellsEarlyHowManyPointsWillFit) {
   }
 }
 
-// Nine in ten candidates fall into a corner that is full soon: the others have the rest of the room.
+// Nine in ten candidates fall into a corner that is full soon: the others have the rest of the
+// room.
 TEST(CapacityForecast, IsNotMisledByAPlaceWhereManyCrowdTogether) {
   constexpr double kCorner = 0.1, kDistance = 0.01;
   std::vector<Point> placed;
@@ -126,7 +127,8 @@ TEST(CapacityForecast, IsNotMisledByAPlaceWhereManyCrowdTogether) {
     if (too_near == 1000) break;
     forecast.add(too_near, 1);
     if (placed.size() < 512) continue;
-    if (const auto faces = forecast.faces(); faces && (!least || *faces < *least)) least = faces;
+    if (const auto faces = forecast.estimated_faces(); faces && (!least || *faces < *least))
+      least = faces;
   }
   const auto fitted = static_cast<double>(placed.size());
   EXPECT_GT(fitted, 4000);
@@ -138,16 +140,16 @@ TEST(CapacityForecast, KeepsSilentWhileItHasSeenTooLittle) {
   CapacityForecast forecast;
   const auto add = [&](int face) { forecast.add(face < 128 ? 5 : 10, 5); };
   for (int i = 0; i < 255; ++i) add(i);
-  EXPECT_FALSE(forecast.faces()) << "few faces";
+  EXPECT_FALSE(forecast.estimated_faces()) << "few faces";
   add(255);
-  ASSERT_TRUE(forecast.faces());
-  EXPECT_NEAR(*forecast.faces(), 256 + 4 * (1.0 / 3) / ((2.0 / 3 - 0.5) / 96), 1e-9);
+  ASSERT_TRUE(forecast.estimated_faces());
+  EXPECT_NEAR(*forecast.estimated_faces(), 256 + 4 * (1.0 / 3) / ((2.0 / 3 - 0.5) / 96), 1e-9);
   CapacityForecast level;
   for (int i = 0; i < 1000; ++i) level.add(10, 1);
-  EXPECT_FALSE(level.faces()) << "it does not get harder";
+  EXPECT_FALSE(level.estimated_faces()) << "it does not get harder";
   CapacityForecast roomy;
   for (int i = 0; i < 100'000; ++i) roomy.add(i % 2000 == 0 ? 1 : 0, 8);
-  EXPECT_FALSE(roomy.faces()) << "nothing is too near";
+  EXPECT_FALSE(roomy.estimated_faces()) << "nothing is too near";
   EXPECT_THROW(roomy.add(1, 0), BrokenPrecondition);
 }
 

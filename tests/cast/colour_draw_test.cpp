@@ -20,7 +20,7 @@ ColourOptions six_heads() {
   draw.seed = 5;
   draw.heads = {"a", "b", "c", "d", "e", "f"};
   draw.tags = {{"pale", "woman"}, {"woman"}, {"woman"}, {"man", "pale"}, {"man"}, {"man"}};
-  draw.alike = {"woman", "man"};
+  draw.tags_to_match = {"woman", "man"};
   return draw;
 }
 
@@ -70,7 +70,7 @@ TEST(ColourDraw, AreThoseOfHeadsWithTheSameTagsEachAsOften) {
 
 TEST(ColourDraw, WithoutAListAllTagsCountAndWithoutTagsNone) {
   ColourOptions draw = six_heads();
-  draw.alike.reset();
+  draw.tags_to_match.reset();
   std::vector<FacePlan> crowd = {face_on(0, 1), face_on(5, 2)};
   choose_colours(draw, crowd);
   EXPECT_THAT(crowd[0].recipe.colours, ElementsAre(SourceWeight{0, 1})) << "no other is like her";
@@ -103,7 +103,7 @@ TEST(ColourDraw, NoFaceMattersToAnother) {
 
 TEST(ColourDraw, AFamilyHasOneComplexionAndAChildHasHalfOfEitherParents) {
   ColourOptions draw = six_heads();
-  draw.alike = std::vector<std::string>{};
+  draw.tags_to_match = std::vector<std::string>{};
   std::vector<FacePlan> crowd = {face_on(0, 1),
                                  face_on(4, 2),
                                  relative("s1", 1, "sisters"),

@@ -36,7 +36,7 @@ TEST(Constraints, MessagesNameTheKeyAndItsLimit) {
   EXPECT_EQ(describe(Reason::kMinDistance, diversity, believability),
             "diversity.min_distance, 1.25 mm");
   EXPECT_EQ(
-      describe_broken(Reason::kExposed, diversity, believability),
+      describe_violation(Reason::kExposed, diversity, believability),
       "the lining of nose, lips or lids shows through the skin by more than the limit, 4.5 mm²");
   for (std::size_t r = 0; r < kReasonCount; ++r) {
     EXPECT_FALSE(constraint_of(static_cast<Reason>(r)).advice.empty()) << r;

@@ -66,7 +66,7 @@ TEST(Ageing, CanBeTakenBack) {
   const FacePlan young = random_face(casting, 7, 0, kind_of_group(casting));
   FacePlan face = young;
   apply_age(face, 0.4, {casting.anchors, casting.tags}, casting.sampling);
-  take_back_age(face, {casting.anchors, casting.tags}, casting.sampling);
+  undo_age(face, {casting.anchors, casting.tags}, casting.sampling);
   EXPECT_FALSE(face.age);
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     const auto &back = face.recipe.regions[k].weights, &before = young.recipe.regions[k].weights;
@@ -129,15 +129,15 @@ TEST(Bands, AreDrawnApartAndTheFirstAsWithoutOthers) {
       EXPECT_EQ(region.position, alone.recipe.regions[k].position);
       EXPECT_EQ(region.weights, alone.recipe.regions[k].weights);
       EXPECT_EQ(region.iterations, alone.recipe.regions[k].iterations);
-      ASSERT_EQ(region.finer.size(), 2U);
-      EXPECT_EQ(region.finer[0].iterations, 100U);
-      EXPECT_EQ(region.finer[0].extrapolation, 1.2);
-      EXPECT_EQ(region.finer[1].iterations, 10U);
+      ASSERT_EQ(region.finer_bands.size(), 2U);
+      EXPECT_EQ(region.finer_bands[0].iterations, 100U);
+      EXPECT_EQ(region.finer_bands[0].extrapolation, 1.2);
+      EXPECT_EQ(region.finer_bands[1].iterations, 10U);
       for (std::size_t b = 0; b < 3; ++b) {
         const PlanePoint& at = *band_of(region, b).position;
         places.insert(at.x() + 10 * at.y());
       }
-      for (const SourceWeight& source : region.finer[1].weights) {
+      for (const SourceWeight& source : region.finer_bands[1].weights) {
         EXPECT_TRUE(source.head == 1 || source.head == 4 || source.head == face.recipe.target);
       }
     }
@@ -155,11 +155,11 @@ TEST(Bands, ARegionsOwnValuesHoldForAllBands) {
   hand.regions[0].extrapolation = Range{0.7, 0.7};
   hand.regions[0].bands.resize(3);
   hand.regions[0].bands[2].weights = {{1, 1}};
-  const RegionRecipe region = complete_recipe(casting, hand).recipe.regions[0];
+  const RegionRecipe region = completed_face_plan(casting, hand).recipe.regions[0];
   const std::vector<SourceWeight> halves = {{0, 0.5}, {3, 0.5}};
   EXPECT_EQ(region.weights, halves);
-  EXPECT_EQ(region.finer[0].weights, halves);
-  EXPECT_EQ(region.finer[1].weights, (std::vector<SourceWeight>{{1, 1}}));
+  EXPECT_EQ(region.finer_bands[0].weights, halves);
+  EXPECT_EQ(region.finer_bands[1].weights, (std::vector<SourceWeight>{{1, 1}}));
   for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(band_of(region, b).extrapolation, 0.7);
 }
 
@@ -170,10 +170,10 @@ TEST(Bands, BeginNoHigherThanTheBandBefore) {
   hand.regions.resize(2);
   hand.regions[0].smoothness =
       SmoothnessDistribution{SmoothnessDistribution::Unit::kFraction, {0.05, 0.05}};
-  const RegionRecipe region = complete_recipe(casting, hand).recipe.regions[0];
+  const RegionRecipe region = completed_face_plan(casting, hand).recipe.regions[0];
   EXPECT_EQ(region.iterations, 50U);
-  EXPECT_EQ(region.finer[0].iterations, 50U);
-  EXPECT_EQ(region.finer[1].iterations, 10U);
+  EXPECT_EQ(region.finer_bands[0].iterations, 50U);
+  EXPECT_EQ(region.finer_bands[1].iterations, 10U);
 }
 
 TEST(Bands, AgeActsOnThoseThatCarryIt) {
@@ -198,7 +198,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
       EXPECT_FALSE(band_of(after, b).position);
     }
   }
-  take_back_age(old, {casting.anchors, casting.tags}, casting.sampling);
+  undo_age(old, {casting.anchors, casting.tags}, casting.sampling);
   EXPECT_FALSE(old.age);
   for (std::size_t k = 0; k < 2; ++k) {
     for (std::size_t b = 0; b < 3; ++b) {
@@ -215,7 +215,8 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
 /// Hand-written recipes, then the first draw of each face.
 std::vector<FacePlan> draw_crowd(const CastingOptions& casting) {
   std::vector<FacePlan> crowd;
-  for (const ManualRecipe& hand : casting.recipes) crowd.push_back(complete_recipe(casting, hand));
+  for (const ManualRecipe& hand : casting.recipes)
+    crowd.push_back(completed_face_plan(casting, hand));
   for (std::uint64_t i = 1; i <= casting.count; ++i) crowd.push_back(draw_any_face(casting, i));
   return crowd;
 }
@@ -548,8 +549,8 @@ TEST(DrawRecipe, HandRecipesComeFirstAndAreNormalised) {
               ::testing::ElementsAre(SourceWeight{0, 0.25}, SourceWeight{4, 0.75}));
   EXPECT_FALSE(crowd[0].recipe.regions[0].position);
   EXPECT_EQ(crowd[0].recipe.regions[1].weights,
-            weights_at(casting.anchors, 3, casting.sampling.sources, PlanePoint(0.5, 0.5),
-                       Normalization::kPartition, std::nullopt));
+            weights_at_position(casting.anchors, 3, casting.sampling.sources, PlanePoint(0.5, 0.5),
+                                Normalization::kPartition, std::nullopt));
   EXPECT_TRUE(same(crowd[1], draw_any_face(casting, 1)));
 
   casting.recipes[0].regions[0].weights = {{4, 0}};

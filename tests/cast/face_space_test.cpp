@@ -65,9 +65,9 @@ class FaceSpaceTest : public ::testing::Test {
     }
     mean_ = mean;
     const SampleCells cells = find_sample_cells(adjacency_, mean, samples_);
-    weights_ = sample_weights(
-        cells, samples_,
-        face_areas(faces_.topology, find_components(adjacency_), mean, FaceArea::kFront, {2, 1}));
+    weights_ = sample_weights(cells, samples_,
+                              face_vertex_areas(faces_.topology, find_components(adjacency_), mean,
+                                                FaceArea::kFront, {2, 1}));
     space_.emplace(space_of(faces_));
   }
 
@@ -146,7 +146,7 @@ TEST_F(FaceSpaceTest, DistancesAreThoseOfWholeMeshes) {
   }
 }
 
-/// The other side of the bowls' grid; \param next  how much of the place is the next vertex instead.
+/// The other side of the bowls' grid; \param next how much of the place is the next vertex instead.
 MirrorMap mirror_of_grid(std::uint32_t side, double next) {
   MirrorMap map;
   for (std::uint32_t v = 0; v < (side + 1) * (side + 1); ++v) {
@@ -164,10 +164,10 @@ MirrorMap mirror_of_grid(std::uint32_t side, double next) {
 TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
   for (const double next : {0.0, 0.4}) {
     const MirrorMap mirror = mirror_of_grid(kSide, next);
-    samples_ = with_partners(
+    samples_ = samples_and_partners(
         choose_face_samples(faces_.topology, find_components(adjacency_), mean_, {2, 1}, 600),
         mirror);
-    const FaceSamples traced = with_corners(samples_, mirror);
+    const FaceSamples traced = samples_and_mirror_corners(samples_, mirror);
     EXPECT_EQ(traced == samples_, next == 0);
     trajectories_.clear();
     for (const Head& head : faces_.heads) {
@@ -176,11 +176,12 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
     }
     SampledHeads heads =
         sample_heads(faces_, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit);
-    heads.image = sample_images(faces_, regions_, mirror, samples_, traced, heads);
-    const FaceSpace space(std::move(heads),
-                          sample_weights(find_sample_cells(adjacency_, mean_, samples_), samples_,
-                                         face_areas(faces_.topology, find_components(adjacency_),
-                                                    mean_, FaceArea::kFront, {2, 1})));
+    heads.mirror_images = sample_mirror_images(faces_, regions_, mirror, samples_, traced, heads);
+    const FaceSpace space(
+        std::move(heads),
+        sample_weights(find_sample_cells(adjacency_, mean_, samples_), samples_,
+                       face_vertex_areas(faces_.topology, find_components(adjacency_), mean_,
+                                         FaceArea::kFront, {2, 1})));
     EXPECT_EQ(space.head_point_count(), 8);
     const std::vector<Recipe> faces = crowd(2);
     std::vector<FaceSpace::Point> points;
@@ -198,7 +199,7 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
           return blend_with_mirrored(blended, mirrored(mirror, blended), w);
         };
         as_built.push_back(built(recipe));
-        const Positions sampled = sample_face(space.sampled(), recipe);
+        const Positions sampled = sample_face(space.sampled_heads(), recipe);
         for (std::size_t s = 0; s < samples_.size(); ++s) {
           const Eigen::RowVector3d there = kMmPerUnit * as_built.back().row(samples_[s]);
           ASSERT_LT((sampled.row(static_cast<Index>(s)) - there).norm(), 0.05);
@@ -227,7 +228,7 @@ TEST_F(FaceSpaceTest, DistancesOfBandsAreThoseOfWholeMeshes) {
   for (std::size_t f = 0; f + 2 < faces.size(); f += 3) {
     RegionRecipe& region = faces[f].regions[0];
     for (std::size_t b = 1; b < 3; ++b) {
-      BandRecipe& band = region.finer.emplace_back(faces[f + b].regions[0]);
+      BandRecipe& band = region.finer_bands.emplace_back(faces[f + b].regions[0]);
       band.iterations = band_of(region, b - 1).iterations / 10;
     }
     points.push_back(space.point(faces[f]));
@@ -313,20 +314,20 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
       if (d < crowd_mm) nearest = j, crowd_mm = d;
     }
     EXPECT_EQ(faces[i].notes.nearest->head, head);
-    EXPECT_NEAR(faces[i].notes.nearest->head_mm, head_mm, 1e-3);
-    EXPECT_EQ(faces[i].notes.nearest->crowd.has_value(), i > 0);
+    EXPECT_NEAR(faces[i].notes.nearest->head_distance_mm, head_mm, 1e-3);
+    EXPECT_EQ(faces[i].notes.nearest->earlier_face.has_value(), i > 0);
     if (i == 0) continue;
-    EXPECT_EQ(*faces[i].notes.nearest->crowd, faces[nearest].id);
-    EXPECT_NEAR(faces[i].notes.nearest->crowd_mm, crowd_mm, 1e-3);
+    EXPECT_EQ(*faces[i].notes.nearest->earlier_face, faces[nearest].id);
+    EXPECT_NEAR(faces[i].notes.nearest->earlier_face_distance_mm, crowd_mm, 1e-3);
   }
-  EXPECT_EQ(faces[20].notes.nearest->crowd, faces[7].id);
-  EXPECT_LT(faces[20].notes.nearest->crowd_mm, 1e-3);
+  EXPECT_EQ(faces[20].notes.nearest->earlier_face, faces[7].id);
+  EXPECT_LT(faces[20].notes.nearest->earlier_face_distance_mm, 1e-3);
 }
 
 TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
   const ProxySkin skin(
       cell_triangles(faces_.topology, find_sample_cells(adjacency_, mean_, samples_)),
-      space_->sampled().mean, space_->sampled().heads);
+      space_->sampled_heads().mean, space_->sampled_heads().heads);
   const Recipe recipe = crowd(1).front();
   int asked = 0;
   SkinDefects found{{}, 0};
@@ -358,7 +359,7 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
 TEST_F(FaceSpaceTest, SampledFacesAreThoseOfWholeMeshes) {
   for (const Recipe& recipe : crowd(5)) {
     const Positions built = kMmPerUnit * blend_exact(faces_, *filter_, regions_, recipe);
-    const Positions sampled = sample_face(space_->sampled(), recipe);
+    const Positions sampled = sample_face(space_->sampled_heads(), recipe);
     for (std::size_t s = 0; s < samples_.size(); ++s) {
       EXPECT_LT((sampled.row(static_cast<Index>(s)) - built.row(samples_[s])).norm(), 0.05);
     }

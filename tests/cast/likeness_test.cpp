@@ -43,7 +43,7 @@ TEST(Likeness, NeighboursAreThoseOfASearchThroughAll) {
     }
     std::sort(mm.begin(), mm.end());
     ASSERT_EQ(likeness.neighbours[face].size(), 5U);
-    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(likeness.neighbours[face][k].mm, mm[k]);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(likeness.neighbours[face][k].distance_mm, mm[k]);
   }
 }
 
@@ -55,7 +55,7 @@ std::vector<FaceSpace::Point> points_of_many_dimensions(std::uint64_t count) {
     for (std::uint64_t d = 0; d < 12; ++d) {
       const auto [x, y] = random_pair({5, i / 2, "place", 0}, static_cast<std::uint32_t>(d));
       point.as_built[static_cast<Index>(d)] = static_cast<float>(x);
-      point.unit[static_cast<Index>(d)] = static_cast<float>(i % 3 == 0 ? x : y);
+      point.unextrapolated[static_cast<Index>(d)] = static_cast<float>(i % 3 == 0 ? x : y);
     }
     points.push_back(point);
   }

@@ -52,14 +52,14 @@ std::vector<double> noses_of(const std::vector<TraitTarget>& targets, std::uint6
 
 TEST(PopulationBalance, UniformCandidatesGetTheAskedDistribution) {
   const TraitTarget nose{*find_measurement("nose_width"), 36, 4};
-  EXPECT_LT(largest_difference(nose, noses_of({nose}, 300)), 0.02);
+  EXPECT_LT(kolmogorov_smirnov_distance(nose, noses_of({nose}, 300)), 0.02);
 }
 
 /// Once the trait out of reach outweighed the other one.
 TEST(PopulationBalance, ATraitOutOfReachDoesNotSpoilTheOthers) {
   const TraitTarget nose{*find_measurement("nose_width"), 36, 4};
   const TraitTarget mouth{*find_measurement("mouth_width"), 80, 4};
-  EXPECT_LT(largest_difference(nose, noses_of({nose, mouth}, 300)), 0.05);
+  EXPECT_LT(kolmogorov_smirnov_distance(nose, noses_of({nose, mouth}, 300)), 0.05);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ SkinOptions draw_of() {
   SkinOptions draw{3, {}, {}, {0, 10, 20, 30, 0, 10, 20, 30}, {}};
   for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) draw.heads.push_back(name);
   for (int h = 0; h < 8; ++h) draw.tags.push_back({h < 4 ? "female" : "male"});
-  draw.shares = [](const Recipe& recipe) {
+  draw.colour_weights = [](const Recipe& recipe) {
     std::vector<double> shares(8, 0.0);
     for (const SourceWeight& one : recipe.colours) {
       shares[static_cast<std::size_t>(one.head)] = one.weight;
@@ -49,7 +49,7 @@ TEST(SkinDraw, AChildLiesBetweenItsParents) {
     // The son of a face of tone 10 and a head of tone 30; his own target is light.
     std::vector<FacePlan> crowd = {mother, child_of("son_" + std::to_string(i), "mum", "h", 4),
                                    child_of("daughter", "a", "son_" + std::to_string(i), 3)};
-    choose_skin_of_children(draw_of(), crowd);
+    choose_skin_colours_of_children(draw_of(), crowd);
     EXPECT_TRUE(crowd[0].recipe.colours.empty()) << "nobody's child";
     for (const SourceWeight& one : crowd[1].recipe.colours) EXPECT_GE(one.head, 4) << "men lend";
     EXPECT_GE(tone_of(crowd[1]), 14 - 1e-9);
@@ -63,7 +63,7 @@ TEST(SkinDraw, TwinsHaveOneTone) {
   SkinOptions draw = draw_of();
   draw.twins = {"clan"};
   std::vector<FacePlan> crowd = {child_of("ona", "a", "h", 1), child_of("una", "a", "h", 2)};
-  choose_skin_of_children(draw, crowd);
+  choose_skin_colours_of_children(draw, crowd);
   EXPECT_EQ(crowd[0].recipe.colours, crowd[1].recipe.colours);
 }
 
@@ -71,7 +71,7 @@ TEST(SkinDraw, ColoursOfARecipeStay) {
   FacePlan child = child_of("son", "a", "h", 4);
   child.recipe.colours = {{7, 1}};
   std::vector<FacePlan> crowd = {child};
-  choose_skin_of_children(draw_of(), crowd);
+  choose_skin_colours_of_children(draw_of(), crowd);
   EXPECT_EQ(crowd[0].recipe.colours, child.recipe.colours);
 }
 
@@ -79,7 +79,7 @@ TEST(SkinDraw, TheNearestHeadLendsWhereNoneIsBeyond) {
   SkinOptions draw = draw_of();
   draw.tags[7] = {"male", "old"};  // men without age have the tones 0 to 20
   std::vector<FacePlan> crowd = {child_of("son", "d", "h", 4)};
-  choose_skin_of_children(draw, crowd);
+  choose_skin_colours_of_children(draw, crowd);
   EXPECT_EQ(crowd[0].recipe.colours, (std::vector<SourceWeight>{{6, 1}}));
 }
 

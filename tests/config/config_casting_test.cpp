@@ -153,7 +153,7 @@ TEST_F(ConfigTest, KeysThatOtherKeysOverrideAreTold) {
         "beard, file: ../beard.obj}]\n  none: {hat: 0.9, beard: 0.5}\n");
   const auto warnings = [&](const std::string& more, const std::string& config = kTagged) {
     const ConfigReading reading = read_config_parts(touch("c.yaml", config + more), {}, problems_);
-    EXPECT_TRUE(reading.complete) << told();
+    EXPECT_TRUE(reading.is_complete) << told();
     return reading.warnings;
   };
   const auto tells = [&](const std::string& more, const std::string& warning,
@@ -300,7 +300,7 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   ASSERT_EQ(top.bands.size(), 3U);
   EXPECT_TRUE(top.bands[0].weights.empty());
   EXPECT_EQ(top.bands[2].weights[0].head, 1);
-  EXPECT_THAT(config->families[0].inherit, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
+  EXPECT_THAT(config->families[0].inherited_parents, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
   EXPECT_THAT(config->review.reviews[0].marks[0].locked, ElementsAre(0, 1, 2));
   EXPECT_THAT(config->review.reviews[0].marks[1].locked, ElementsAre(2, 3, 5, 8));
 
@@ -308,7 +308,7 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   const auto again = read(written);
   ASSERT_TRUE(again) << told() << written;
   EXPECT_EQ(effective_config(*again, folder_), written);
-  EXPECT_EQ(again->families[0].inherit, config->families[0].inherit);
+  EXPECT_EQ(again->families[0].inherited_parents, config->families[0].inherited_parents);
   EXPECT_THAT(sources_of(again->groups[0].sampling, 2), ElementsAre(2));
 }
 
@@ -349,7 +349,7 @@ TEST_F(ConfigTest, MirroringIsReadAndWritten) {
   EXPECT_EQ(config->sampling.mirror, Mirroring::kRandom);
   EXPECT_EQ(config->groups[0].sampling.asymmetry, (Range{0, 0}));
   EXPECT_EQ(config->groups[0].sampling.mirror, Mirroring::kRandom) << "as in sampling";
-  EXPECT_FALSE(mirrors(config->groups[1].sampling));
+  EXPECT_FALSE(may_mirror(config->groups[1].sampling));
   EXPECT_EQ(config->recipes[0].asymmetry, (Range{0.3, 0.3}));
   EXPECT_EQ(config->recipes[0].mirrored, true);
   EXPECT_FALSE(config->recipes[1].asymmetry);
@@ -357,7 +357,7 @@ TEST_F(ConfigTest, MirroringIsReadAndWritten) {
   const auto again = read(written);
   ASSERT_TRUE(again) << told() << written;
   EXPECT_EQ(effective_config(*again, folder_), written);
-  EXPECT_FALSE(mirrors(again->groups[1].sampling));
+  EXPECT_FALSE(may_mirror(again->groups[1].sampling));
   const auto plain = read(kBands);
   ASSERT_TRUE(plain) << told();
   EXPECT_THAT(effective_config(*plain, folder_), Not(HasSubstr("mirror")))
@@ -462,16 +462,17 @@ TEST_F(ConfigTest, LimitsOnMeasurementsAreReadAndWritten) {
   ASSERT_TRUE(config) << told();
   const auto trait = [](const char* name) { return *find_measurement(name); };
   const TraitLimits crowd = {{trait("face_height")},
-                             {trait("nose_width"), TraitEnd{36, false}},
-                             {trait("eye_slope"), TraitEnd{-2, false}, TraitEnd{0.7, true}}};
+                             {trait("nose_width"), TraitBound{36, false}},
+                             {trait("eye_slope"), TraitBound{-2, false}, TraitBound{0.7, true}}};
   EXPECT_EQ(config->sampling.traits, crowd);
-  const TraitLimits group = {{trait("face_height")},
-                             {trait("nose_width"), TraitEnd{0.1, true}, TraitEnd{0.3, true}},
-                             {trait("eye_slope"), TraitEnd{-2, false}, TraitEnd{0.7, true}},
-                             {trait("nasal_index"), TraitEnd{0.5, false}, TraitEnd{0.8, false}}};
+  const TraitLimits group = {
+      {trait("face_height")},
+      {trait("nose_width"), TraitBound{0.1, true}, TraitBound{0.3, true}},
+      {trait("eye_slope"), TraitBound{-2, false}, TraitBound{0.7, true}},
+      {trait("nasal_index"), TraitBound{0.5, false}, TraitBound{0.8, false}}};
   EXPECT_EQ(config->groups.at(0).sampling.traits, group);
-  EXPECT_EQ(config->recipes.at(0).traits.at(0).at_most, (TraitEnd{50, false}));
-  EXPECT_EQ(config->families.at(0).traits.at(0).at_most, (TraitEnd{0.3, true}));
+  EXPECT_EQ(config->recipes.at(0).traits.at(0).at_most, (TraitBound{50, false}));
+  EXPECT_EQ(config->families.at(0).traits.at(0).at_most, (TraitBound{0.3, true}));
   const std::vector<TraitTarget> census = {{trait("nose_width"), 36, 2.5},
                                            {trait("facial_index"), 0.85, 0.04}};
   EXPECT_EQ(config->population.targets, census);

@@ -342,8 +342,8 @@ TEST_F(ReadConfig, AFloodOfProblemsIsCut) {
 
 TEST_F(ReadConfig, SetAndOptionsOverrideTheFile) {
   ConfigOverrides overrides;
-  overrides.set = {"crowd.count=5", "crowd.count=6", "sampling.max_sources=2",
-                   "output.contact_sheet={columns: 2}", "crowd.seed=8"};
+  overrides.assignments = {"crowd.count=5", "crowd.count=6", "sampling.max_sources=2",
+                           "output.contact_sheet={columns: 2}", "crowd.seed=8"};
   overrides.seed = "18446744073709551615";
   overrides.out = "elsewhere/";
   const auto config = read(kPlain, overrides);
@@ -357,8 +357,8 @@ TEST_F(ReadConfig, SetAndOptionsOverrideTheFile) {
 
 TEST_F(ReadConfig, OverridesPassTheSameChecks) {
   ConfigOverrides overrides;
-  overrides.set = {"crowd.cuont=5", "sampling.smoothness=[0.5, 0.1]", "plane.layout=circel",
-                   "parts=automatic", "crowd.name="};
+  overrides.assignments = {"crowd.cuont=5", "sampling.smoothness=[0.5, 0.1]", "plane.layout=circel",
+                           "parts=automatic", "crowd.name="};
   overrides.count = "1e3";
   overrides.seed = "-1";
   overrides.out = "";

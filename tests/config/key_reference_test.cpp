@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of docs/config.md are made from the tables of keys: each stands below a line that names its section. The
-// meanings are written on the page. After a change of keys run this program with CROWDFACE_UPDATE_REFERENCE=1.
+// The tables of docs/config.md are made from the tables of keys: each stands below a line that
+// names its section. The meanings are written on the page. After a change of keys run this program
+// with CROWDFACE_UPDATE_REFERENCE=1.
 #include <cstdlib>
 #include <fstream>
 
@@ -22,11 +23,12 @@ std::string table(const std::vector<KeyRow>& rows, const std::string& section,
   std::string text = "| key | value | default | meaning |\n|---|---|---|---|\n";
   for (const KeyRow& row : rows) {
     if (row.section != section) continue;
-    const std::string initial = row.initial.empty()         ? "–"
-                                : row.initial == "required" ? row.initial
-                                                            : concat('`', row.initial, '`');
+    const std::string initial = row.default_value.empty() ? "–"
+                                : row.default_value == "required"
+                                    ? row.default_value
+                                    : concat('`', row.default_value, '`');
     const auto meaning = meanings.find(row.key);
-    text += concat("| `", row.key, "` | ", row.takes, " | ", initial, " | ",
+    text += concat("| `", row.key, "` | ", row.accepted_values, " | ", initial, " | ",
                    meaning == meanings.end() ? "" : meaning->second, " |\n");
   }
   return text;

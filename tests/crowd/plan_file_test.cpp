@@ -25,7 +25,7 @@ FacePlan example() {
       {{PlanePoint(0.1, -1.0 / 3), {{0, 1.0 / 3}, {2, 2.0 / 3}}, 0.45, 9000, 1.1}, {}},
       {{std::nullopt, {{1, 1.0}}, 0, 0, -0.30000000000000004}, {}},
   };
-  face.notes.nearest = Nearest{1, 2.41239, "mob_0003", 1.00004};
+  face.notes.nearest = NearestNeighbours{1, 2.41239, "mob_0003", 1.00004};
   return face;
 }
 
@@ -56,9 +56,9 @@ TEST(PlanFile, ReadsBackToTheBit) {
   // Distances to four decimals, so that pictures made from the plan tell what the plan tells.
   ASSERT_TRUE(line.face.notes.nearest);
   EXPECT_EQ(line.face.notes.nearest->head, 1);
-  EXPECT_EQ(line.face.notes.nearest->head_mm, 2.4124);
-  EXPECT_EQ(line.face.notes.nearest->crowd, "mob_0003");
-  EXPECT_EQ(line.face.notes.nearest->crowd_mm, 1);
+  EXPECT_EQ(line.face.notes.nearest->head_distance_mm, 2.4124);
+  EXPECT_EQ(line.face.notes.nearest->earlier_face, "mob_0003");
+  EXPECT_EQ(line.face.notes.nearest->earlier_face_distance_mm, 1);
   EXPECT_EQ(format_recipe(line.face, kNames, kSettings), format_recipe(face, kNames, kSettings));
 }
 
@@ -155,9 +155,9 @@ const PlanNames kBandNames = {{"ann", "bob", "cyd"}, {"top", "low"}, {"build", "
 FacePlan banded() {
   FacePlan face = example();
   face.parents = {"ann", "bob"};
-  face.inherits = {"mother", "father", "father", "mother"};
-  face.recipe.regions[0].finer = {{PlanePoint(0.5, 0.25), {{1, 1.0}}, 0.1, 2000, 0.8}};
-  face.recipe.regions[1].finer = {{std::nullopt, {{0, 0.5}, {2, 0.5}}, 0, 0, 1}};
+  face.inherited_from = {"mother", "father", "father", "mother"};
+  face.recipe.regions[0].finer_bands = {{PlanePoint(0.5, 0.25), {{1, 1.0}}, 0.1, 2000, 0.8}};
+  face.recipe.regions[1].finer_bands = {{std::nullopt, {{0, 0.5}, {2, 0.5}}, 0, 0, 1}};
   return face;
 }
 
@@ -174,9 +174,9 @@ TEST(PlanFile, BandsAreReadBackToTheBit) {
       << line;
   const FacePlan back = parse_recipe(line, kBandNames, "plan:1").face;
   EXPECT_EQ(format_recipe(back, kBandNames, kSettings), line);
-  ASSERT_EQ(back.recipe.regions[0].finer.size(), 1U);
-  EXPECT_EQ(back.recipe.regions[0].finer[0].iterations, 2000U);
-  EXPECT_EQ(back.inherits, banded().inherits);
+  ASSERT_EQ(back.recipe.regions[0].finer_bands.size(), 1U);
+  EXPECT_EQ(back.recipe.regions[0].finer_bands[0].iterations, 2000U);
+  EXPECT_EQ(back.inherited_from, banded().inherited_from);
 }
 
 TEST(PlanFile, BandsThatCannotBeAreRefusedWithTheirPlace) {

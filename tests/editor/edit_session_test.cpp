@@ -63,8 +63,8 @@ Read read_answer(const std::string& bytes) {
   return read;
 }
 
-/// Four synthetic heads with eyes and teeth, three regions, and an editor of them. Lips are not brought to
-/// their gaps, which the page leaves to the program.
+/// Four synthetic heads with eyes and teeth, three regions, and an editor of them. Lips are not
+/// brought to their gaps, which the page leaves to the program.
 struct Editor {
   /// \param more  sections of the config
   explicit Editor(const std::string& levels, std::size_t preview_vertices = 100'000,
@@ -312,11 +312,11 @@ TEST(EditSession, BandsBeginByRegionAndALockedOneHolds) {
   constexpr std::size_t kSkinOfTop = 1;
   SampleRequest request{editor.face(recipe), {kSkinOfTop}, std::nullopt};
   request.count = 3;
-  const BandRecipe& locked = request.from.recipe.regions[0].finer[0];
+  const BandRecipe& locked = request.from.recipe.regions[0].finer_bands[0];
   for (const FacePlan& face : editor.session->sample_faces(request)) {
     const RegionRecipe& top = face.recipe.regions[0];
-    EXPECT_EQ(top.finer[0].iterations, locked.iterations);
-    EXPECT_EQ(top.finer[0].weights, locked.weights);
+    EXPECT_EQ(top.finer_bands[0].iterations, locked.iterations);
+    EXPECT_EQ(top.finer_bands[0].weights, locked.weights);
     EXPECT_EQ(top.iterations, locked.iterations) << "the build, drawn lower, gives way";
     EXPECT_NE(top.weights, request.from.recipe.regions[0].weights);
   }

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const auto config_file = folder.write("crowd.yaml", plain);
   const std::string text(crowdface::fuzz::text_of(data, size));
   crowdface::ConfigOverrides overrides;
-  overrides.set = {text};
+  overrides.assignments = {text};
   crowdface::Problems problems;
   const auto config = crowdface::read_config(config_file, overrides, problems);
   if (config.has_value() != problems.empty()) std::abort();

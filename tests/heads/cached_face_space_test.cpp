@@ -51,7 +51,8 @@ SampledHeads sampled_heads(std::uint32_t seed, bool mirrored) {
     sampled.alpha(s, 1) = 1 - sampled.alpha(s, 0);
   }
   sampled.mm_per_unit = 10;
-  if (mirrored) sampled.image = std::make_shared<SampledHeads>(sampled_heads(seed + 1, false));
+  if (mirrored)
+    sampled.mirror_images = std::make_shared<SampledHeads>(sampled_heads(seed + 1, false));
   return sampled;
 }
 
@@ -65,14 +66,15 @@ class KeptFaceSpace : public ::testing::TestWithParam<bool> {
   static std::vector<float> places(const FaceSpace& space, std::size_t bands = 2) {
     std::vector<float> all;
     for (std::uint64_t i = 0; i < 20; ++i) {
-      const FaceSpace::Point at = space.point(training_recipe(space.sampled(), bands, i));
+      const FaceSpace::Point at = space.point(training_recipe(space.sampled_heads(), bands, i));
       all.insert(all.end(), at.as_built.data(), at.as_built.data() + at.as_built.size());
-      all.insert(all.end(), at.unit.data(), at.unit.data() + at.unit.size());
+      all.insert(all.end(), at.unextrapolated.data(),
+                 at.unextrapolated.data() + at.unextrapolated.size());
     }
     const FaceSpace::Point one = space.head_point(0), other = space.head_point(1);
     for (Index k = 0; k < 2; ++k) {
       all.push_back(static_cast<float>(
-          space.region_distance(space.in_region(one, k), space.in_region(other, k), k)));
+          space.region_distance(space.region_point(one, k), space.region_point(other, k), k)));
       all.push_back(static_cast<float>(space.region_share(k)));
     }
     return all;
@@ -151,15 +153,15 @@ TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
   const SampledHeads heads = sampled_heads(1, false);
   const std::vector<double> weights(kSamples, 1.0 / kSamples);
   const FaceSpace space(heads, weights);
-  EXPECT_TRUE(FaceSpace::fit(space.tables(), heads));
-  EXPECT_FALSE(FaceSpace::fit(FaceSpaceTables(), heads));
+  EXPECT_TRUE(FaceSpace::tables_fit(space.tables(), heads));
+  EXPECT_FALSE(FaceSpace::tables_fit(FaceSpaceTables(), heads));
   FaceSpaceTables fewer = space.tables();
   fewer.metrics.pop_back();
-  EXPECT_FALSE(FaceSpace::fit(fewer, heads));
+  EXPECT_FALSE(FaceSpace::tables_fit(fewer, heads));
   FaceSpaceTables narrower = space.tables();
   narrower.directions = narrower.directions.leftCols(3).eval();
-  EXPECT_FALSE(FaceSpace::fit(narrower, heads));
-  EXPECT_FALSE(FaceSpace::fit(space.tables(), sampled_heads(1, true)));
+  EXPECT_FALSE(FaceSpace::tables_fit(narrower, heads));
+  EXPECT_FALSE(FaceSpace::tables_fit(space.tables(), sampled_heads(1, true)));
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ TEST(HeadCache, ItsHistoryChangesNoMesh) {
   const SmallCrowdFolder folder(crowd);
   run(folder);
   ConfigOverrides other_order;
-  other_order.set = {
+  other_order.assignments = {
       "faces={files: [heads/dan.obj, heads/bob.obj, heads/ann.obj, heads/cyd.obj], units: cm, "
       "align: none}"};
   const auto made = [&](const fs::path& cache) {

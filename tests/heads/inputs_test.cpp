@@ -141,7 +141,7 @@ TEST(Inputs, SurfacesThatNoFaceIsMadeOfAreTold) {
   const SmallCrowdFolder folder(crowd);
   const auto warnings_of = [&](const std::string& name) {
     ConfigOverrides overrides;
-    overrides.set = {concat("output.surfaces={", name, ": eye}")};
+    overrides.assignments = {concat("output.surfaces={", name, ": eye}")};
     return join(load_job(folder.config(), overrides).inputs.warnings);
   };
   const std::string known = load_job(folder.config(), {}).inputs.materials.names.back();
@@ -216,15 +216,16 @@ TEST(Inputs, AHeadThatIsTurnedAgainstTheOthersIsRefusedWithTheKeyToSet) {
   });
   ConfigOverrides overrides;
   for (const char* taken : {"faces.align=none", "faces.align=rigid"}) {
-    overrides.set = {taken};
+    overrides.assignments = {taken};
     EXPECT_NO_THROW(load_job(folder.config(), overrides));
   }
-  overrides.set = {"faces.align=check"};
+  overrides.assignments = {"faces.align=check"};
   testing::expect_error(ExitCode::kBadData, {"head cyd is turned by", "align: rigid"},
                         [&] { load_job(folder.config(), overrides); });
 }
 
-/// As Blender writes what it has read: `vt` and `vn` lines numbered anew, one that no face uses left out.
+/// As Blender writes what it has read: `vt` and `vn` lines numbered anew, one that no face uses
+/// left out.
 TEST(Inputs, RenumberedTextureCoordinatesAndNormalsAreTaken) {
   const SmallCrowdFolder folder{SmallCrowd{}};
   const auto plain = load_job(folder.config(), {}).inputs;
@@ -371,7 +372,7 @@ TEST(Inputs, SettingsHashTellsWhatMeshesDependOn) {
   const SmallCrowdFolder folder(crowd);
   const auto settings = [&](const std::vector<std::string>& set) {
     ConfigOverrides overrides;
-    overrides.set = set;
+    overrides.assignments = set;
     return load_job(folder.config(), overrides).settings.hex();
   };
   const std::string plain = settings({});

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint32_t kColumns = 40, kRows = 30;
 
-/// A flat sheet, one unit a quad, with a hole; its texture is torn along a column, where the right part
-/// lies five units higher.
+/// A flat sheet, one unit a quad, with a hole; its texture is torn along a column, where the right
+/// part lies five units higher.
 HeadSet sheet() {
   const auto in_hole = [](std::uint32_t x, std::uint32_t y) {
     return x >= 5 && x < 12 && y >= 8 && y < 14;
@@ -147,7 +147,7 @@ TEST(LevelError, IsNotBelowTheDistanceToTheSurfaceNorFarAbove) {
   double before = 0;
   for (const DetailLevel& level : detail_levels(set, looks, shares)) {
     const LevelMap map =
-        map_to_level(set.topology, build_adjacency(set.topology), level, mean_head(set));
+        find_level_triangles(set.topology, build_adjacency(set.topology), level, mean_head(set));
     ASSERT_EQ(map.vertices.size() + level.vertices.size(),
               static_cast<std::size_t>(set.topology.vertex_count));
     double most = 0, squares = 0;

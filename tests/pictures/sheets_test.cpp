@@ -37,7 +37,7 @@ std::vector<FacePlan> three_faces() {
   crowd[1].id = "mob_jones_01";
   crowd[1].family = "jones";
   crowd[2].id = "mob_0001";
-  crowd[2].notes.nearest = Nearest{1, 2.345, std::nullopt, 0};
+  crowd[2].notes.nearest = NearestNeighbours{1, 2.345, std::nullopt, 0};
   return crowd;
 }
 
@@ -72,29 +72,30 @@ TEST(SheetLabel, HasALineForEachThingAskedFor) {
             "female, old\nbob, round");
 }
 
-// With bands a child has more parts than there are regions: names beyond the last region's were read.
+// With bands a child has more parts than there are regions: names beyond the last region's were
+// read.
 TEST(InheritanceLabel, TellsRegionsAndWhereParentsShareOneItsBands) {
   FacePlan child;
   child.id = "mob_smith_03";
   child.mother_share = 0.4;
-  child.inherits = {"mother", "father"};
+  child.inherited_from = {"mother", "father"};
   EXPECT_EQ(inheritance_label(child, {{"ann"}, {"top", "bottom"}, {}}),
             "mob_smith_03\nform 40 % mother\nmother: top\nfather: bottom");
-  child.inherits = {"mother", "father", "father", "father"};
+  child.inherited_from = {"mother", "father", "father", "father"};
   const PlanNames banded{{"ann"}, {"top", "bottom"}, {"build", "skin"}};
   EXPECT_EQ(inheritance_label(child, banded),
             "mob_smith_03\nform 40 % mother\nmother: top/build\nfather: top/skin, bottom");
-  child.inherits.pop_back();
+  child.inherited_from.pop_back();
   EXPECT_THROW(inheritance_label(child, banded), BrokenPrecondition);
 }
 
 // A plan holds four decimals: sheets made anew from it said 32.31 where the run had said 32.32.
 TEST(SheetLabel, SaysTheSameOfARunAndOfItsPlan) {
   std::vector<FacePlan> crowd = three_faces();
-  crowd[2].notes.nearest->head_mm = 32.31499996;
+  crowd[2].notes.nearest->head_distance_mm = 32.31499996;
   const std::string of_run =
       sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(), {"ann", "bob"}, {});
-  crowd[2].notes.nearest->head_mm = 32.315;
+  crowd[2].notes.nearest->head_distance_mm = 32.315;
   EXPECT_EQ(of_run, sheet_label({SheetLabel::kNearestHead}, crowd, 2, three_likeness(),
                                 {"ann", "bob"}, {}));
 }
@@ -110,7 +111,7 @@ TEST(LikenessFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.anchors[1], likeness.anchors[1]);
   EXPECT_EQ(read.likeness.order, likeness.likeness.order);
   EXPECT_EQ(read.likeness.neighbours[2][1].face, 1U);
-  EXPECT_EQ(read.likeness.neighbours[2][1].mm, 4);
+  EXPECT_EQ(read.likeness.neighbours[2][1].distance_mm, 4);
   testing::expect_error(ExitCode::kBadData, {"likeness.json"}, [&] {
     read_likeness(path, names, {"a", "b", "d"});
   });
@@ -182,7 +183,7 @@ TEST(Sheets, PagesThatAreTooLargeAreRefusedWithTheConfig) {
   const auto load = [&](const std::string& sheet) {
     Problems problems;
     ConfigOverrides overrides;
-    overrides.set = {"output.contact_sheet=" + sheet};
+    overrides.assignments = {"output.contact_sheet=" + sheet};
     load_job(folder.config(), overrides, {}, problems);
     return problems.messages();
   };

@@ -68,7 +68,7 @@ TEST(PointInPolygon, IsUniformByArea) {
   double mean_y = 0;
   for (std::uint64_t i = 0; i < 20000; ++i) {
     const auto [pick, a] = random_pair({1, i, "test", 0});
-    const PlanePoint p = point_in_polygon(trapezium, pick, a, random_unit({1, i, "b", 0}));
+    const PlanePoint p = sample_polygon(trapezium, pick, a, random_unit({1, i, "b", 0}));
     ASSERT_GE(p.y(), 0);
     ASSERT_LE(p.y(), 1);
     ASSERT_GE(p.x(), 0);
@@ -82,8 +82,8 @@ TEST(PointInPolygon, IsUniformByArea) {
 }
 
 TEST(PointInPolygon, TakesPointsAndSegments) {
-  EXPECT_EQ(point_in_polygon({{3, 4}}, 0.3, 0.4, 0.5), PlanePoint(3, 4));
-  EXPECT_EQ(point_in_polygon({{0, 0}, {2, 4}}, 0.9, 0.25, 0.5), PlanePoint(0.5, 1));
+  EXPECT_EQ(sample_polygon({{3, 4}}, 0.3, 0.4, 0.5), PlanePoint(3, 4));
+  EXPECT_EQ(sample_polygon({{0, 0}, {2, 4}}, 0.9, 0.25, 0.5), PlanePoint(0.5, 1));
 }
 
 }  // namespace

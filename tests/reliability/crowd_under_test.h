@@ -21,7 +21,8 @@
 
 namespace crowdface::testing {
 
-/// How often a random test is done: the first number in the test suite, the second in scripts/soak.sh.
+/// How often a random test is done: the first number in the test suite, the second in
+/// scripts/soak.sh.
 inline int times(int in_suite, int in_soak) {
   return std::getenv("CROWDFACE_SOAK") != nullptr ? in_soak : in_suite;
 }
@@ -33,7 +34,8 @@ class DisturbedCrowd : public ::testing::Test {
   DisturbedCrowd() : DisturbedCrowd(small()) {}
   explicit DisturbedCrowd(const SmallCrowd& crowd, std::vector<std::string> set = {})
       : folder_(crowd), set_(std::move(set)) {
-    // The library behind images takes most of a child's time to load: it is there before the first of them.
+    // The library behind images takes most of a child's time to load: it is there before the first
+    // of them.
     encode_png(1, 1, 1, std::vector<std::uint8_t>(1));
     undisturbed_ = run({});
     EXPECT_EQ(undisturbed_.code, 0) << undisturbed_.message;
@@ -56,7 +58,7 @@ class DisturbedCrowd : public ::testing::Test {
     const ThreadLimit limit(2);
     if (fault_signals_) catch_interrupts();
     ConfigOverrides overrides;
-    overrides.set = set_;
+    overrides.assignments = set_;
     generate(folder_.config(), overrides, {folder_.cache(), Replace::kRefuse, false});
   }
 

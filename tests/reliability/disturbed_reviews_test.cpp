@@ -107,10 +107,11 @@ class ReviewedCrowd {
     return run_with_fault(out, fault, [&] {
       const ThreadLimit limit(2);
       ConfigOverrides overrides;
-      overrides.set = {concat("output.meshes=", formats_),
-                       concat("diversity.min_distance=", format_fixed(min_distance_mm_, 4), " mm")};
-      if (!changes_.empty()) overrides.set.push_back(concat("changes=", changes_));
-      overrides.set.insert(overrides.set.end(), set.begin(), set.end());
+      overrides.assignments = {
+          concat("output.meshes=", formats_),
+          concat("diversity.min_distance=", format_fixed(min_distance_mm_, 4), " mm")};
+      if (!changes_.empty()) overrides.assignments.push_back(concat("changes=", changes_));
+      overrides.assignments.insert(overrides.assignments.end(), set.begin(), set.end());
       overrides.count = std::to_string(count_);
       overrides.out = out.string();
       overrides.review = given;

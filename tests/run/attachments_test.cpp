@@ -289,8 +289,8 @@ TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
   EXPECT_FALSE(fs::exists(mesh("herself+cap.obj")));
 }
 
-// They were carried by unrounded positions, so that pictures made from meshes were others; and their movement under
-// shapes was lost.
+// They were carried by unrounded positions, so that pictures made from meshes were others; and
+// their movement under shapes was lost.
 TEST_F(AttachmentsOfACrowd, LookTheSameInPicturesMadeFromMeshes) {
   for (const std::string_view file : kGalleryPageFiles) {
     folder_.folder().write(concat("page/", file), "a page");
@@ -368,7 +368,7 @@ TEST_F(AttachmentsOfACrowd, HaveTheHairColourOfEachFace) {
     const std::string id = line.at("id");
     const auto& hair = line.at("hair");
     const HairColour colour{hair.at("eumelanin"), hair.at("pheomelanin"), hair.at("grey")};
-    const std::string label = label_of(colour);
+    const std::string label = colour_label(colour);
     labels.insert(label);
     const std::string folder = concat("attachments/cap/", label, '/');
     EXPECT_THAT(read_file(mesh(id + "+cap.obj")),
@@ -382,7 +382,7 @@ TEST_F(AttachmentsOfACrowd, HaveTheHairColourOfEachFace) {
         scene.at("materials").back().at("pbrMetallicRoughness").at("baseColorFactor");
     EXPECT_NEAR(factor.at(0).get<double>(), factors[0], 1e-4) << id;
     for (int c = 0; c < 3; ++c) {
-      const float light = kNeutralLight * factors[static_cast<std::size_t>(c)];
+      const float light = kNeutralTextureMean * factors[static_cast<std::size_t>(c)];
       const float srgb =
           light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1 / 2.4F) - 0.055F;
       EXPECT_NEAR(image.at(0, 0, c), srgb, 0.01) << id;

@@ -253,7 +253,7 @@ TEST(CastingOptions, AskingForDistanceLowersNothing) {
   const SmallCrowdFolder folder(crowd);
   const auto closest = [&](const std::vector<std::string>& set) {
     ConfigOverrides overrides;
-    overrides.set = set;
+    overrides.assignments = set;
     plan(folder.config(), overrides, {folder.cache(), Replace::kForce, false});
     return testing::read_json(folder.out() / "casting.json")
         .at("distances")

@@ -64,7 +64,7 @@ class Changes : public ::testing::Test {
   }
   ConfigOverrides with(const std::string& changes) const {
     ConfigOverrides overrides;
-    if (!changes.empty()) overrides.set.push_back(concat("changes=", changes));
+    if (!changes.empty()) overrides.assignments.push_back(concat("changes=", changes));
     return overrides;
   }
   void run(const std::string& changes, const std::string& count = {}) const {
@@ -207,7 +207,7 @@ TEST_F(Changes, MakeAVariantWithTheChangedHair) {
 TEST_F(Changes, AreAvoidedByFacesThatAreCastLater) {
   constexpr double kLeast = 0.6;
   ConfigOverrides overrides;
-  overrides.set.push_back(concat("diversity.min_distance=", kLeast, " mm"));
+  overrides.assignments.push_back(concat("diversity.min_distance=", kLeast, " mm"));
   testing::run(folder_, overrides, Replace::kForce);
   overrides.review = {folder_.folder()
                           .write("a.yaml",
@@ -455,7 +455,7 @@ TEST_F(Changes, ThatAreWrongAreRefused) {
 
 TEST_F(Changes, ThatCannotBeDrawnNameTheFace) {
   ConfigOverrides overrides = with("{mob_0005: {group: elderly}}");  // a group of one head
-  overrides.set.emplace_back("diversity.min_distance_to_faces=0.01 mm");
+  overrides.assignments.emplace_back("diversity.min_distance_to_faces=0.01 mm");
   testing::expect_error(ExitCode::kUnsatisfiable,
                         {"mob_0005 cannot be changed: ", "min_distance_to_faces"},
                         [&] { testing::run_to(folder_, "none", overrides); });

@@ -94,7 +94,7 @@ TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
   const Folder with("auto"), without("none");
   const Job& job = *with.job;
   const FaceBuilder builder(job.config, job.inputs, *with.prepared);
-  const MeshDefects defects = mesh_defects(job.config, job.inputs, builder);
+  const FindMeshDefects defects = mesh_defects(job.config, job.inputs, builder);
   const auto mirror = required_mirror_map(job.config, job.inputs, "a test");
   for (const double asymmetry : {1.0, 1.5}) {
     Recipe plain = recipe(0, 1, 60, 1.3);
@@ -106,7 +106,7 @@ TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
     EXPECT_TRUE(mirrored(*mirror, face) == with.build(image));
     const SkinDefects of_plain = defects(plain), of_image = defects(image);
     constexpr double kRounding = 1e-6;
-    EXPECT_NEAR(of_plain.wider_mm, of_image.wider_mm, kRounding);
+    EXPECT_NEAR(of_plain.gap_excess_mm, of_image.gap_excess_mm, kRounding);
     EXPECT_NEAR(of_plain.local.stretch, of_image.local.stretch, kRounding);
     EXPECT_EQ(of_plain.intersecting, of_image.intersecting);
     EXPECT_NEAR(of_plain.exposed_mm2, of_image.exposed_mm2, kRounding);

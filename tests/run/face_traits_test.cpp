@@ -169,7 +169,7 @@ TEST(FaceTraits, EveryFaceMeetsTheLimitsOfItsCrowdGroupRecipeOrFamily) {
   const std::vector<FacePlan> faces = folder.plan_of(20, config);
   const Job job = load_job(folder / "config.yaml", {}, folder / "cache");
   const HeadLandmarks landmarks = find_head_landmarks(job.config, job.inputs);
-  const TraitSpread spread = measure_heads(job.config, job.inputs, landmarks);
+  const TraitDistributions spread = measure_heads(job.config, job.inputs, landmarks);
   const auto quantile = [&](const char* name, double share) {
     return spread.quantile(*find_measurement(name), share);
   };
@@ -240,7 +240,7 @@ TEST(FaceTraits, SpreadCrowdsMeetTheLimitsToo) {
   const std::vector<FacePlan> faces =
       folder.plan_of(8, "diversity: {mode: spread}\ntraits: {nose_width: {at_least: 60 %}}\n");
   const Job job = load_job(folder / "config.yaml", {}, folder / "cache");
-  const TraitSpread spread =
+  const TraitDistributions spread =
       measure_heads(job.config, job.inputs, find_head_landmarks(job.config, job.inputs));
   ASSERT_EQ(faces.size(), 8U);
   for (const FacePlan& face : faces) {
@@ -285,7 +285,7 @@ TEST(FaceTraits, ALandmarkFileGivesWhatTheHeadsDoNotShow) {
 TEST(FaceTraits, APopulationHasTheAskedDistributions) {
   TraitFolder folder(10);
   const Job job = load_job(folder.write_config(1, ""), {});
-  const TraitSpread spread =
+  const TraitDistributions spread =
       measure_heads(job.config, job.inputs, find_head_landmarks(job.config, job.inputs));
   std::string census;
   std::vector<TraitTarget> targets;
@@ -301,7 +301,7 @@ TEST(FaceTraits, APopulationHasTheAskedDistributions) {
     const std::string name(measurements()[target.trait].name);
     std::vector<double> values;
     for (const FacePlan& face : faces) values.push_back(value_of(face, names, name));
-    const double difference = largest_difference(target, values);
+    const double difference = kolmogorov_smirnov_distance(target, values);
     RecordProperty(name, concat(difference));
     EXPECT_LT(difference, 0.08) << name;
   }

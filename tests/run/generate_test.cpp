@@ -67,7 +67,7 @@ TEST(Generate, MeshesNameTheMaterialFileThatWasFoundForAPathOfAnotherMachine) {
     folder.folder().write(concat("heads/", head.path().filename().string()), text);
   }
   ConfigOverrides overrides;
-  overrides.set = {"output.lods=[40 %]"};
+  overrides.assignments = {"output.lods=[40 %]"};
   generate(folder.config(), overrides, GenerateOptions{folder.cache(), Replace::kRefuse, false});
   const auto files = crowd_files(folder.out());
   for (const char* name : {"meshes/mob_0001.obj", "meshes/mob_0002+LOD1.obj"}) {

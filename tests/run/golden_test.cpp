@@ -95,7 +95,7 @@ class GoldenCrowd : public ::testing::TestWithParam<Golden> {
     GenerateOptions options{folder_.cache(), Replace::kRefuse, false};
     options.shard = shard;
     ConfigOverrides overrides;
-    overrides.set = {kFormats};
+    overrides.assignments = {kFormats};
     generate(folder_.config(), overrides, options);
     use_instruction_set(instruction_sets().front());
     return hashes_of(folder_.out());

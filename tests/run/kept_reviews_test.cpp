@@ -62,7 +62,7 @@ class KeptReviews : public ::testing::Test {
   void review(const std::string& name, const std::string& faces,
               const std::vector<std::string>& set = {}) const {
     ConfigOverrides overrides = with_review(name, faces);
-    overrides.set = set;
+    overrides.assignments = set;
     run(folder_, overrides);
   }
   fs::path out(const std::string& name) const { return folder_.out() / name; }
@@ -145,8 +145,8 @@ bool is_about_the_run(const std::string& name) {
          name.starts_with("sheets/") || name.starts_with("gallery/data/");
 }
 
-// Of each kind of keys: the finished crowd gets the files of a run from nothing, its plan stays, and
-// every file that the key does not concern keeps its bytes. Without the key, all is as before.
+// Of each kind of keys: the finished crowd gets the files of a run from nothing, its plan stays,
+// and every file that the key does not concern keeps its bytes. Without the key, all is as before.
 TEST_F(KeptReviews, EachKindOfKeysThatDecideNothingMayChange) {
   const testing::TemporaryFolder& files = folder_.folder();
   const std::string triangle = "v 0 0 1\nv 1 0 1\nv 0 1 1.5\nf 1 2 3\n";
@@ -374,12 +374,12 @@ TEST(PlannedCrowd, IsUsedByShardsWithOtherFormats) {
   GenerateOptions options{folder.cache(), Replace::kRefuse, false};
   plan(folder.config(), {}, options);
   ConfigOverrides overrides;
-  overrides.set = {"output.meshes=[ply]", "output.contact_sheet=none"};
+  overrides.assignments = {"output.meshes=[ply]", "output.contact_sheet=none"};
   options.plan_from = PlanFrom::kFolder;
   options.shard = Shard{1, 2};
   generate(folder.config(), overrides, options);
   EXPECT_TRUE(fs::exists(folder.out() / "meshes/mob_0001.ply"));
-  overrides.set.emplace_back("changes={mob_0001: {variant_of: mob_0002}}");
+  overrides.assignments.emplace_back("changes={mob_0001: {variant_of: mob_0002}}");
   testing::expect_error(ExitCode::kMissingInput, {"planned.json"},
                         [&] { generate(folder.config(), overrides, options); });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts skin that passes through skin in a crowd's faces and in their shapes: what docs/shapes.md tabulates.
+// Counts skin that passes through skin in a crowd's faces and in their shapes: what docs/shapes.md
+// tabulates.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -38,7 +39,7 @@ class Crossings {
         vertex_count_(inputs.faces.topology.vertex_count) {}
 
   std::vector<TrianglePair> of(const Positions& positions) const {
-    return intersecting(triangles_, positions, near_pairs(triangles_, positions, 0));
+    return intersecting_pairs(triangles_, positions, near_pairs(triangles_, positions, 0));
   }
   /// Triangles that pass through others in `mesh` and are none of those of the others.
   Index beyond(const std::vector<TrianglePair>& of_template,
@@ -134,7 +135,8 @@ struct LipFigures {
   }
 };
 
-/// How much more or less a shape stretches edges of a face than the template's, as natural logarithms.
+/// How much more or less a shape stretches edges of a face than the template's, as natural
+/// logarithms.
 void add_stretch(const std::vector<Triangle>& skin, const Positions& neutral, const Positions& face,
                  const Displacements& of_template, const Displacements& moves,
                  std::vector<double>& stretch) {

@@ -142,8 +142,8 @@ TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
   for (const char* id : {"a", "b", "c", "d", "e", "f", "g"}) EXPECT_LT(left("out", id), 0.5) << id;
   const auto before = testing::plan_lines(folder_ / "plain"), after = testing::plan_lines(out);
   ASSERT_EQ(before.size(), after.size());
-  std::vector<double> areas = face_areas(job.inputs.faces.topology, job.inputs.skin,
-                                         job.inputs.mean, FaceArea::kFront, {2, 1});
+  std::vector<double> areas = face_vertex_areas(job.inputs.faces.topology, job.inputs.skin,
+                                                job.inputs.mean, FaceArea::kFront, {2, 1});
   for (const std::uint32_t v : job.inputs.neck->seam.neck.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   bool any_asymmetric = false;

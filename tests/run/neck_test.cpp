@@ -61,8 +61,8 @@ TEST_F(Neck, TheCrowdIsTheSame) {
   const std::string more = concat(kThreeRecipes, kVaried);
   const auto plain = run("", more, "", "plain"), fitted = run("{body: body.obj}", more);
   const Job job = load_job(folder_ / "out.yaml", {});
-  std::vector<double> areas = face_areas(job.inputs.faces.topology, job.inputs.skin,
-                                         job.inputs.mean, FaceArea::kFront, {2, 1});
+  std::vector<double> areas = face_vertex_areas(job.inputs.faces.topology, job.inputs.skin,
+                                                job.inputs.mean, FaceArea::kFront, {2, 1});
   for (const std::uint32_t v : job.inputs.neck->seam.neck.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   const auto before = testing::plan_lines(plain), after = testing::plan_lines(fitted);

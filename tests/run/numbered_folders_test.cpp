@@ -48,9 +48,9 @@ class NumberedFolders : public ::testing::Test {
   }
   static ConfigOverrides overrides(std::vector<std::string> set, const fs::path& out) {
     ConfigOverrides overrides;
-    overrides.set = std::move(set);
-    overrides.set.emplace_back("output.meshes=[obj, glb, points, usd]");
-    overrides.set.emplace_back("output.lods=[40 %]");
+    overrides.assignments = std::move(set);
+    overrides.assignments.emplace_back("output.meshes=[obj, glb, points, usd]");
+    overrides.assignments.emplace_back("output.lods=[40 %]");
     overrides.out = out.string();
     return overrides;
   }

@@ -189,7 +189,7 @@ TEST_F(RealHeads, NoMeshGoesBeyondALimitWhereMeshesAreJudged) {
                             "output: {directory: out, meshes: [points], contact_sheet: none}\n"));
   const auto beyond = [&](const std::string& meshes) {
     ConfigOverrides overrides;
-    overrides.set = {"believability.meshes=" + meshes};
+    overrides.assignments = {"believability.meshes=" + meshes};
     generate(config, overrides, {folder / "cache", Replace::kForce, false});
     int count = 0;
     const auto report = testing::read_json(folder / "out/report.json");

@@ -51,7 +51,7 @@ class Resume : public ::testing::Test {
   }
   static ConfigOverrides overrides() {
     ConfigOverrides all_formats;
-    all_formats.set = {"output.meshes=[obj, glb, points]", "output.lods=[40 %]"};
+    all_formats.assignments = {"output.meshes=[obj, glb, points]", "output.lods=[40 %]"};
     return all_formats;
   }
   /// Alters a head's file and casts the crowd anew: what is there was made from another.

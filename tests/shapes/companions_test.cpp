@@ -21,7 +21,8 @@ using testing::slotted_roller;
 
 constexpr double kGap = 0.1, kOpen = 1, kRollerExtent = 13;
 
-/// Three rollers with a slot whose lower wall `jawOpen` takes down; `mouthClose` brings both together.
+/// Three rollers with a slot whose lower wall `jawOpen` takes down; `mouthClose` brings both
+/// together.
 class CompanionsTest : public ::testing::Test {
  protected:
   CompanionsTest() {
@@ -61,7 +62,7 @@ class CompanionsTest : public ::testing::Test {
     one.add_to(mesh);
     other.add_to(mesh);
     const std::vector<Triangle> triangles = triangles_of(faces_.topology);
-    return intersecting(triangles, mesh, near_pairs(triangles, mesh, 0)).size();
+    return intersecting_pairs(triangles, mesh, near_pairs(triangles, mesh, 0)).size();
   }
 
   HeadSet faces_;

@@ -80,8 +80,8 @@ TEST(ShapeTransfer, HasTheSameBitsForAnyNumberOfThreads) {
   for (std::size_t s = 0; s < one.size(); ++s) EXPECT_EQ(one[s].moves, many[s].moves);
 }
 
-/// By how much the gaps between the rims of an eye's lids differ at most from the template's, over all
-/// heads.
+/// By how much the gaps between the rims of an eye's lids differ at most from the template's, over
+/// all heads.
 struct GapsOff {
   double carried = 0, unchanged = 0;
 };
@@ -193,8 +193,8 @@ TEST(ShapeTransfer, LipsThatAreLeftClosedStayClosedOnHeadsOfTheIctModel) {
   EXPECT_LT(carried, 0.02);
 }
 
-/// Triangles of the skin that pass through others in each head's shapes, and neither on the template in that shape
-/// nor in the head at rest.
+/// Triangles of the skin that pass through others in each head's shapes, and neither on the
+/// template in that shape nor in the head at rest.
 struct NewCrossings {
   Index carried = 0, unchanged = 0;
 };
@@ -203,7 +203,7 @@ NewCrossings new_crossings(const Heads& heads, const ShapeSet& set) {
   const std::vector<Triangle> triangles =
       triangles_of(heads.faces.topology, heads.components, heads.components.largest());
   const auto crossing = [&](const Positions& mesh) {
-    return intersecting(triangles, mesh, near_pairs(triangles, mesh, 0));
+    return intersecting_pairs(triangles, mesh, near_pairs(triangles, mesh, 0));
   };
   const auto in_shape = [](const Positions& mesh, const Displacements& moves) {
     Positions moved = mesh;

@@ -77,7 +77,7 @@ class SkinCrossingsTest : public ::testing::Test {
     Positions mesh = face;
     shape.add_to(mesh);
     const std::vector<Triangle> triangles = triangles_of(topology_);
-    return intersecting(triangles, mesh, near_pairs(triangles, mesh, 0)).size();
+    return intersecting_pairs(triangles, mesh, near_pairs(triangles, mesh, 0)).size();
   }
   Displacements mended(const Positions& face, const Displacements& shape,
                        const SkinCrossings::Watched& watched) const {

@@ -291,7 +291,7 @@ Points blend(const Heads& heads, const std::map<std::string, Cubics>& cubics,
   });
 }
 
-std::map<std::string, double> weights_at(
+std::map<std::string, double> weights_at_position(
     const std::vector<std::pair<std::string, std::array<double, 2>>>& anchors,
     const std::string& target, const std::vector<std::string>& sources, std::array<double, 2> m,
     bool printed, std::optional<std::size_t> most) {

@@ -77,7 +77,7 @@ Points blend(const Heads& heads, const std::map<std::string, Cubics>& cubics,
 
 /// Eqs. 3 and 4: weights of a position by name. `sources` lend detail; with `printed` the target's
 /// weight is only counted, else it takes part. `most` of the largest beside it are kept.
-std::map<std::string, double> weights_at(
+std::map<std::string, double> weights_at_position(
     const std::vector<std::pair<std::string, std::array<double, 2>>>& anchors,
     const std::string& target, const std::vector<std::string>& sources, std::array<double, 2> m,
     bool printed, std::optional<std::size_t> most);

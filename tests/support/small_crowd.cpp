@@ -152,9 +152,9 @@ void expect_weights_match_positions(const SmallCrowdFolder& folder,
   for (const auto& line : plan_lines(out)) {
     for (const auto& [region, values] : line.at("regions").items()) {
       if (values.at("position").is_null()) continue;
-      const auto expected =
-          reference::weights_at(anchors, line.at("target").get<std::string>(), folder.names(),
-                                values.at("position").get<std::array<double, 2>>(), printed, 3);
+      const auto expected = reference::weights_at_position(
+          anchors, line.at("target").get<std::string>(), folder.names(),
+          values.at("position").get<std::array<double, 2>>(), printed, 3);
       const auto found = values.at("weights").get<std::map<std::string, double>>();
       ASSERT_EQ(found.size(), expected.size()) << line.dump();
       for (const auto& [name, weight] : expected) {

@@ -66,10 +66,10 @@ TEST(Intersections, AreThoseOfTryingAllPairs) {
   const Positions crossing = sheet.lie(bent);
   const auto expected = by_trying_all(sheet.triangles, crossing);
   EXPECT_GT(expected.size(), 20U);
-  EXPECT_EQ(intersecting(sheet.triangles, crossing, near_pairs(sheet.triangles, crossing, 0)),
+  EXPECT_EQ(intersecting_pairs(sheet.triangles, crossing, near_pairs(sheet.triangles, crossing, 0)),
             expected);
-  EXPECT_TRUE(intersecting(sheet.triangles, sheet.lie(flat),
-                           near_pairs(sheet.triangles, sheet.lie(flat), 0))
+  EXPECT_TRUE(intersecting_pairs(sheet.triangles, sheet.lie(flat),
+                                 near_pairs(sheet.triangles, sheet.lie(flat), 0))
                   .empty());
 }
 
@@ -126,13 +126,13 @@ TEST(TriangleScene, PairsAreTheSameWhateverTheTreeWasMadeOf) {
     }
   }
   ASSERT_GT(expected.size(), 2000U);
-  const auto crossing = intersecting(sheet.triangles, positions, expected);
+  const auto crossing = intersecting_pairs(sheet.triangles, positions, expected);
   ASSERT_GT(crossing.size(), 20U);
   for (const auto& place : {flat, domed, bent}) {
     const TriangleTree tree(sheet.triangles, sheet.lie(place));
     const TriangleScene scene(sheet.triangles, tree, positions, 0.37);
     EXPECT_EQ(scene.near_pairs(), expected);
-    EXPECT_EQ(scene.crossing_pairs(), crossing);
+    EXPECT_EQ(scene.intersecting_pairs(), crossing);
   }
 }
 
@@ -205,7 +205,7 @@ TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
                     [&](const Triangle& triangle) { return crosses(origin, direction, triangle); });
     const std::array guesses = {kNoIndex, static_cast<std::uint32_t>(i % tree.order.size())};
     for (const std::uint32_t guess : guesses) {
-      const std::uint32_t other = scene.intersected_by(origin, direction, kNoIndex, guess);
+      const std::uint32_t other = scene.find_any_hit(origin, direction, kNoIndex, guess);
       EXPECT_EQ(other != kNoIndex, expected) << i;
       EXPECT_TRUE(other == kNoIndex ||
                   crosses(origin, direction, sheet.triangles[tree.order[other]]));
@@ -216,7 +216,7 @@ TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {
   EXPECT_LT(met, 250);
   const Eigen::Vector3d up(0, 0, 1);
   const Eigen::Vector3d below(3.3, 7.4, -1);
-  EXPECT_NE(scene.intersected_by(below, up, kNoIndex, kNoIndex), kNoIndex);
+  EXPECT_NE(scene.find_any_hit(below, up, kNoIndex, kNoIndex), kNoIndex);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST_F(LeafBoxesTest, HoldTheirTrianglesWithTheMargin) {
         EXPECT_NEAR(boxes.high[c][t], high + margin, 1e-5);
       }
     }
-    const Box whole = boxes.whole();
+    const Box whole = boxes.bounding_box();
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_EQ(whole.low[c], *std::ranges::min_element(boxes.low[c]));
       EXPECT_EQ(whole.high[c], *std::ranges::max_element(boxes.high[c]));

@@ -7,8 +7,8 @@
 namespace crowdface {
 namespace {
 
-const Positions& positions_of(const HeadSet& faces, Index head) {
-  return faces.heads[static_cast<std::size_t>(head)].positions;
+const Positions& positions_of(const HeadSet& heads, Index head) {
+  return heads.heads[static_cast<std::size_t>(head)].positions;
 }
 
 /// One band of one region.
@@ -30,7 +30,7 @@ std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
 
 /// The differences G_kb of level_shares for all bands of all regions, side by side: #V by 3·#bands.
 /// With one band per region, they are D_k = B − e_k Σ_i ω̂_ki C_i.
-Columns band_differences(const HeadSet& faces, const std::vector<SmoothedBand>& bands,
+Columns band_differences(const HeadSet& heads, const std::vector<SmoothedBand>& bands,
                          const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));
   parallel_blocks(target.rows(), kRowsPerTask, [&](Index begin, Index end) {
@@ -41,7 +41,7 @@ Columns band_differences(const HeadSet& faces, const std::vector<SmoothedBand>& 
       Positions mean = Positions::Zero(end - begin, 3);
       for (const SourceWeight& source : band.weights) {
         mean +=
-            source.weight * positions_of(faces, source.head).middleRows(begin, end - begin);  // C̄_k
+            source.weight * positions_of(heads, source.head).middleRows(begin, end - begin);  // C̄_k
       }
       mean *= band.extrapolation;
       difference.block(begin, 3 * static_cast<Index>(i), end - begin, 3) = coarser - mean;
@@ -53,22 +53,22 @@ Columns band_differences(const HeadSet& faces, const std::vector<SmoothedBand>& 
 
 }  // namespace
 
-Positions target_positions(const HeadSet& faces, const Recipe& recipe) {
+Positions target_positions(const HeadSet& heads, const Recipe& recipe) {
   return target_matrix<Positions>(
-      recipe, [&](Index head) -> const Positions& { return positions_of(faces, head); });
+      recipe, [&](Index head) -> const Positions& { return positions_of(heads, head); });
 }
 
-void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
+void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results) {
   std::vector<std::vector<SmoothedBand>> bands;
   std::vector<Columns> differences;
   std::vector<FilterInput<double>> inputs;
   for (std::size_t f = 0; f < recipes.size(); ++f) {
     const Recipe* recipe = recipes[f];
-    require_fit(faces, regions, *recipe);
-    results[f] = target_positions(faces, *recipe);
+    require_recipe_fits(heads, regions, *recipe);
+    results[f] = target_positions(heads, *recipe);
     bands.push_back(bands_of(*recipe));
-    differences.push_back(band_differences(faces, bands.back(), results[f]));
+    differences.push_back(band_differences(heads, bands.back(), results[f]));
     for (std::size_t b = 0; b < bands[f].size(); ++b) {
       inputs.push_back({filter.rows_of<double>(differences.back(), static_cast<Index>(b)),
                         {power_series(filter.kind(), bands[f][b].band->iterations)}});
@@ -94,11 +94,11 @@ void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const Regi
   }
 }
 
-Positions blend_exact(const HeadSet& faces, const ChebyshevFilter& filter,
+Positions blend_exact(const HeadSet& heads, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe) {
   const Recipe* one = &recipe;
   Positions result;
-  blend_exact(faces, filter, regions, std::span(&one, 1), std::span(&result, 1));
+  blend_exact(heads, filter, regions, std::span(&one, 1), std::span(&result, 1));
   return result;
 }
 

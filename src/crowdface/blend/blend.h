@@ -11,7 +11,7 @@
 namespace crowdface {
 
 /// Returns B, #V by 3: the positions of the target, or the weighted mean of the heads of a mixture.
-Positions target_positions(const HeadSet& faces, const Recipe& recipe);
+Positions target_positions(const HeadSet& heads, const Recipe& recipe);
 
 /// Blends the face of a recipe with exact levels, before mirroring (Eq. 7 in the form below;
 /// level_shares generalises it to several bands). Applies the filter once per band and region. With
@@ -24,13 +24,13 @@ Positions target_positions(const HeadSet& faces, const Recipe& recipe);
 /// \param regions  α, #V by #regions, rows summing to one; the regions of the recipe.
 /// \return         #V by 3, in the unit of the heads.
 /// \throws BrokenPrecondition if recipe, regions and heads do not fit together.
-Positions blend_exact(const HeadSet& faces, const ChebyshevFilter& filter,
+Positions blend_exact(const HeadSet& heads, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe);
 
 /// Blends several faces in one filter pass. The results are bit-identical to blending the faces one
 /// by one.
 /// \param results  receives the positions for each recipe.
-void blend_exact(const HeadSet& faces, const ChebyshevFilter& filter, const RegionWeights& regions,
+void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results);
 
 }  // namespace crowdface

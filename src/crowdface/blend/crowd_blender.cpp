@@ -55,13 +55,13 @@ class AlignedFloats {
 
 }  // namespace
 
-CrowdBlender::CrowdBlender(const HeadSet& faces, std::vector<HeadLevels> levels,
+CrowdBlender::CrowdBlender(const HeadSet& heads, std::vector<HeadLevels> levels,
                            FieldPatches patches, const RegionWeights& regions)
-    : faces_(faces), levels_(std::move(levels)), patches_(std::move(patches)), regions_(regions) {
-  const Index vertices = faces.topology.vertex_count;
-  require(levels_.size() == faces.heads.size() && patches_.head_count() == levels_.size(),
+    : heads_(heads), levels_(std::move(levels)), patches_(std::move(patches)), regions_(regions) {
+  const Index vertices = heads.topology.vertex_count;
+  require(levels_.size() == heads.heads.size() && patches_.head_count() == levels_.size(),
           "blend: fitted levels of ", levels_.size(), " heads, patches of ", patches_.head_count(),
-          ", for ", faces.heads.size());
+          ", for ", heads.heads.size());
   require(patches_.vertex_count() == vertices && regions.alpha.rows() == vertices,
           "blend: patches of ", patches_.vertex_count(), " vertices and masks of ",
           regions.alpha.rows(), " for ", vertices);
@@ -121,7 +121,7 @@ class CrowdBlender::Crowd {
     used_by_any_face_.assign(regions, NonzeroFlags(blender.field_count()));
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       const std::size_t region = i / recipes.size(), face = i % recipes.size();
-      if (face % kColumns == 0) used_[region].emplace_back(blender.field_count());
+      if (face % kMaxColumns == 0) used_[region].emplace_back(blender.field_count());
       for (std::size_t f = 0; f < blender.field_count(); ++f) {
         if (coefficients_[i][f] != 0) used_[region].back()[f] = used_by_any_face_[region][f] = 1;
       }
@@ -136,9 +136,9 @@ class CrowdBlender::Crowd {
   const float* coefficients(std::size_t region, std::size_t face) const {
     return coefficients_[region * size() + face].data();
   }
-  /// Whether the field has a non-zero coefficient in any of the kColumns faces from `first` on.
+  /// Whether the field has a non-zero coefficient in any of the kMaxColumns faces from `first` on.
   bool uses(std::size_t region, std::size_t first, std::size_t field) const {
-    return used_[region][first / kColumns][field] != 0;
+    return used_[region][first / kMaxColumns][field] != 0;
   }
   /// Whether the field has a non-zero coefficient in any face.
   bool uses(std::size_t region, std::size_t field) const {
@@ -150,10 +150,10 @@ class CrowdBlender::Crowd {
  private:
   std::span<const Recipe* const> recipes_;
   std::span<Positions> results_;
-  using NonzeroFlags =
-      std::vector<std::uint8_t>;  ///< for each field: whether its coefficient is non-zero
+  /// for each field: whether its coefficient is non-zero
+  using NonzeroFlags = std::vector<std::uint8_t>;
   std::vector<std::vector<float>> coefficients_;  ///< #regions by #faces
-  std::vector<std::vector<NonzeroFlags>> used_;   ///< #regions by #faces/kColumns
+  std::vector<std::vector<NonzeroFlags>> used_;   ///< #regions by #faces/kMaxColumns
   std::vector<NonzeroFlags> used_by_any_face_;    ///< #regions
   std::set<Index> targets_;
 };
@@ -168,11 +168,11 @@ class CrowdBlender::PatchBlender {
 
   void blend(std::size_t patch) {
     patch_ = blender_.patches_[patch];
-    regions_ = blender_.regions_at(patch);
+    regions_ = blender_.regions_of_patch(patch);
     find_runs();
     fetch_targets();
     vertex_sums_ = added_values_.zeros(crowd_.size() * kPatchValues);
-    skeleton_sums_ = skeleton_values_.resize(kColumns * patch_.values());
+    skeleton_sums_ = skeleton_values_.resize(kMaxColumns * patch_.values());
     if (patch_.skeleton > 0) {
       find_fields();
       if (crowd_.size() == 1) {
@@ -198,8 +198,8 @@ class CrowdBlender::PatchBlender {
   /// regions at once, because unpacking would take longer than it saves. The coefficients include
   /// the quantization steps.
   void add_to_single_face() {
-    for (std::size_t first = 0; first < regions_.size(); first += kColumns) {
-      const auto regions = regions_.subspan(first, std::min(kColumns, regions_.size() - first));
+    for (std::size_t first = 0; first < regions_.size(); first += kMaxColumns) {
+      const auto regions = regions_.subspan(first, std::min(kMaxColumns, regions_.size() - first));
       used_.clear();
       for (std::uint32_t row = 0; row < fields_.size(); ++row) {
         const auto uses = [&](std::uint32_t k) { return crowd_.uses(k, 0, fields_[row]); };
@@ -227,7 +227,7 @@ class CrowdBlender::PatchBlender {
   }
 
   /// Adds the products to several faces. Unpacks the fields once, and multiplies them by the
-  /// coefficients of kColumns faces at a time.
+  /// coefficients of kMaxColumns faces at a time.
   void add_to_all_faces() {
     float* unpacked = unpacked_values_.resize(blender_.field_count() * patch_.values());
     for (std::size_t row = 0; row < fields_.size(); ++row) {
@@ -238,13 +238,13 @@ class CrowdBlender::PatchBlender {
     }
     for (const std::uint32_t region : regions_) {
       copy_alpha(region);
-      for (std::size_t first = 0; first < crowd_.size(); first += kColumns) {
+      for (std::size_t first = 0; first < crowd_.size(); first += kMaxColumns) {
         used_.clear();
         for (const std::uint32_t field : fields_) {
           if (crowd_.uses(region, first, field)) used_.push_back(field);
         }
         if (used_.empty()) continue;
-        const std::size_t count = std::min(kColumns, crowd_.size() - first);
+        const std::size_t count = std::min(kMaxColumns, crowd_.size() - first);
         for (std::size_t face = 0; face < count; ++face) {
           columns_[face] = crowd_.coefficients(region, first + face);
           products_[face] = skeleton_sums_ + face * patch_.values();
@@ -271,8 +271,8 @@ class CrowdBlender::PatchBlender {
     const auto coordinate = [&](std::size_t i) {  // i-th coordinate of all faces, face by face
       return at_skeleton + i / kCoordinates * patch_.values() + i % kCoordinates * patch_.skeleton;
     };
-    for (std::size_t first = 0; first < kCoordinates * count; first += kColumns) {
-      const std::size_t here = std::min(kColumns, kCoordinates * count - first);
+    for (std::size_t first = 0; first < kCoordinates * count; first += kMaxColumns) {
+      const std::size_t here = std::min(kMaxColumns, kCoordinates * count - first);
       for (std::size_t i = 0; i < here; ++i) {
         columns_[i] = coordinate(first + i);
         products_[i] = added + (first + i) * kPatchVertices;
@@ -305,7 +305,7 @@ class CrowdBlender::PatchBlender {
   void fetch_targets() const {
     constexpr std::size_t kLine = 64 / sizeof(double);
     for (const Index h : crowd_.targets()) {
-      const double* positions = blender_.faces_.heads[static_cast<std::size_t>(h)].positions.data();
+      const double* positions = blender_.heads_.heads[static_cast<std::size_t>(h)].positions.data();
       for (const VertexRun& run : runs_) {
         const double* first = positions + std::size_t{3} * run.first;
         const double* last = first + std::size_t{3} * run.count - 1;
@@ -321,7 +321,7 @@ class CrowdBlender::PatchBlender {
       const Recipe& recipe = crowd_.recipe(face);
       Positions& result = crowd_.result(face);
       const auto head = [&](Index h) -> const Positions& {
-        return blender_.faces_.heads[static_cast<std::size_t>(h)].positions;
+        return blender_.heads_.heads[static_cast<std::size_t>(h)].positions;
       };
       const Positions* base = &head(recipe.target);
       if (!recipe.mixture.empty()) {
@@ -345,21 +345,21 @@ class CrowdBlender::PatchBlender {
   std::vector<float> scaled_coefficients_;  ///< coefficients times quantization steps
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
-  float* skeleton_sums_ = nullptr;  ///< kColumns by values(): sums at the skeleton
+  float* skeleton_sums_ = nullptr;  ///< kMaxColumns by values(): sums at the skeleton
   float* vertex_sums_ = nullptr;    ///< #faces by 3 by kPatchVertices: sums at the vertices
-  std::array<const float*, kColumns> columns_{};
-  std::array<float*, kColumns> products_{};
+  std::array<const float*, kMaxColumns> columns_{};
+  std::array<float*, kMaxColumns> products_{};
   std::array<std::uint32_t, kPatchVertices> all_of_skeleton_{};
   alignas(64) std::array<float, kPatchVertices> alpha_{};
 };
 
 template <class Wanted>
-void CrowdBlender::blend_at(const Wanted& wanted, std::span<const Recipe* const> recipes,
-                            std::span<Positions> results) const {
+void CrowdBlender::blend_patches(const Wanted& wanted, std::span<const Recipe* const> recipes,
+                                 std::span<Positions> results) const {
   parallel_for_each(recipes.size(), [&](std::size_t f) {
-    require_fit(faces_, regions_, *recipes[f]);
+    require_recipe_fits(heads_, regions_, *recipes[f]);
     Positions& result = results[f];
-    result.resize(faces_.topology.vertex_count, 3);
+    result.resize(heads_.topology.vertex_count, 3);
   });
   const Crowd crowd(*this, recipes, results);
   parallel_blocks(patches_.size(), kPatchesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -373,18 +373,18 @@ void CrowdBlender::blend_at(const Wanted& wanted, std::span<const Recipe* const>
 
 void CrowdBlender::blend(std::span<const Recipe* const> recipes,
                          std::span<Positions> results) const {
-  blend_at([](std::size_t) { return true; }, recipes, results);
+  blend_patches([](std::size_t) { return true; }, recipes, results);
 }
 
 void CrowdBlender::change(const Recipe& before, const Recipe& after, Positions& face) const {
   const bool same_target = before.target == after.target && before.mixture == after.mixture;
   const auto differs = [&](std::size_t patch) {
-    return !same_target || std::ranges::any_of(regions_at(patch), [&](std::uint32_t k) {
+    return !same_target || std::ranges::any_of(regions_of_patch(patch), [&](std::uint32_t k) {
       return !blends_alike(before.regions[k], after.regions[k]);
     });
   };
   const Recipe* recipe = &after;
-  blend_at(differs, {&recipe, 1}, {&face, 1});
+  blend_patches(differs, {&recipe, 1}, {&face, 1});
 }
 
 Positions CrowdBlender::blend(const Recipe& recipe) const {

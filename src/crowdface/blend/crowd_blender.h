@@ -29,12 +29,12 @@ namespace crowdface {
 /// bit-identical to the target. All const methods may run concurrently.
 class CrowdBlender {
  public:
-  /// \param faces           must outlive this object.
+  /// \param heads           must outlive this object.
   /// \param levels          #heads: the fitted levels of each head.
   /// \param patches         the fields of all heads, compressed.
   /// \param regions         α, #V by #regions, rows summing to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
-  CrowdBlender(const HeadSet& faces, std::vector<HeadLevels> levels, FieldPatches patches,
+  CrowdBlender(const HeadSet& heads, std::vector<HeadLevels> levels, FieldPatches patches,
                const RegionWeights& regions);
 
   /// Blends the faces of the recipes, #V by 3 each, in the unit of the heads.
@@ -55,7 +55,7 @@ class CrowdBlender {
 
   void find_regions();
   /// Returns the regions that have nonzero weight at some vertex of the patch.
-  std::span<const std::uint32_t> regions_at(std::size_t patch) const {
+  std::span<const std::uint32_t> regions_of_patch(std::size_t patch) const {
     return std::span(patch_regions_)
         .subspan(first_region_[patch], first_region_[patch + 1] - first_region_[patch]);
   }
@@ -63,11 +63,11 @@ class CrowdBlender {
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
   /// Blends the patches for which wanted(patch) is true.
   template <class Wanted>
-  void blend_at(const Wanted& wanted, std::span<const Recipe* const> recipes,
-                std::span<Positions> results) const;
+  void blend_patches(const Wanted& wanted, std::span<const Recipe* const> recipes,
+                     std::span<Positions> results) const;
   std::size_t field_count() const { return first_field_.back(); }
 
-  const HeadSet& faces_;
+  const HeadSet& heads_;
   std::vector<HeadLevels> levels_;
   FieldPatches patches_;
   const RegionWeights& regions_;

@@ -54,7 +54,7 @@ HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* cons
   for (auto& of_column : sums) {
     for (V& sum : of_column) sum = hn::Zero(lanes);
   }
-  for (const std::uint32_t row : rows.used) {
+  for (const std::uint32_t row : rows.used_rows) {
     const Number* numbers = rows.values + row * rows.stride + begin;
     V values[kVectors];
     for (std::size_t v = 0; v < kVectors; ++v) values[v] = numbers_at(lanes, numbers + v * width);
@@ -101,7 +101,7 @@ void multiply_any(const ProductRows<Number>& rows, const float* const* columns, 
                   const float* alpha, float* const* products) {
   using Multiply =
       void (*)(const ProductRows<Number>&, const float* const*, const float*, float* const*);
-  constexpr Multiply kMultiply[kColumns] = {
+  constexpr Multiply kMultiply[kMaxColumns] = {
       multiply_columns<1, Number>, multiply_columns<2, Number>, multiply_columns<3, Number>,
       multiply_columns<4, Number>, multiply_columns<5, Number>, multiply_columns<6, Number>};
   kMultiply[count - 1](rows, columns, alpha, products);

@@ -9,7 +9,7 @@ namespace crowdface {
 
 /// Largest number of columns in a matrix product. The sums for six columns and two vectors of
 /// values just fit into the vector registers.
-inline constexpr std::size_t kColumns = 6;
+inline constexpr std::size_t kMaxColumns = 6;
 
 /// Converts quantized numbers to values: values[i] = numbers[i]·step.
 /// \param count  a multiple of kPatchPadding.
@@ -21,12 +21,13 @@ struct ProductRows {
   const Number* values;
   std::size_t stride;  ///< distance between the starts of consecutive rows, in elements
   std::size_t width;   ///< elements per row; a multiple of kPatchPadding
-  std::span<const std::uint32_t> used;  ///< indices of the rows that enter the sum, in this order
+  std::span<const std::uint32_t>
+      used_rows;  ///< indices of the rows that enter the sum, in this order
 };
 
 /// products[c][i] = Σ_r columns[c][r]·values[r·stride + i] over the used rows, by fused
 /// multiply-add.
-/// \param columns, products  equally many, 1 to kColumns.
+/// \param columns, products  the same number of both, 1 to kMaxColumns.
 void multiply(const ProductRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 void multiply(const ProductRows<std::int16_t>& rows, std::span<const float* const> columns,

@@ -31,17 +31,17 @@ void keep_largest(std::vector<SourceWeight>& weights, std::size_t count) {
 }  // namespace
 
 std::size_t band_count(const RegionRecipe& region) {
-  return 1 + region.finer.size();
+  return 1 + region.finer_bands.size();
 }
 
 BandRecipe& band_of(RegionRecipe& region, std::size_t band) {
   if (band == 0) return region;
-  return region.finer[band - 1];
+  return region.finer_bands[band - 1];
 }
 
 const BandRecipe& band_of(const RegionRecipe& region, std::size_t band) {
   if (band == 0) return region;
-  return region.finer[band - 1];
+  return region.finer_bands[band - 1];
 }
 
 bool is_unmirrored(const Recipe& recipe) {
@@ -56,7 +56,7 @@ std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
                                       Extrapolation extrapolation) {
   const RegionRecipe& bands = recipe.regions[region];
   std::vector<LevelShares> levels;
-  // Weights of B, then those of e_{b−1} C̄_{b−1}.
+  // Weights of the heads in B for the first band, in e_{b−1} C̄_{b−1} for band b.
   std::vector<SourceWeight> coarser = target_shares(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);
@@ -86,9 +86,11 @@ void set_target(Recipe& recipe, std::vector<SourceWeight> shares) {
   recipe.mixture = std::move(shares);
 }
 
-std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
-                                     const std::vector<Index>& sources, const PlanePoint& position,
-                                     Normalization normalization, std::optional<int> max_sources) {
+std::vector<SourceWeight> weights_at_position(const std::vector<PlanePoint>& anchors, Index target,
+                                              const std::vector<Index>& sources,
+                                              const PlanePoint& position,
+                                              Normalization normalization,
+                                              std::optional<int> max_sources) {
   std::vector<Index> heads = sources;
   if (std::find(heads.begin(), heads.end(), target) == heads.end()) {
     heads.insert(std::upper_bound(heads.begin(), heads.end(), target), target);

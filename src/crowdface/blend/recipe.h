@@ -32,7 +32,7 @@ struct BandRecipe {
 
 /// The recipe of one region: its coarsest band (Eq. 7 has only this band) and its finer bands.
 struct RegionRecipe : BandRecipe {
-  std::vector<BandRecipe> finer;  ///< coarse to fine, at non-increasing levels
+  std::vector<BandRecipe> finer_bands;  ///< coarse to fine, at non-increasing levels
   /// The weights of the heads in the region's textures, by ascending head, none zero. If empty, the
   /// weights of the finest band apply. Unused if the recipe has colours.
   std::vector<SourceWeight> colours = {};
@@ -123,9 +123,11 @@ Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
 /// \param max_sources  the number of largest weights that are kept and normalised again; of equal
 ///                     weights, the first are kept. ω_0 is always kept and does not count towards
 ///                     this number.
-std::vector<SourceWeight> weights_at(const std::vector<PlanePoint>& anchors, Index target,
-                                     const std::vector<Index>& sources, const PlanePoint& position,
-                                     Normalization normalization, std::optional<int> max_sources);
+std::vector<SourceWeight> weights_at_position(const std::vector<PlanePoint>& anchors, Index target,
+                                              const std::vector<Index>& sources,
+                                              const PlanePoint& position,
+                                              Normalization normalization,
+                                              std::optional<int> max_sources);
 
 /// Divides weights by their sum, drops zero weights and sorts by head.
 /// \throws BrokenPrecondition if a weight is negative or not finite, or if the sum is zero or not

@@ -5,15 +5,16 @@
 
 namespace crowdface {
 
-void require_fit(const HeadSet& faces, const RegionWeights& regions, const Recipe& recipe) {
-  const Index vertices = faces.topology.vertex_count;
+void require_recipe_fits(const HeadSet& heads, const RegionWeights& regions, const Recipe& recipe) {
+  const Index vertices = heads.topology.vertex_count;
   const auto wanted = static_cast<Index>(recipe.regions.size());
   require(regions.alpha.rows() == vertices && regions.alpha.cols() == wanted, "blend: a recipe of ",
           wanted, " regions on ", vertices, " vertices, masks of ", regions.alpha.cols(),
           " regions on ", regions.alpha.rows(), " vertices");
-  const auto heads = static_cast<Index>(faces.heads.size());
+  const auto head_count = static_cast<Index>(heads.heads.size());
   const auto require_head = [&](Index head) {
-    require(head >= 0 && head < heads, "blend: a recipe names head ", head, " of ", heads);
+    require(head >= 0 && head < head_count, "blend: a recipe names head ", head, " of ",
+            head_count);
   };
   require_head(recipe.target);
   for (const SourceWeight& part : recipe.mixture) require_head(part.head);

@@ -11,6 +11,6 @@ namespace crowdface {
 /// \throws BrokenPrecondition if the recipe names a head that does not exist, if a band begins at a
 ///         higher level than the coarser band before it, or if the regions do not match the
 ///         recipe's regions or the topology's vertices.
-void require_fit(const HeadSet& faces, const RegionWeights& regions, const Recipe& recipe);
+void require_recipe_fits(const HeadSet& heads, const RegionWeights& regions, const Recipe& recipe);
 
 }  // namespace crowdface

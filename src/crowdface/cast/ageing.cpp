@@ -59,7 +59,7 @@ class AgedHeads {
     const double apart = (all_.anchors[a] - all_.anchors[b]).norm();
     if (all_.tags.empty()) return {false, 0, apart};
     const auto &own = all_.tags[a], &tags = all_.tags[b];
-    return {!same_sex(own, tags), -static_cast<std::ptrdiff_t>(common_tags(own, tags)), apart};
+    return {!same_sex(own, tags), -static_cast<std::ptrdiff_t>(common_tag_count(own, tags)), apart};
   }
 
   const std::vector<Index>& heads_;
@@ -96,7 +96,7 @@ void apply_age(FacePlan& face, double age, const HeadRelations& heads,
   face.age = age;
 }
 
-void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling) {
+void undo_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
   const AgedHeads aged(*face.age, heads, sampling);

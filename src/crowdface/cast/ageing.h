@@ -30,7 +30,7 @@ void apply_age(FacePlan& face, double age, const HeadRelations& heads,
 /// Undoes apply_age, so that children do not inherit the age of this face. If an age of −1 or 1
 /// moved all of a band's weight, the original weights are lost; the band and the face's age then
 /// stay as they are.
-void take_back_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling);
+void undo_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling);
 
 /// Returns (1 − t)·a + t·b, head by head.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,

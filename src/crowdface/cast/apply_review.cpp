@@ -75,10 +75,10 @@ class Redrawing {
       }
     }
     const FamilySeparation family_separation = kinship_without(family, settled);
-    const AvoidedChanges changes(cast_, casting_.diversity.min_distance_mm, settled);
+    const AvoidedFaces changes(cast_, casting_.diversity.min_distance_mm, settled);
     FaceSearch::Generate generate;
     const std::vector<FaceSpace::Point> rejected = reject(at);
-    FaceSearch::Refuses refuses;
+    FaceSearch::RejectionCheck rejection_reason;
     std::optional<FamilySampler> family_draws;
     if (family != nullptr) {
       const FamilyOptions& options = options_of(*family);
@@ -87,27 +87,30 @@ class Redrawing {
       generate = [&, member](std::uint32_t attempt) {
         return family_draws->member(*family, member, attempt);
       };
-      refuses = [&](const FaceSpace::Point& point) {
-        return family_draws->refuses(*family, point, own, family_separation);
+      rejection_reason = [&](const FaceSpace::Point& point) {
+        return family_draws->rejection_reason(*family, point, own, family_separation);
       };
     } else {
       generate = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
-      refuses = [&](const FaceSpace::Point& point) { return family_separation.refuses(point); };
+      rejection_reason = [&](const FaceSpace::Point& point) {
+        return family_separation.rejection_reason(point);
+      };
     }
-    const int candidates = old.index ? casting_.diversity.candidates_for(*old.index) : 1;
+    const int candidates = old.index ? casting_.diversity.candidate_count(*old.index) : 1;
     std::optional<FaceSearch::Found> found;
     Rejections rejections;
     for (const double least : distances_to_rejected(family, own, *redraw.mark)) {
       FaceSearch search(
           [&](std::uint32_t attempt) { return with_locked(generate(attempt), old, *redraw.mark); },
           judge_, casting_.diversity, candidates, old.notes.attempt + 1);
-      found = search.settle(others, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
-        for (const FaceSpace::Point& other : rejected) {
-          if (FaceSpace::distance(point, other) < least) return Reason::kRejected;
-        }
-        const auto why = refuses(point);
-        return why ? why : changes.refuses(point);
-      });
+      found =
+          search.choose_face(others, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
+            for (const FaceSpace::Point& other : rejected) {
+              if (FaceSpace::distance(point, other) < least) return Reason::kRejected;
+            }
+            const auto why = rejection_reason(point);
+            return why ? why : changes.rejection_reason(point);
+          });
       rejections.add(search.rejections());
       if (found) break;
     }
@@ -127,7 +130,7 @@ class Redrawing {
   /// \return  The points of this face and of its earlier rejected versions.
   std::vector<FaceSpace::Point> reject(std::size_t face) {
     cast_.rejected.push_back(cast_.crowd[face]);
-    cast_.rejected_from.push_back(cast_.crowd.size());
+    cast_.crowd_size_at_rejection.push_back(cast_.crowd.size());
     std::vector<FaceSpace::Point> points;
     for (const FacePlan& old : cast_.rejected) {
       if (old.id == cast_.crowd[face].id) points.push_back(judge_.space().point(old.recipe));
@@ -170,7 +173,7 @@ class Redrawing {
   FacePlan drawn_face(const FacePlan& old, std::uint32_t attempt) const {
     if (!old.index) {  // hand-written: redraw the values that it does not specify
       const auto hand = std::ranges::find(casting_.recipes, old.id, &ManualRecipe::id);
-      return complete_recipe(casting_, *hand, attempt);
+      return completed_face_plan(casting_, *hand, attempt);
     }
     return random_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
@@ -184,7 +187,7 @@ class Redrawing {
       kind.targets = {{old.recipe.target, 1}};
       face = random_face(casting_, *old.index, face.notes.attempt, kind);
     }
-    keep_locked(mark.locked, old.recipe, face.recipe);
+    copy_locked_bands(mark.locked, old.recipe, face.recipe);
     return face;
   }
 
@@ -204,16 +207,16 @@ class Redrawing {
 
   void settle(std::size_t at, FaceSearch::Found found, const FacePlan& old,
               const std::vector<bool>& settled) {
-    const auto [head, head_mm] = judge_.nearest_head(found.point);
-    Nearest nearest{head, head_mm, std::nullopt, 0};
+    const auto [head, head_distance_mm] = judge_.nearest_head(found.point);
+    NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
     double mm = HUGE_VAL;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
       if (!settled[i]) continue;
       const double distance = FaceSpace::distance(found.point, cast_.points[i]);
       if (distance >= mm) continue;
       mm = distance;
-      nearest.crowd = cast_.crowd[i].id;
-      nearest.crowd_mm = mm;
+      nearest.earlier_face = cast_.crowd[i].id;
+      nearest.earlier_face_distance_mm = mm;
     }
     found.face.notes.nearest = nearest;
     found.face.notes.review = old.notes.review;
@@ -256,7 +259,7 @@ void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge, s
     if (!redrawing.redraw(redraw, settled)) return;
   }
   for (const Redraw& redraw : redraws) {
-    change_again(casting, judge, static_cast<std::size_t>(redraw.face), cast);
+    reapply_changes(casting, judge, static_cast<std::size_t>(redraw.face), cast);
   }
   changes.insert(changes.end(), review.changes.begin(), review.changes.end());
   apply_changes(casting, judge, changes, concat("review ", number + 1), cast);

@@ -16,12 +16,12 @@ struct AttachmentItem {
   std::vector<std::string> excludes;  ///< names and kinds that cannot be worn with this item
   /// colour that the face's other items share and that families inherit
   std::string colour = {};
-  std::vector<std::string> without = {};  ///< the typical_head must have none of these tags
+  std::vector<std::string> excluded_tags = {};  ///< the typical head must have none of these tags
   Tint tint = Tint::kNone;
 };
 
 /// Returns whether `word` is the item's kind, name or colour.
-inline bool is_called(const AttachmentItem& item, const std::string& word) {
+inline bool matches_word(const AttachmentItem& item, const std::string& word) {
   return item.kind == word || item.name == word || item.colour == word;
 }
 

@@ -13,7 +13,7 @@ void begin_like(const BandRecipe& other, BandRecipe& band) {
 
 }  // namespace
 
-void keep_order(RegionRecipe& region) {
+void restore_level_order(RegionRecipe& region) {
   for (std::size_t b = 1; b < band_count(region); ++b) {
     const BandRecipe& coarser = band_of(region, b - 1);
     BandRecipe& band = band_of(region, b);
@@ -21,7 +21,7 @@ void keep_order(RegionRecipe& region) {
   }
 }
 
-void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
+void copy_bands(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
   const std::set<std::size_t> taken(parts.begin(), parts.end());
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     RegionRecipe& region = recipe.regions[k];
@@ -36,16 +36,16 @@ void take_over(std::span<const std::size_t> parts, const Recipe& from, Recipe& r
         begin_like(*finer, band);
       }
     }
-    keep_order(region);
+    restore_level_order(region);
   }
 }
 
-void keep_locked(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
+void copy_locked_bands(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
   recipe.target = from.target;
   recipe.mixture = from.mixture;
   recipe.asymmetry = from.asymmetry;
   recipe.mirrored = from.mirrored;
-  take_over(parts, from, recipe);
+  copy_bands(parts, from, recipe);
 }
 
 }  // namespace crowdface

@@ -15,26 +15,26 @@ class CapacityForecast {
  public:
   /// Counts the candidates for one placed face.
   ///
-  /// \param too_near  Number of candidates that were too near to a face of the crowd.
-  /// \param wanted    Number of candidates that were far enough; above zero.
-  void add(std::uint64_t too_near, std::uint64_t wanted);
+  /// \param too_near    Number of candidates that were too near to a face of the crowd.
+  /// \param far_enough  Number of candidates that were far enough; above zero.
+  void add(std::uint64_t too_near, std::uint64_t far_enough);
 
   /// Returns the estimated final number of faces, accurate to a factor of about three; nothing
   /// until enough faces are placed.
-  std::optional<double> faces() const;
+  std::optional<double> estimated_faces() const;
 
  private:
-  /// Statistics of the candidates for faces number `begin` to 2·`begin`.
-  struct Stretch {
-    std::uint64_t begin = 16;
+  /// Statistics of the candidates for the faces n + 1 to 2·n, with n = `face_count`.
+  struct FaceRange {
+    std::uint64_t face_count = 16;
     std::uint64_t too_near = 0;
-    double chances = 0;  ///< sum over these faces: fraction of candidates that were too near
-    double mean() const { return chances / static_cast<double>(begin); }
-    double middle() const { return 1.5 * static_cast<double>(begin); }
+    double too_near_fractions = 0;  ///< sum over the faces: fraction of candidates too near
+    double mean_fraction() const { return too_near_fractions / static_cast<double>(face_count); }
+    double middle_face() const { return 1.5 * static_cast<double>(face_count); }
   };
   std::uint64_t placed_ = 0;
-  Stretch current_, previous_,
-      second_last_;  ///< current stretch, and the two complete stretches before it
+  FaceRange current_, previous_,
+      before_previous_;  ///< current range, and the two complete ranges before it
 };
 
 }  // namespace crowdface

@@ -24,14 +24,14 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
                     CrowdSoFar& crowd, PopulationBalance& population, const FaceJoined& joined,
                     CastingResult& result) {
-  const AvoidedChanges changes(result, diversity.min_distance_mm);
+  const AvoidedFaces changes(result, diversity.min_distance_mm);
   FaceSearch::Cost cost;
   if (!casting.population.empty()) {
     cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
   }
-  for (std::uint64_t first = from; first <= to; first += kCastTogether) {
+  for (std::uint64_t first = from; first <= to; first += kFacesCastInParallel) {
     throw_if_interrupted();
-    const std::uint64_t last = std::min(to, first + kCastTogether - 1);
+    const std::uint64_t last = std::min(to, first + kFacesCastInParallel - 1);
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
       const FaceKind& kind = kinds[static_cast<std::size_t>(result.kinds[index - 1] + 1)];
@@ -39,16 +39,16 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
           [&casting, &kind, index](std::uint32_t attempt) {
             return random_face(casting, index, attempt, kind);
           },
-          judge, diversity, DiversityOptions::candidates_for(index));
+          judge, diversity, DiversityOptions::candidate_count(index));
     }
     parallel_for_each(searches.size(), [&](std::size_t i) { searches[i].prepare(crowd); });
     for (std::uint64_t index = first; index <= last; ++index) {
       FaceSearch& search = searches[index - first];
-      auto found = search.settle(
+      auto found = search.choose_face(
           crowd,
           [&](const FaceSpace::Point& point) {
-            const auto why = family_separation.refuses(point);
-            return why ? why : changes.refuses(point);
+            const auto why = family_separation.rejection_reason(point);
+            return why ? why : changes.rejection_reason(point);
           },
           cost);
       result.rejections.add(search.rejections());
@@ -74,8 +74,8 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
   while (from <= to && !result.shortfall) {
     const auto same = distances.lower_bound(from);
     const std::uint64_t last = same == distances.end() ? to : std::min(to, same->first);
-    cast_first_fit(casting, casting.diversity.of_face(from), judge, kinds, family_separation, from,
-                   last, crowd, population, joined, result);
+    cast_first_fit(casting, casting.diversity.options_of_face(from), judge, kinds,
+                   family_separation, from, last, crowd, population, joined, result);
     from = last + 1;
   }
 }
@@ -87,7 +87,7 @@ std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const 
   const auto attempts =
       kAttemptFactorWithTraits * static_cast<std::uint32_t>(casting.diversity.max_attempts);
   for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
-    FacePlan face = complete_recipe(casting, hand, attempt);
+    FacePlan face = completed_face_plan(casting, hand, attempt);
     const TraitRules* rules = hand.traits.empty() ? nullptr : judge.traits();
     if (rules == nullptr) return face;
     if (rules->check(face, rules->measurer().landmarks(face.recipe))) continue;
@@ -132,10 +132,10 @@ void grow(const CastingOptions& casting, const FaceJudge& judge, const std::vect
   auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   const std::size_t others = result.crowd.size() - (from - 1);
   for (std::size_t i = 0; i < result.crowd.size(); ++i) {
-    if (i == others) crowd->begin_sampled();
+    if (i == others) crowd->mark_first_sampled();
     crowd->add(result.crowd[i], result.points[i]);
   }
-  if (others == result.crowd.size()) crowd->begin_sampled();
+  if (others == result.crowd.size()) crowd->mark_first_sampled();
   cast_first_fit(casting, judge, kinds, separation_of(result), from, to, *crowd, population, joined,
                  result);
   take_crowd(judge, *crowd, result);
@@ -162,7 +162,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   FamilySeparation family_separation;
   const UnrelatedFaces unrelated(casting, judge.space());
   CastingOptions of_families = casting;
-  of_families.diversity = casting.diversity.of_face(0);
+  of_families.diversity = casting.diversity.options_of_face(0);
   for (const FamilyOptions& family : casting.families) {
     Rejections rejections;
     auto cast =
@@ -174,7 +174,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
     }
     result.families.push_back(std::move(*cast));
   }
-  crowd.begin_sampled();
+  crowd.mark_first_sampled();
   result.kinds = schedule_groups(casting.groups, casting.count);
   const std::vector<FaceKind> kinds = face_kinds(casting);
   const std::vector<std::uint64_t> before = faces_before_reviews(casting);
@@ -203,17 +203,17 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
 }
 
 void find_nearest(const FaceJudge& judge, CastingResult& cast, std::size_t first) {
-  FacePointIndex index(judge.space().dimensions());
+  NearestFaceSearch index(judge.space().dimensions());
   for (const FaceSpace::Point& point : cast.points) index.add(point);
   parallel_for_each(cast.points.size() - first, [&](std::size_t after_first) {
     const auto i = static_cast<Index>(first + after_first);
     const FaceSpace::Point& point = cast.points[first + after_first];
-    const auto [head, head_mm] = judge.nearest_head(point);
-    Nearest nearest{head, head_mm, std::nullopt, 0};
+    const auto [head, head_distance_mm] = judge.nearest_head(point);
+    NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
     if (i > 0) {
-      const FacePointIndex::Nearest face = index.nearest(point, HUGE_VAL, 0, i);
-      nearest.crowd = cast.crowd[static_cast<std::size_t>(face.face)].id;
-      nearest.crowd_mm = face.mm;
+      const NearestFaceSearch::NearestFace face = index.nearest(point, HUGE_VAL, 0, i);
+      nearest.earlier_face = cast.crowd[static_cast<std::size_t>(face.face)].id;
+      nearest.earlier_face_distance_mm = face.distance_mm;
     }
     cast.crowd[static_cast<std::size_t>(i)].notes.nearest = nearest;
   });

@@ -17,15 +17,15 @@
 
 namespace crowdface {
 
-/// Where and why casting stopped early.
+/// The face at which casting stopped early, and the reason.
 struct Shortfall {
-  std::uint64_t reached = 0;  ///< number of sampled faces that were cast
-  Rejections rejections;      ///< why candidates for the next face were rejected
-  int kind = -1;              ///< group of the sampled face that could not be found, or −1
-  std::string family = {};    ///< name of the family that could not be cast, if any
-  std::string reviewed = {};  ///< id of the face that could not be redrawn, if any
-  std::string recipe = {};    ///< id of the hand-written face that could not be cast, if any
-  std::string changed = {};   ///< id of the face that could not be changed, if any
+  std::uint64_t reached = 0;       ///< number of sampled faces that were cast
+  Rejections rejections;           ///< why candidates for the next face were rejected
+  int kind = -1;                   ///< group of the sampled face that could not be found, or −1
+  std::string family = {};         ///< name of the family that could not be cast, if any
+  std::string reviewed_face = {};  ///< id of the face that could not be redrawn, if any
+  std::string recipe = {};         ///< id of the hand-written face that could not be cast, if any
+  std::string changed_face = {};   ///< id of the face that could not be changed, if any
 };
 
 struct ChangedFace;
@@ -34,8 +34,7 @@ struct ChangedFace;
 struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< who asks for the change, such as "review 2"
-  /// If the change makes a variant: the face that it is a variant of, before this change; otherwise
-  /// null.
+  /// If the change makes a variant: the original face, as it is before this change. Otherwise null.
   std::shared_ptr<const ChangedFace> variant_of;
   double min_distance_mm = 0;  ///< smallest distance of the changed face from the faces before it
 };
@@ -58,7 +57,7 @@ struct CastingResult {
   std::vector<FamilyPlan> families;
   std::vector<FacePlan> rejected;  ///< faces that reviews rejected, in order; ids as in `crowd`
   /// #rejected: size of the crowd when the face was rejected
-  std::vector<std::size_t> rejected_from;
+  std::vector<std::size_t> crowd_size_at_rejection;
   /// Changed faces, by index in `crowd`; `crowd` itself holds the faces without changes. No other
   /// face depends on a change.
   std::map<std::size_t, ChangedFace> changed = {};
@@ -68,7 +67,7 @@ struct CastingResult {
 
 /// Number of sampled faces whose candidates are generated in parallel, before these faces are
 /// chosen one after the other.
-inline constexpr std::uint64_t kCastTogether = 64;
+inline constexpr std::uint64_t kFacesCastInParallel = 64;
 
 /// Called after each sampled face that joins the crowd; may be empty.
 ///

@@ -19,14 +19,14 @@ class ColourDrawing {
     for (const auto& all : draw.tags) {
       std::vector<std::string> counted = all;
       std::erase_if(counted, [&](const std::string& tag) {
-        return draw.alike && !contains(*draw.alike, tag);
+        return draw.tags_to_match && !contains(*draw.tags_to_match, tag);
       });
       std::ranges::sort(counted);
       counted_.push_back(std::move(counted));
     }
   }
 
-  /// Returns whether two heads agree in the tags of ColourOptions::alike.
+  /// Returns whether two heads agree in the tags of ColourOptions::tags_to_match.
   bool alike(Index a, Index b) const {
     return counted_.empty() ||
            counted_[static_cast<std::size_t>(a)] == counted_[static_cast<std::size_t>(b)];
@@ -63,7 +63,7 @@ class ColourDrawing {
   std::vector<std::vector<std::string>> counted_;  ///< #heads: the tags that must agree, sorted
 };
 
-/// By id, the colours that each parent passes on to its children.
+/// Maps the id of each parent to the colours that its children inherit.
 class Parents {
  public:
   Parents(const std::vector<std::string>& heads, const std::vector<FacePlan>& crowd)

@@ -18,7 +18,7 @@ struct ColourOptions {
   HeadTags tags;                   ///< #heads, or empty
   /// Tags in which the head that lends colours must agree with the face's typical head. Empty
   /// optional: all tags.
-  std::optional<std::vector<std::string>> alike;
+  std::optional<std::vector<std::string>> tags_to_match;
 };
 
 /// Gives each face its own colours, Recipe::colours: a mixture of one random head (uniform among

@@ -89,10 +89,11 @@ std::string describe(Reason reason, const DiversityOptions& diversity,
   return concat(full_key(constraint), ", ", limit_of(constraint, diversity, believability));
 }
 
-std::string describe_broken(Reason reason, const DiversityOptions& diversity,
-                            const BelievabilityOptions& believability) {
+std::string describe_violation(Reason reason, const DiversityOptions& diversity,
+                               const BelievabilityOptions& believability) {
   const Constraint& constraint = constraint_of(reason);
-  return concat(constraint.broken, " the limit, ", limit_of(constraint, diversity, believability));
+  return concat(constraint.violation_text, " the limit, ",
+                limit_of(constraint, diversity, believability));
 }
 
 }  // namespace crowdface

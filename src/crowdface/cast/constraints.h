@@ -44,7 +44,7 @@ struct Constraint {
   /// unit of the limit, after a space
   std::string_view unit = {};
   /// text about a face that violates the constraint; messages put the limit after it
-  std::string_view broken = {};
+  std::string_view violation_text = {};
   /// What users can change if too few faces meet the constraint; most promising first.
   std::span<const std::string_view> advice;
 
@@ -63,8 +63,8 @@ std::string describe(Reason reason, const DiversityOptions& diversity,
 /// Returns, for example, "nearer to a head than the limit, 0.5 mm".
 ///
 /// \pre `reason` is none of kFamily, kRejected and kTraits.
-std::string describe_broken(Reason reason, const DiversityOptions& diversity,
-                            const BelievabilityOptions& believability);
+std::string describe_violation(Reason reason, const DiversityOptions& diversity,
+                               const BelievabilityOptions& believability);
 
 /// Number of rejected candidates by reason.
 struct Rejections {

@@ -5,23 +5,23 @@
 #include <vector>
 
 #include "crowdface/cast/face_plan.h"
-#include "crowdface/cast/face_point_index.h"
+#include "crowdface/cast/nearest_face_search.h"
 
 namespace crowdface {
 
 /// The faces cast so far, in the order of the plan, and their points in the face space.
 class CrowdSoFar {
  public:
-  explicit CrowdSoFar(Index dimensions) : index_(dimensions) {}
+  explicit CrowdSoFar(Index dimensions) : nearest_search_(dimensions) {}
 
   void add(FacePlan face, FaceSpace::Point point) {
-    index_.add(point);
+    nearest_search_.add(point);
     faces_.push_back(std::move(face));
     points_.push_back(std::move(point));
   }
-  Index size() const { return index_.size(); }
+  Index size() const { return nearest_search_.size(); }
   /// Marks the beginning of the sampled faces: all faces added later are sampled.
-  void begin_sampled() { first_sampled_ = size(); }
+  void mark_first_sampled() { first_sampled_ = size(); }
   /// Index of the first sampled face. Only distances to sampled faces decide which candidate is
   /// chosen, so an additional recipe or family does not change the choice. (Every candidate must
   /// keep the minimum distance from all faces.)
@@ -32,12 +32,12 @@ class CrowdSoFar {
   /// may be called.
   std::vector<FacePlan> take_faces() { return std::move(faces_); }
   std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
-  const FacePointIndex& index() const { return index_; }
+  const NearestFaceSearch& nearest_search() const { return nearest_search_; }
 
  private:
   std::vector<FacePlan> faces_;
   std::vector<FaceSpace::Point> points_;
-  FacePointIndex index_;
+  NearestFaceSearch nearest_search_;
   Index first_sampled_ = 0;
 };
 

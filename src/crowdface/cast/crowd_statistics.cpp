@@ -40,11 +40,12 @@ std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points) 
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Point>& points) {
   const auto chosen = evenly_spaced_items(points, 300);
-  std::vector<FaceSpace::RegionPoint> in_region(chosen.size());
-  parallel_for_each(chosen.size(),
-                    [&](std::size_t i) { in_region[i] = space.in_region(chosen[i], region); });
+  std::vector<FaceSpace::RegionPoint> region_points(chosen.size());
+  parallel_for_each(chosen.size(), [&](std::size_t i) {
+    region_points[i] = space.region_point(chosen[i], region);
+  });
   return pairwise(chosen.size(), [&](std::size_t i, std::size_t j) {
-    return space.region_distance(in_region[i], in_region[j], region);
+    return space.region_distance(region_points[i], region_points[j], region);
   });
 }
 

@@ -17,8 +17,8 @@ struct DiversityOptions {
   };
   Mode mode = Mode::kFirstFit;
   double min_distance_mm = 0;  ///< smallest distance between any two faces
-  /// kFirstFit: other values of `min_distance_mm` for the first sampled faces, by their number. With
-  /// {24: 1.2, 40: 1}, faces 1 … 24 and families have 1.2 mm, faces 25 … 40 have 1 mm.
+  /// kFirstFit: other values of `min_distance_mm` for the first sampled faces, by their number.
+  /// With {24: 1.2, 40: 1}, faces 1 … 24 and families have 1.2 mm, faces 25 … 40 have 1 mm.
   std::map<std::uint64_t, double> min_distance_of_first_mm = {};
   double min_distance_to_faces_mm = 0;  ///< smallest distance from every input head
   /// Smallest distance between a rejected face and its replacement; empty: half the crowd's median
@@ -26,29 +26,29 @@ struct DiversityOptions {
   std::optional<double> min_distance_to_rejected_mm;
   double max_weight = 1;    ///< largest weight of one head in one region
   int max_attempts = 1000;  ///< number of candidates for one face before casting gives up
-  /// Below this distance, a face passes for a head.
+  /// A face nearer than this to a head counts as the same person.
   static constexpr double kSamePersonMm = 0.5;
-  /// The first so many candidates for a face are rejected if they pass for a head. Later candidates
-  /// are not, because some configs yield only faces near heads.
+  /// Number of first candidates for a face that are rejected if they are the same person as a head.
+  /// Later candidates are accepted, because some configs yield only faces near heads.
   static constexpr std::uint32_t kCandidatesUnlikeHeads = 100;
   /// kSpread: size of the pool, in multiples of the crowd's size
-  static constexpr std::uint64_t kPool = 10;
+  static constexpr std::uint64_t kPoolSizeFactor = 10;
 
   /// Number of acceptable candidates for one face, of which kFirstFit keeps the candidate farthest
   /// from the crowd. Must not depend on the size of the crowd.
   ///
   /// \param index  Index of the face, from 1.
-  static int candidates_for(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
+  static int candidate_count(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
 
   /// Smallest distance of a sampled face from all earlier faces. \param index  0: a family's face.
-  double min_distance_of(std::uint64_t index) const {
+  double min_distance_mm_of(std::uint64_t index) const {
     const auto first = min_distance_of_first_mm.lower_bound(index);
     return first == min_distance_of_first_mm.end() ? min_distance_mm : first->second;
   }
   /// These options with the `min_distance_mm` of a sampled face.
-  DiversityOptions of_face(std::uint64_t index) const {
+  DiversityOptions options_of_face(std::uint64_t index) const {
     DiversityOptions own = *this;
-    own.min_distance_mm = min_distance_of(index);
+    own.min_distance_mm = min_distance_mm_of(index);
     return own;
   }
 };

@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 /// Number of lanes of random numbers that are reserved for one position.
-constexpr std::uint32_t kLanesOfPosition = 64;
+constexpr std::uint32_t kRandomLanesPerPosition = 64;
 /// If a position gives one head too much weight, another position is tried, at most
 /// kPositionRetries times. With each retry, the largest step away from the anchor grows by the
 /// factor kFartherEachTime.
@@ -32,7 +32,7 @@ class FaceRandom {
   std::array<double, 2> pair(std::string_view what, std::string_view region,
                              std::uint32_t lane = 0) const {
     const std::string purpose =
-        key_.who.empty() ? concat(what, '/', region) : concat(key_.who, '/', what, '/', region);
+        key_.owner.empty() ? concat(what, '/', region) : concat(key_.owner, '/', what, '/', region);
     return random_pair({seed_, key_.index, purpose, key_.attempt}, lane);
   }
   double unit(std::string_view what, std::string_view region) const {
@@ -68,7 +68,7 @@ PlanePoint random_in_hull(const CastingOptions& casting, const std::vector<Index
   }
   const auto [pick, a] = draws.pair("position", region, first);
   const double b = draws.pair("position", region, first + 1)[0];
-  return point_in_polygon(convex_hull(std::move(anchors)), pick, a, b);
+  return sample_polygon(convex_hull(std::move(anchors)), pick, a, b);
 }
 
 /// \param retry  Number of earlier positions that gave one head too much weight. Each retry may go
@@ -77,7 +77,7 @@ PlanePoint random_position(const CastingOptions& casting, const PositionDistribu
                            const std::vector<Index>& sources, Index target, const FaceRandom& draws,
                            const std::string& region, std::uint32_t retry) {
   require(!sources.empty(), "a position is drawn among sources, and there is none");
-  const std::uint32_t first = kLanesOfPosition * retry;
+  const std::uint32_t first = kRandomLanesPerPosition * retry;
   switch (distribution.kind) {
     case PositionDistribution::Kind::kFixed:
       return distribution.at;
@@ -166,8 +166,8 @@ BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Inde
   BandRecipe recipe;
   const auto take = [&](const PlanePoint& position) {
     recipe.position = position;
-    recipe.weights = weights_at(casting.anchors, target, sources, position, casting.normalization,
-                                all.max_sources);
+    recipe.weights = weights_at_position(casting.anchors, target, sources, position,
+                                         casting.normalization, all.max_sources);
   };
   const auto take_random = [&](std::uint32_t retry) {
     take(
@@ -196,12 +196,12 @@ RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, st
                          Index target, const FaceRandom& draws, const ManualRecipe::Region& hand) {
   const SamplingOptions& all = *kind.sampling;
   RegionRecipe recipe;
-  recipe.finer.resize(band_count(all) - 1);
+  recipe.finer_bands.resize(band_count(all) - 1);
   for (std::size_t b = 0; b < band_count(all); ++b) {
     band_of(recipe, b) =
         random_band(casting, kind, target, draws, band_draw(casting, all, k, b, hand));
   }
-  keep_order(recipe);
+  restore_level_order(recipe);
   return recipe;
 }
 
@@ -232,8 +232,8 @@ FaceKind kind_of_group(const CastingOptions& casting, std::optional<std::size_t>
   return {&own.sampling, own.sampling.targets, own.name};
 }
 
-FacePlan random_recipe(const CastingOptions& casting, const ManualRecipe& hand,
-                       const FaceRandomKey& key, const FaceKind& kind) {
+FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+                          const FaceRandomKey& key, const FaceKind& kind) {
   const FaceRandom draws(casting.seed, key);
   const SamplingOptions& sampling = *kind.sampling;
   FacePlan face;
@@ -263,15 +263,15 @@ FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::ui
                      const FaceKind& kind) {
   ManualRecipe open;
   open.id = face_id(casting.name, index);
-  FacePlan face = random_recipe(casting, open, {index, attempt}, kind);
+  FacePlan face = random_face_plan(casting, open, {index, attempt}, kind);
   face.index = index;
   return face;
 }
 
-FacePlan complete_recipe(const CastingOptions& casting, const ManualRecipe& hand,
-                         std::uint32_t attempt) {
-  return random_recipe(casting, hand, {0, attempt, concat("recipe/", hand.id)},
-                       kind_of_group(casting));
+FacePlan completed_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+                             std::uint32_t attempt) {
+  return random_face_plan(casting, hand, {0, attempt, concat("recipe/", hand.id)},
+                          kind_of_group(casting));
 }
 
 }  // namespace crowdface

@@ -72,24 +72,24 @@ std::string face_id(const std::string& crowd, std::uint64_t index);
 struct FaceRandomKey {
   std::uint64_t index = 0;    ///< index of the face, from 1
   std::uint32_t attempt = 0;  ///< number of earlier rejected attempts at this face
-  /// empty for a sampled face; otherwise separates the random numbers of other faces
-  std::string who = {};
+  /// Empty for a sampled face. Otherwise a text that is unique to this face, such as "recipe/ID".
+  std::string owner = {};
 };
 
 /// Chooses at random everything that `hand` does not specify; for a sampled face, `hand` specifies
 /// nothing. A pure function of its arguments, so a face does not depend on the crowd's size or on
 /// the order of the calls.
-FacePlan random_recipe(const CastingOptions& casting, const ManualRecipe& hand,
-                       const FaceRandomKey& key, const FaceKind& kind);
+FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+                          const FaceRandomKey& key, const FaceKind& kind);
 
-/// Returns attempt `attempt` at sampled face `index` (from 1), a random face.
+/// Returns candidate number `attempt` for sampled face number `index`, which counts from 1.
 FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
                      const FaceKind& kind);
 
 /// Completes a hand-written recipe. Random numbers depend on the recipe's id.
 ///
 /// \throws BrokenPrecondition if its weights cannot be normalised.
-FacePlan complete_recipe(const CastingOptions& casting, const ManualRecipe& hand,
-                         std::uint32_t attempt = 0);
+FacePlan completed_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+                             std::uint32_t attempt = 0);
 
 }  // namespace crowdface

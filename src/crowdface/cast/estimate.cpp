@@ -18,7 +18,7 @@ constexpr std::uint64_t kPoolPerFace = 5;
 /// Returns how many candidates of a pool, in its order, first fit keeps at this distance. Stops
 /// counting at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
-  FacePointIndex kept(pool.points[0].as_built.size());
+  NearestFaceSearch kept(pool.points[0].as_built.size());
   for (const FaceSpace::Point& point : pool.points) {
     if (static_cast<std::uint64_t>(kept.size()) >= enough) break;
     if (kept.nearest(point, mm).face < 0) kept.add(point);
@@ -51,20 +51,21 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
       continue;
     }
     points.pick(pick.candidate);
-    closest.push_back(closest.empty() ? pick.mm : std::min(closest.back(), pick.mm));
+    closest.push_back(closest.empty() ? pick.distance_mm
+                                      : std::min(closest.back(), pick.distance_mm));
   }
   // Find the largest distance for first fit by bisection.
   std::vector<EstimateRow> rows;
   for (const std::uint64_t count : counts) {
     if (count < 2 || count > closest.size()) continue;
     EstimateRow row{count, closest[count - 1], 0};
-    double works = 0, fails = 1.2 * row.spread_mm;
+    double works = 0, fails = 1.2 * row.spread_distance_mm;
     for (int i = 0; i < kCountHalvings; ++i) {
       throw_if_interrupted();
       const double mm = 0.5 * (works + fails);
       (first_fit_count(pool, mm, count) >= count ? works : fails) = mm;
     }
-    row.first_fit_mm = works;
+    row.first_fit_distance_mm = works;
     rows.push_back(row);
   }
   return rows;

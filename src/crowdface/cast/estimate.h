@@ -12,8 +12,9 @@ namespace crowdface {
 /// The distance that a given number of faces can keep.
 struct EstimateRow {
   std::uint64_t faces = 0;
-  double spread_mm = 0;     ///< smallest distance between two faces of a spread set
-  double first_fit_mm = 0;  ///< largest min_distance at which first fit finds this many faces
+  double spread_distance_mm = 0;  ///< smallest distance between two faces of a spread set
+  /// largest min_distance at which first fit finds this many faces
+  double first_fit_distance_mm = 0;
 };
 
 /// Estimates the capacity of the heads: the distance that crowds of several sizes can keep, from a

@@ -24,9 +24,9 @@ double middle_of_skin(const Components& components, const Positions& mean, Axis 
 
 }  // namespace
 
-std::vector<double> face_areas(const Topology& topology, const Components& components,
-                               const Positions& mean, FaceArea area, Axis front,
-                               const std::vector<double>& mask) {
+std::vector<double> face_vertex_areas(const Topology& topology, const Components& components,
+                                      const Positions& mean, FaceArea area, Axis front,
+                                      const std::vector<double>& mask) {
   const std::uint32_t skin = components.largest();
   const double middle =
       area == FaceArea::kFront ? middle_of_skin(components, mean, front) : -HUGE_VAL;

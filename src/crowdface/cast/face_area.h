@@ -20,9 +20,9 @@ enum class FaceArea {
 /// zero.
 ///
 /// \param mask  #V, multiplied with the weights; or empty.
-std::vector<double> face_areas(const Topology& topology, const Components& components,
-                               const Positions& mean, FaceArea area, Axis front,
-                               const std::vector<double>& mask = {});
+std::vector<double> face_vertex_areas(const Topology& topology, const Components& components,
+                                      const Positions& mean, FaceArea area, Axis front,
+                                      const std::vector<double>& mask = {});
 
 /// Returns the distance between two built faces of one topology: root mean square over all
 /// vertices, after the second face is aligned rigidly with the first. In the positions' unit.

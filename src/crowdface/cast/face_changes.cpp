@@ -47,7 +47,7 @@ std::vector<std::string> changed_keys(const AppliedChange& applied) {
   const std::pair<const char*, bool> keys[] = {
       {"age", change.age || change.age_step},   {"variant_of", change.variant_of.has_value()},
       {"group", change.group.has_value()},      {"lock", !change.locked.empty()},
-      {"traits", !change.traits.empty()},       {"wears", change.wears.has_value()},
+      {"traits", !change.traits.empty()},       {"wears", change.attachments.has_value()},
       {"takes_off", !change.takes_off.empty()}, {"hair", change.hair.has_value()},
       {"colours", !change.colours.empty()}};
   std::vector<std::string> names;
@@ -144,14 +144,14 @@ class Changing {
     const FaceSpace::Point point = judge_.space().point(other.recipe);
     const double age = other.age.value_or(0);
     const SamplingOptions& sampling = sampling_of(other);
-    take_back_age(other, {casting_.anchors, casting_.tags}, sampling);
+    undo_age(other, {casting_.anchors, casting_.tags}, sampling);
     return [=, this, &sampling](std::uint32_t attempt) {
       ManualRecipe open;
       open.id = changed_.face.id;
       open.target = other.recipe.target;
       open.age = Range{0, 0};
       const FacePlan drawn =
-          random_recipe(casting_, open, key(attempt), kind_called(other.group, casting_));
+          random_face_plan(casting_, open, key(attempt), kind_called(other.group, casting_));
       const auto at = [&](double share) {
         FacePlan face = drawn;
         face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.scale);
@@ -177,9 +177,9 @@ class Changing {
     if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
     const bool only_traits = limits_only(change);
     return [=, this](std::uint32_t attempt) {
-      FacePlan drawn = random_recipe(casting_, open, key(attempt), kind);
+      FacePlan drawn = random_face_plan(casting_, open, key(attempt), kind);
       drawn.index = now.index;
-      if (!change.locked.empty()) keep_locked(change.locked, now.recipe, drawn.recipe);
+      if (!change.locked.empty()) copy_locked_bands(change.locked, now.recipe, drawn.recipe);
       if (!only_traits || !meets_limits(drawn)) return drawn;
       const auto at = [&](double share) {
         FacePlan face = drawn;
@@ -209,18 +209,18 @@ class Changing {
       for (Group& group : limited.groups) {
         group.sampling.traits = merge_limits(group.sampling.traits, changed_.traits);
       }
-      judge.limit_traits(&rules.emplace(judge.traits()->measurer(), limited));
+      judge.set_trait_rules(&rules.emplace(judge.traits()->measurer(), limited));
     } else if (changed_.variant_of) {
-      judge.limit_traits(nullptr);
+      judge.set_trait_rules(nullptr);
     }
     DiversityOptions diversity = casting_.diversity;
     diversity.min_distance_mm = min_distance_mm_;
     FaceSearch found(generate, judge, diversity, 1);
-    auto face = found.settle(others);
+    auto face = found.choose_face(others);
     cast_.rejections.add(found.rejections());
     if (!face) {
       cast_.shortfall = Shortfall{casting_.count, found.rejections()};
-      cast_.shortfall->changed = changed_.face.id;
+      cast_.shortfall->changed_face = changed_.face.id;
     }
     return face;
   }
@@ -235,20 +235,20 @@ class Changing {
 
   void set_age(double age) {
     const SamplingOptions& sampling = sampling_of(changed_.face);
-    take_back_age(changed_.face, {casting_.anchors, casting_.tags}, sampling);
+    undo_age(changed_.face, {casting_.anchors, casting_.tags}, sampling);
     changed_.face.age.reset();
     apply_age(changed_.face, age, {casting_.anchors, casting_.tags}, sampling);
   }
 
   /// Measures the distances of the changed face, for information.
   void note_nearest() {
-    const auto [head, head_mm] = judge_.nearest_head(changed_.point);
-    Nearest nearest{head, head_mm, std::nullopt, 0};
+    const auto [head, head_distance_mm] = judge_.nearest_head(changed_.point);
+    NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
     for (std::size_t i = 0; i < at_; ++i) {
       const double mm = FaceSpace::distance(changed_.point, cast_.points[i]);
-      if (nearest.crowd && mm >= nearest.crowd_mm) continue;
-      nearest.crowd = cast_.crowd[i].id;
-      nearest.crowd_mm = mm;
+      if (nearest.earlier_face && mm >= nearest.earlier_face_distance_mm) continue;
+      nearest.earlier_face = cast_.crowd[i].id;
+      nearest.earlier_face_distance_mm = mm;
     }
     changed_.face.notes.nearest = nearest;
   }
@@ -271,7 +271,7 @@ void apply(const CastingOptions& casting, const FaceJudge& judge,
   for (const FaceChange& change : changes) {
     const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;
     applied.push_back({change, by, nullptr,
-                       first ? casting.diversity.min_distance_of(index.value_or(0))
+                       first ? casting.diversity.min_distance_mm_of(index.value_or(0))
                              : casting.diversity.min_distance_mm});
     if (!change.variant_of) continue;
     applied.back().variant_of = current(face_called(*change.variant_of, cast), cast);
@@ -295,15 +295,15 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
   apply(casting, judge, changes, by, false, cast);
 }
 
-AvoidedChanges::AvoidedChanges(const CastingResult& cast, double min_distance_mm,
-                               const std::vector<bool>& settled)
+AvoidedFaces::AvoidedFaces(const CastingResult& cast, double min_distance_mm,
+                           const std::vector<bool>& settled)
     : min_distance_mm_(min_distance_mm) {
   for (const auto& [face, changed] : cast.changed) {
     if (settled.empty() || settled[face]) points_.push_back(changed.point);
   }
 }
 
-std::optional<Reason> AvoidedChanges::refuses(const FaceSpace::Point& point) const {
+std::optional<Reason> AvoidedFaces::rejection_reason(const FaceSpace::Point& point) const {
   const bool is_near = std::ranges::any_of(points_, [&](const FaceSpace::Point& other) {
     return FaceSpace::distance(point, other) < min_distance_mm_;
   });
@@ -315,8 +315,8 @@ void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& jud
   apply(casting, judge, casting.changes, "config", true, cast);
 }
 
-void change_again(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
-                  CastingResult& cast) {
+void reapply_changes(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
+                     CastingResult& cast) {
   if (cast.changed.contains(face)) Changing(casting, judge, face, cast).apply();
 }
 

@@ -31,15 +31,16 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
                    const std::vector<FaceChange>& changes, const std::string& by,
                    CastingResult& cast);
 
-/// Keeps faces that are cast or redrawn later at a distance from the faces that reviews have changed.
-class AvoidedChanges {
+/// Keeps faces that are cast or redrawn later at a distance from the faces that reviews have
+/// changed.
+class AvoidedFaces {
  public:
   /// \param cast     the crowd with the changes of the reviews so far.
   /// \param settled  #crowd: faces that are not being redrawn. Empty: all.
-  AvoidedChanges(const CastingResult& cast, double min_distance_mm,
-                 const std::vector<bool>& settled = {});
+  AvoidedFaces(const CastingResult& cast, double min_distance_mm,
+               const std::vector<bool>& settled = {});
   /// Returns why a point is rejected; nothing if it is accepted.
-  std::optional<Reason> refuses(const FaceSpace::Point& point) const;
+  std::optional<Reason> rejection_reason(const FaceSpace::Point& point) const;
 
  private:
   double min_distance_mm_;
@@ -51,7 +52,7 @@ void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& jud
                              CastingResult& cast);
 
 /// Applies the changes of a face again, after it was redrawn.
-void change_again(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
-                  CastingResult& cast);
+void reapply_changes(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
+                     CastingResult& cast);
 
 }  // namespace crowdface

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const SkinDefects& skin) {
+std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits, const SkinDefects& skin) {
   const auto triangles = static_cast<double>(skin.local.compared);
   if (static_cast<double>(skin.local.flipped) > limits.max_flipped * triangles) {
     return Reason::kFlipped;
@@ -17,14 +17,14 @@ std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const Ski
   if (static_cast<double>(skin.intersecting) > limits.max_intersecting * triangles) {
     return Reason::kIntersecting;
   }
-  if (skin.wider_mm > limits.max_gap_mm) return Reason::kGap;
+  if (skin.gap_excess_mm > limits.max_gap_mm) return Reason::kGap;
   if (skin.exposed_mm2 > limits.max_exposed_mm2) return Reason::kExposed;
   return std::nullopt;
 }
 
 FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability, const ProxySkin* skin,
-                     MeshDefects meshes)
+                     FindMeshDefects meshes)
     : space_(space),
       diversity_(diversity),
       believability_(believability),
@@ -36,9 +36,9 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
   std::vector<FaceSpace::Point> heads;
   for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h));
   // A smaller limit applies if the heads resemble each other or are small.
-  constexpr double kShareOfMedian = 0.1;
+  constexpr double kFractionOfMedian = 0.1;
   same_person_mm_ = std::min(DiversityOptions::kSamePersonMm,
-                             kShareOfMedian * quartiles(pair_distances(heads)).median);
+                             kFractionOfMedian * quartiles(pair_distances(heads)).median);
 }
 
 std::optional<Reason> FaceJudge::check_traits(const FacePlan& face) const {
@@ -76,17 +76,17 @@ std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
   Recipe recipe = whole;  // a mirrored face has the same defects
   recipe.mirrored = false;
-  const Positions samples = sample_face(space_.sampled(), recipe);
+  const Positions samples = sample_face(space_.sampled_heads(), recipe);
   std::optional<ProxySkin::Target> mixture;
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
-    mixture.emplace(skin_->target(sample_target(space_.sampled(), recipe)));
+    mixture.emplace(skin_->target_of_samples(sample_target(space_.sampled_heads(), recipe)));
   }
-  const ProxySkin::Target& target = mixture ? *mixture : skin_->head(recipe.target);
+  const ProxySkin::Target& target = mixture ? *mixture : skin_->target_of_head(recipe.target);
   SkinDefects defects{target.triangles.compare(samples), 0};
-  if (const auto why = limit_passed(believability_, defects)) return why;
+  if (const auto why = exceeded_limit(believability_, defects)) return why;
   defects.intersecting = skin_->intersecting_triangles(samples, target);
-  if (const auto why = limit_passed(believability_, defects)) return why;
-  return mesh_defects_ ? limit_passed(believability_, mesh_defects_(recipe)) : std::nullopt;
+  if (const auto why = exceeded_limit(believability_, defects)) return why;
+  return mesh_defects_ ? exceeded_limit(believability_, mesh_defects_(recipe)) : std::nullopt;
 }
 
 }  // namespace crowdface

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "crowdface/cast/constraints.h"
-#include "crowdface/cast/face_point_index.h"
+#include "crowdface/cast/nearest_face_search.h"
 #include "crowdface/cast/plausibility.h"
 #include "crowdface/cast/proxy_skin.h"
 #include "crowdface/cast/trait_rules.h"
@@ -14,11 +14,11 @@
 namespace crowdface {
 
 /// Returns the first limit that a face's skin exceeds; nothing if it exceeds none.
-std::optional<Reason> limit_passed(const BelievabilityOptions& limits, const SkinDefects& skin);
+std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits, const SkinDefects& skin);
 
 /// Builds the whole mesh of a recipe and compares its skin with the target's. Must be callable from
 /// any thread.
-using MeshDefects = std::function<SkinDefects(const Recipe&)>;
+using FindMeshDefects = std::function<SkinDefects(const Recipe&)>;
 
 /// Judges single candidates, independently of the crowd.
 class FaceJudge {
@@ -27,10 +27,10 @@ class FaceJudge {
   /// \param meshes  If given, also checks whole meshes of candidates that pass the coarse check.
   FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
             const BelievabilityOptions& believability, const ProxySkin* skin = nullptr,
-            MeshDefects meshes = {});
+            FindMeshDefects meshes = {});
 
   /// Sets limits on measurements. \param rules  must outlive this object; null: no limits
-  void limit_traits(const TraitRules* rules) { traits_ = rules; }
+  void set_trait_rules(const TraitRules* rules) { traits_ = rules; }
   const TraitRules* traits() const { return traits_; }
   /// Checks the limits on measurements; takes the landmarks from the whole mesh.
   std::optional<Reason> check_traits(const FacePlan& face) const;
@@ -55,8 +55,8 @@ class FaceJudge {
   std::optional<Reason> check_skin(const Recipe& recipe) const;
 
   /// Returns the nearest head. If faces may be mirrored, mirror images of heads count as the head.
-  FacePointIndex::Nearest nearest_head(const FaceSpace::Point& point) const {
-    FacePointIndex::Nearest nearest = heads_.nearest(point);
+  NearestFaceSearch::NearestFace nearest_head(const FaceSpace::Point& point) const {
+    NearestFaceSearch::NearestFace nearest = heads_.nearest(point);
     nearest.face %= space_.head_count();
     return nearest;
   }
@@ -66,11 +66,11 @@ class FaceJudge {
   const FaceSpace& space_;
   DiversityOptions diversity_;
   BelievabilityOptions believability_;
-  FacePointIndex heads_;
+  NearestFaceSearch heads_;
   double same_person_mm_;  ///< below this distance from a head, a face passes for the head
   Plausibility plausibility_;
   const ProxySkin* skin_;
-  MeshDefects mesh_defects_;
+  FindMeshDefects mesh_defects_;
   const TraitRules* traits_ = nullptr;
 };
 

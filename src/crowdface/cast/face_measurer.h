@@ -21,34 +21,34 @@ class FaceMeasurer {
   };
   /// Computes the landmarks of a face's written mesh, #landmarks by 3 in millimetres. Must be
   /// callable from any thread.
-  using Exactly = std::function<Positions(const Recipe&)>;
+  using ExactLandmarks = std::function<Positions(const Recipe&)>;
 
   /// \param heads      the heads at the samples of the landmarks
   /// \param landmarks  #trait_landmarks
   /// \param spread     the measurements of the heads
-  FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks, TraitSpread spread,
-               Exactly exactly)
+  FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks, TraitDistributions spread,
+               ExactLandmarks exactly)
       : heads_(std::move(heads)),
         landmarks_(std::move(landmarks)),
         spread_(std::move(spread)),
-        exactly_(std::move(exactly)) {}
+        exact_landmarks_(std::move(exactly)) {}
 
   /// Computes the landmarks of a face, #landmarks by 3 in millimetres, in microseconds. Ignores the
   /// correction of the gap between the lips after blending, which moves the skin around the mouth
   /// by fractions of a millimetre.
   Positions landmarks(const Recipe& recipe) const;
   /// Computes the landmarks of the mesh that is written for a recipe, in about a millisecond.
-  Positions exact_landmarks(const Recipe& recipe) const { return exactly_(recipe); }
+  Positions exact_landmarks(const Recipe& recipe) const { return exact_landmarks_(recipe); }
 
-  const TraitSpread& spread() const { return spread_; }
+  const TraitDistributions& spread() const { return spread_; }
   /// Whether landmarks meet all limits.
   bool meets(const TraitLimits& limits, const Positions& landmarks) const;
 
  private:
   SampledHeads heads_;
   std::vector<Landmark> landmarks_;
-  TraitSpread spread_;
-  Exactly exactly_;
+  TraitDistributions spread_;
+  ExactLandmarks exact_landmarks_;
 };
 
 }  // namespace crowdface

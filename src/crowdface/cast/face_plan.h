@@ -12,17 +12,17 @@
 namespace crowdface {
 
 /// The nearest head and the nearest earlier face of a face; for information only.
-struct Nearest {
+struct NearestNeighbours {
   Index head = 0;  ///< the nearest input head
-  double head_mm = 0;
-  std::optional<std::string> crowd;  ///< the nearest earlier face in the plan
-  double crowd_mm = 0;
+  double head_distance_mm = 0;
+  std::optional<std::string> earlier_face;  ///< id of the nearest earlier face in the plan
+  double earlier_face_distance_mm = 0;
 };
 
 /// How casting found a face. Meshes do not depend on these notes.
 struct CastingNotes {
   std::uint32_t attempt = 0;  ///< number of earlier, rejected candidates for this face
-  std::optional<Nearest> nearest;
+  std::optional<NearestNeighbours> nearest;
   std::optional<std::string> review;  ///< a reviewer's note
   /// Changes of the face, in order: who changed which keys, such as "review 2: age, hair".
   std::vector<std::string> changes = {};
@@ -39,7 +39,7 @@ struct FacePlan {
   /// mother and father, if the family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
   /// #regions by #bands: the parent that the detail comes from; empty without parents
-  std::vector<std::string> inherits;
+  std::vector<std::string> inherited_from;
   double mother_share = 0;  ///< mother's fraction of the coarse shape, if the face inherits it
   std::vector<std::string> attachments;  ///< names
   /// values of the measurements that the plan records (PlanNames::traits); empty: not measured

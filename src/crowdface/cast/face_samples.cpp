@@ -16,8 +16,10 @@ constexpr int kTrajectorySteps = 63;
 /// Returns the sampling density of each vertex; sums to one.
 std::vector<double> sampling_density(const Topology& topology, const Components& components,
                                      const Positions& mean, Axis front) {
-  const std::vector<double> face = face_areas(topology, components, mean, FaceArea::kFront, front);
-  const std::vector<double> skin = face_areas(topology, components, mean, FaceArea::kSkin, front);
+  const std::vector<double> face =
+      face_vertex_areas(topology, components, mean, FaceArea::kFront, front);
+  const std::vector<double> skin =
+      face_vertex_areas(topology, components, mean, FaceArea::kSkin, front);
   std::vector<double> vertices;
   for (const double area : skin) vertices.push_back(area > 0 ? 1 : 0);
   std::vector<double> density(skin.size(), 0.0);
@@ -78,7 +80,7 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
   return samples;
 }
 
-FaceSamples with_partners(const FaceSamples& samples, const MirrorMap& mirror) {
+FaceSamples samples_and_partners(const FaceSamples& samples, const MirrorMap& mirror) {
   std::set<std::uint32_t> all(samples.begin(), samples.end());
   for (const std::uint32_t v : samples) {
     if (mirror.is_vertex(v)) all.insert(mirror.corners[v][0]);
@@ -86,7 +88,7 @@ FaceSamples with_partners(const FaceSamples& samples, const MirrorMap& mirror) {
   return {all.begin(), all.end()};
 }
 
-FaceSamples with_corners(FaceSamples samples, const MirrorMap& mirror) {
+FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mirror) {
   const std::set<std::uint32_t> known(samples.begin(), samples.end());
   std::set<std::uint32_t> more;
   for (const std::uint32_t v : known) {

@@ -25,10 +25,10 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
                                 const Positions& mean, Axis front, Index count);
 
 /// Returns the samples and their mirror partners that are vertices, ascending.
-FaceSamples with_partners(const FaceSamples& samples, const MirrorMap& mirror);
+FaceSamples samples_and_partners(const FaceSamples& samples, const MirrorMap& mirror);
 /// Returns the samples, followed by all other vertices that are needed to interpolate the positions
 /// of the samples' mirror images.
-FaceSamples with_corners(FaceSamples samples, const MirrorMap& mirror);
+FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mirror);
 
 /// Returns the levels at which trajectories are stored: round(L_max·(j/63)²), without duplicates.
 std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level);

@@ -11,7 +11,7 @@ FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const Diversit
     : generate_(std::move(generate)),
       judge_(judge),
       diversity_(diversity),
-      wanted_(static_cast<std::size_t>(candidates)),
+      wanted_count_(static_cast<std::size_t>(candidates)),
       first_attempt_(first_attempt),
       next_attempt_(first_attempt),
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
@@ -19,18 +19,18 @@ FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const Diversit
 
 /// Returns whether a candidate is far enough from all faces. If the candidate cannot be the
 /// farthest one, stores only an upper bound of its distance to the crowd.
-bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
+bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
-  if (least > 0 && crowd.index().nearest(candidate.point, least).face >= 0) return false;
-  if (wanted_ == 1) return true;
+  if (least > 0 && crowd.nearest_search().nearest(candidate.point, least).face >= 0) return false;
+  if (wanted_count_ == 1) return true;
   double farthest = 0;
   for (const Candidate& other : candidates_) {
     if (other.is_exact) farthest = std::max(farthest, other.nearest_mm);
   }
   candidate.nearest_mm =
-      crowd.index()
+      crowd.nearest_search()
           .nearest(candidate.point, HUGE_VAL, crowd.first_sampled(), crowd.size(), farthest)
-          .mm;
+          .distance_mm;
   candidate.is_exact = candidate.nearest_mm >= farthest;
   return true;
 }
@@ -39,7 +39,7 @@ bool FaceSearch::compare_with_crowd(Candidate& candidate, const CrowdSoFar& crow
 /// attempts than all other constraints: after the usual number of attempts, one candidate is
 /// enough.
 bool FaceSearch::needs_candidates() const {
-  if (candidates_.size() >= wanted_ || next_attempt_ >= last_attempt_) return false;
+  if (candidates_.size() >= wanted_count_ || next_attempt_ >= last_attempt_) return false;
   return candidates_.empty() || next_attempt_ < usual_attempt_;
 }
 
@@ -68,32 +68,32 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
     if (const auto reason =
             judge_.check_candidate(candidate.face.recipe, candidate.point, earlier)) {
       rejections_.add(*reason);
-    } else if (!compare_with_crowd(candidate, crowd)) {
+    } else if (!is_far_from_crowd(candidate, crowd)) {
       rejections_.add(Reason::kMinDistance);
     } else {
       candidates_.push_back(std::move(candidate));
     }
   }
-  compared_ = crowd.size();
+  compared_count_ = crowd.size();
 }
 
 /// Compares the candidates with faces that have joined the crowd since the last comparison.
 void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
-  if (compared_ == crowd.size()) return;
+  if (compared_count_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
-    const auto nearest =
-        crowd.index().nearest(candidate.point, candidate.nearest_mm, compared_, crowd.size());
-    candidate.nearest_mm = std::min(candidate.nearest_mm, nearest.mm);
+    const auto nearest = crowd.nearest_search().nearest(candidate.point, candidate.nearest_mm,
+                                                        compared_count_, crowd.size());
+    candidate.nearest_mm = std::min(candidate.nearest_mm, nearest.distance_mm);
   }
   const auto gone = std::erase_if(candidates_, [&](const Candidate& candidate) {
     return candidate.nearest_mm < diversity_.min_distance_mm;
   });
   rejections_.add(Reason::kMinDistance, gone);
-  compared_ = crowd.size();
+  compared_count_ = crowd.size();
 }
 
 /// Returns the farthest candidate; of equally far candidates, the earliest.
-FaceSearch::Candidate& FaceSearch::farthest(const CrowdSoFar& crowd) {
+FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
   for (;;) {
     Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),
                                          [](const Candidate& a, const Candidate& b) {
@@ -103,45 +103,48 @@ FaceSearch::Candidate& FaceSearch::farthest(const CrowdSoFar& crowd) {
                                            return a.face.notes.attempt < b.face.notes.attempt;
                                          });
     if (first.is_exact) return first;
-    const auto nearest =
-        crowd.index().nearest(first.point, first.nearest_mm, crowd.first_sampled(), crowd.size());
-    first.nearest_mm = std::min(first.nearest_mm, nearest.mm);
+    const auto nearest = crowd.nearest_search().nearest(first.point, first.nearest_mm,
+                                                        crowd.first_sampled(), crowd.size());
+    first.nearest_mm = std::min(first.nearest_mm, nearest.distance_mm);
     first.is_exact = true;
   }
 }
 
 /// Returns the candidate with the least cost; of equal candidates, the earliest.
-FaceSearch::Candidate& FaceSearch::cheapest(const Cost& cost) {
+FaceSearch::Candidate& FaceSearch::cheapest_candidate(const Cost& cost) {
   std::vector<double> costs;
   for (const Candidate& candidate : candidates_) costs.push_back(cost(candidate.landmarks));
   return candidates_[static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin())];
 }
 
 void FaceSearch::judge_skin(Candidate& candidate) const {
-  if (candidate.judged) return;
-  candidate.violated = judge_.check_traits(candidate.face);
-  if (!candidate.violated) candidate.violated = judge_.check_skin(candidate.face.recipe);
-  candidate.judged = true;
+  if (candidate.is_judged) return;
+  candidate.violated_constraint = judge_.check_traits(candidate.face);
+  if (!candidate.violated_constraint)
+    candidate.violated_constraint = judge_.check_skin(candidate.face.recipe);
+  candidate.is_judged = true;
 }
 
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
   find_candidates(crowd);
-  if (!candidates_.empty()) judge_skin(farthest(crowd));  // most likely the chosen candidate
+  if (!candidates_.empty())
+    judge_skin(farthest_candidate(crowd));  // most likely the chosen candidate
 }
 
-std::optional<FaceSearch::Found> FaceSearch::settle(const CrowdSoFar& crowd, const Refuses& refuses,
-                                                    const Cost& cost) {
+std::optional<FaceSearch::Found> FaceSearch::choose_face(const CrowdSoFar& crowd,
+                                                         const RejectionCheck& rejection_reason,
+                                                         const Cost& cost) {
   for (;;) {
     compare_with_added_faces(crowd);
     find_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
     // Take the farthest or cheapest candidate that passes all checks. If none does, generate more.
     while (!candidates_.empty()) {
-      Candidate& candidate = cost ? cheapest(cost) : farthest(crowd);
-      auto why = refuses ? refuses(candidate.point) : std::nullopt;
+      Candidate& candidate = cost ? cheapest_candidate(cost) : farthest_candidate(crowd);
+      auto why = rejection_reason ? rejection_reason(candidate.point) : std::nullopt;
       if (!why) {
         judge_skin(candidate);
-        why = candidate.violated;
+        why = candidate.violated_constraint;
       }
       if (!why) {
         return Found{std::move(candidate.face), std::move(candidate.point),

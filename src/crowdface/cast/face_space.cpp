@@ -15,11 +15,11 @@ namespace {
 
 /// Largest residual of a displacement field outside the span of the basis: rms over the face in mm.
 constexpr double kFieldTolerance = 0.004;
-constexpr Index kMaxFunctions = 400;  ///< largest number for each side
+constexpr Index kMaxFunctions = 400;  ///< largest number for each orientation
 /// Largest residual of a training face outside the span of the principal directions, in
 /// millimetres. The residual's length is an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
-constexpr Index kMaxDirections = 192;  ///< largest number for each side
+constexpr Index kMaxDirections = 192;  ///< largest number for each orientation
 constexpr std::uint64_t kTrainingFaces = 1024;
 
 double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
@@ -48,7 +48,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
     : heads_(std::move(heads)) {
   choose_weighted_samples(weights);
   const FloatRows basis = find_functions();
-  place_heads_and_fields();
+  compute_head_shapes_and_fields();
   find_directions(bands);
   directions_transposed_ = tables_.directions.transpose();
   if (heads_.alpha.cols() == 1) return;
@@ -58,16 +58,17 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
 
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables)
     : heads_(std::move(heads)), tables_(std::move(tables)) {
-  require(fit(tables_, heads_), "face space: tables of other heads");
+  require(tables_fit(tables_, heads_), "face space: tables of other heads");
   choose_weighted_samples(weights);
-  place_heads_and_fields();
+  compute_head_shapes_and_fields();
   directions_transposed_ = tables_.directions.transpose();
   if (heads_.alpha.cols() > 1) find_region_shares();
 }
 
-bool FaceSpace::fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
-  const std::size_t sides = heads.image == nullptr ? 1 : 2;
-  const FunctionRows rows{static_cast<Index>(sides * heads.heads.size()), tables.levels.cols()};
+bool FaceSpace::tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
+  const std::size_t orientation_count = heads.mirror_images == nullptr ? 1 : 2;
+  const FunctionRows rows{static_cast<Index>(orientation_count * heads.heads.size()),
+                          tables.levels.cols()};
   const Index regions = heads.alpha.cols(), rank = tables.directions.rows();
   return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
          tables.functions.rows() == rows.count(regions) &&
@@ -82,9 +83,9 @@ void FaceSpace::choose_weighted_samples(const std::vector<double>& weights) {
   for (Index s = 0; s < heads_.mean.rows(); ++s) {
     if (weights[static_cast<std::size_t>(s)] > 0) weighted_samples_.push_back(s);
   }
-  weight_roots_.resize(static_cast<Index>(weighted_samples_.size()));
-  for (Index i = 0; i < weight_roots_.size(); ++i) {
-    weight_roots_[i] =
+  weight_square_roots_.resize(static_cast<Index>(weighted_samples_.size()));
+  for (Index i = 0; i < weight_square_roots_.size(); ++i) {
+    weight_square_roots_[i] =
         static_cast<float>(std::sqrt(weights[static_cast<std::size_t>(sample_at(i))]));
   }
 }
@@ -93,17 +94,17 @@ void FaceSpace::choose_weighted_samples(const std::vector<double>& weights) {
 /// modes only. Each row is a level; the columns are heads, coordinates and samples, scaled by the
 /// samples' √w.
 SpanBasis FaceSpace::level_modes() const {
-  const Index heads = head_point_count(), size = weight_roots_.size();
+  const Index heads = head_point_count(), size = weight_square_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
   parallel_for_each(heads, [&](Index h) {
-    const Trajectory& trajectory = side_of(h).trajectories[in_side(h)];
+    const Trajectory& trajectory = heads_in_orientation_of(h).trajectories[unmirrored_index(h)];
     for (Index l = 0; l < level_count; ++l) {
       for (Index i = 0; i < size; ++i) {
         for (Index c = 0; c < 3; ++c) {
           const auto value = static_cast<double>(trajectory(l, 3 * sample_at(i) + c));
           levels(l, (h * 3 + c) * size + i) =
-              static_cast<float>(value * heads_.mm_per_unit) * weight_roots_[i];
+              static_cast<float>(value * heads_.mm_per_unit) * weight_square_roots_[i];
         }
       }
     }
@@ -114,15 +115,15 @@ SpanBasis FaceSpace::level_modes() const {
 /// Writes a scalar function on the samples, minus its mean over the face. Alignment removes the
 /// mean anyway.
 template <class Value>
-void FaceSpace::put_function(const Value& value, float* row) const {
+void FaceSpace::write_function(const Value& value, float* row) const {
   double mean = 0;
-  for (Index i = 0; i < weight_roots_.size(); ++i) {
-    const double scaled = static_cast<double>(weight_roots_[i]) * value(i);
+  for (Index i = 0; i < weight_square_roots_.size(); ++i) {
+    const double scaled = static_cast<double>(weight_square_roots_[i]) * value(i);
     row[i] = static_cast<float>(scaled);
-    mean += static_cast<double>(weight_roots_[i]) * scaled;
+    mean += static_cast<double>(weight_square_roots_[i]) * scaled;
   }
-  for (Index i = 0; i < weight_roots_.size(); ++i)
-    row[i] -= static_cast<float>(mean) * weight_roots_[i];
+  for (Index i = 0; i < weight_square_roots_.size(); ++i)
+    row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
 /// Returns the functions whose sums are the faces; three rows (x, y, z) for each.
@@ -131,27 +132,27 @@ void FaceSpace::put_function(const Value& value, float* row) const {
 ///               each mode's rows are multiplied by its peak.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
-  const Index size = weight_roots_.size(), regions = heads_.alpha.cols();
+  const Index size = weight_square_roots_.size(), regions = heads_.alpha.cols();
   FloatRows functions(rows.count(regions), size);
   for (Index c = 0; c < 3; ++c) {
-    put_function([&](Index i) { return heads_.mean(sample_at(i), c); }, functions.row(c).data());
+    write_function([&](Index i) { return heads_.mean(sample_at(i), c); }, functions.row(c).data());
     for (Index h = 0; h < rows.heads; ++h) {
-      const Positions& head = side_of(h).heads[in_side(h)];
-      put_function([&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
-                   functions.row(rows.of_head(h) + c).data());
+      const Positions& head = heads_in_orientation_of(h).heads[unmirrored_index(h)];
+      write_function([&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
+                     functions.row(rows.of_head(h) + c).data());
     }
   }
   parallel_for_each(regions * rows.heads, [&](Index kh) {
     const Index k = kh / rows.heads, h = kh % rows.heads;
-    const Columns& alpha = side_of(h).alpha;
+    const Columns& alpha = heads_in_orientation_of(h).alpha;
     for (Index r = 0; r < rows.modes; ++r) {
       float* const first = functions.row(rows.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {
         const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
-        put_function(
+        write_function(
             [&](Index i) {  // the mode already contains √w
               return alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
-                     static_cast<double>(weight_roots_[i]);
+                     static_cast<double>(weight_square_roots_[i]);
             },
             first + c * size);
       }
@@ -176,13 +177,13 @@ FloatRows FaceSpace::find_functions() {
     for (Index l = 0; l < tables_.levels.rows(); ++l) tables_.levels(l, r) /= peaks.back();
   }
   const FunctionRows rows{head_point_count(), modes.directions.rows()};
-  SpanBasis basis =
-      span_basis(functions(modes, peaks, rows), kFieldTolerance, sides() * kMaxFunctions);
+  SpanBasis basis = span_basis(functions(modes, peaks, rows), kFieldTolerance,
+                               orientation_count() * kMaxFunctions);
   tables_.functions = std::move(basis.coordinates);
   return std::move(basis.directions);
 }
 
-void FaceSpace::place_heads_and_fields() {
+void FaceSpace::compute_head_shapes_and_fields() {
   const FunctionRows rows{head_point_count(), tables_.levels.cols()};
   const auto shape_at = [&](Index row) -> Shape {
     return tables_.functions.middleRows<3>(row).transpose();
@@ -214,17 +215,17 @@ const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
 
 FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapolation) const {
   const double w = mirrored_weight(recipe);
-  if (w == 0) return shape_in_side(recipe, extrapolation, 0);
-  require(sides() == 2, "a mirrored face, and no mirror images of heads");
-  if (w == 1) return shape_in_side(recipe, extrapolation, 1);
-  return static_cast<float>(1 - w) * shape_in_side(recipe, extrapolation, 0) +
-         static_cast<float>(w) * shape_in_side(recipe, extrapolation, 1);
+  if (w == 0) return shape_in_orientation(recipe, extrapolation, 0);
+  require(orientation_count() == 2, "a mirrored face, and no mirror images of heads");
+  if (w == 1) return shape_in_orientation(recipe, extrapolation, 1);
+  return static_cast<float>(1 - w) * shape_in_orientation(recipe, extrapolation, 0) +
+         static_cast<float>(w) * shape_in_orientation(recipe, extrapolation, 1);
 }
 
-/// Returns the unmirrored face (side 0) or its mirror image (side 1).
-FaceSpace::Shape FaceSpace::shape_in_side(const Recipe& recipe, Extrapolation extrapolation,
-                                          Index side) const {
-  const Index first = side * head_count();
+/// Returns the unmirrored face (orientation 0) or its mirror image (orientation 1).
+FaceSpace::Shape FaceSpace::shape_in_orientation(const Recipe& recipe, Extrapolation extrapolation,
+                                                 Index orientation) const {
+  const Index first = orientation * head_count();
   auto shape = target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
     return shapes_[static_cast<std::size_t>(first + head)];
   });
@@ -280,7 +281,7 @@ void FaceSpace::find_directions(std::size_t bands) {
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
   tables_.directions =
-      span_basis(std::move(rows), kFaceTolerance, sides() * kMaxDirections).directions;
+      span_basis(std::move(rows), kFaceTolerance, orientation_count() * kMaxDirections).directions;
 }
 
 Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
@@ -300,13 +301,17 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
 FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
   Point point;
   point.as_built = coordinates(shape_of(recipe, Extrapolation::kAsGiven));
-  const auto unit_band = [](const BandRecipe& band) { return band.extrapolation == 1; };
-  const bool unit =
+  const auto is_unextrapolated_band = [](const BandRecipe& band) {
+    return band.extrapolation == 1;
+  };
+  const bool is_unextrapolated =
       std::all_of(recipe.regions.begin(), recipe.regions.end(), [&](const RegionRecipe& region) {
-        return unit_band(region) &&
-               std::all_of(region.finer.begin(), region.finer.end(), unit_band);
+        return is_unextrapolated_band(region) &&
+               std::all_of(region.finer_bands.begin(), region.finer_bands.end(),
+                           is_unextrapolated_band);
       });
-  point.unit = unit ? point.as_built : coordinates(shape_of(recipe, Extrapolation::kNone));
+  point.unextrapolated =
+      is_unextrapolated ? point.as_built : coordinates(shape_of(recipe, Extrapolation::kNone));
   return point;
 }
 
@@ -316,16 +321,16 @@ FaceSpace::Point FaceSpace::head_point(Index head) const {
 }
 
 double FaceSpace::distance(const Point& a, const Point& b) {
-  return std::sqrt(
-      std::min(squared_distance(a.as_built, b.as_built), squared_distance(a.unit, b.unit)));
+  return std::sqrt(std::min(squared_distance(a.as_built, b.as_built),
+                            squared_distance(a.unextrapolated, b.unextrapolated)));
 }
 
 void FaceSpace::find_region_shares() {
   for (Index k = 0; k < heads_.alpha.cols(); ++k) {
     double share = 0;
-    for (Index i = 0; i < weight_roots_.size(); ++i) {
-      share += static_cast<double>(weight_roots_[i]) * static_cast<double>(weight_roots_[i]) *
-               heads_.alpha(sample_at(i), k);
+    for (Index i = 0; i < weight_square_roots_.size(); ++i) {
+      share += static_cast<double>(weight_square_roots_[i]) *
+               static_cast<double>(weight_square_roots_[i]) * heads_.alpha(sample_at(i), k);
     }
     region_shares_.push_back(share);
   }
@@ -372,7 +377,7 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
   }
 }
 
-FaceSpace::RegionPoint FaceSpace::in_region(const Point& point, Index region) const {
+FaceSpace::RegionPoint FaceSpace::region_point(const Point& point, Index region) const {
   RegionPoint result{&point, {}, {}};
   if (tables_.metrics.empty()) return result;
   const FloatRows& metric = tables_.metrics[static_cast<std::size_t>(region)];
@@ -385,7 +390,7 @@ FaceSpace::RegionPoint FaceSpace::in_region(const Point& point, Index region) co
     return product;
   };
   result.as_built = times(point.as_built);
-  result.unit = times(point.unit);
+  result.unextrapolated = times(point.unextrapolated);
   return result;
 }
 
@@ -404,7 +409,8 @@ double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, In
     return std::max(sum, 0.0);
   };
   return std::sqrt(std::min(squared(a.point->as_built, b.point->as_built, a.as_built, b.as_built),
-                            squared(a.point->unit, b.point->unit, a.unit, b.unit)) /
+                            squared(a.point->unextrapolated, b.point->unextrapolated,
+                                    a.unextrapolated, b.unextrapolated)) /
                    share);
 }
 

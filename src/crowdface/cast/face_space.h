@@ -27,8 +27,8 @@ class FaceSpace {
   /// The point of a face. A face that differs from another only in extrapolation is the same
   /// person, so each face has two variants: as built, and with all extrapolation factors 1.
   struct Point {
-    Eigen::VectorXf as_built;  ///< #dimensions
-    Eigen::VectorXf unit;      ///< #dimensions; with all extrapolation factors 1
+    Eigen::VectorXf as_built;        ///< #dimensions
+    Eigen::VectorXf unextrapolated;  ///< #dimensions; with all extrapolation factors 1
   };
 
   /// \param weights  #S, from sample_weights. Samples of weight zero are ignored.
@@ -37,23 +37,23 @@ class FaceSpace {
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
   /// Restores a face space from `tables()`, computed from the same heads and weights.
   ///
-  /// \pre `fit(tables, heads)`.
+  /// \pre `tables_fit(tables, heads)`.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables);
 
   /// Returns whether the tables have the right sizes for these heads.
-  static bool fit(const FaceSpaceTables& tables, const SampledHeads& heads);
+  static bool tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads);
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
-  /// Returns the point of an input head; its `as_built` equals its `unit`. If faces may be
+  /// Returns the point of an input head; its two variants are equal. If faces may be
   /// mirrored, the heads' mirror images are numbered from head_count() on.
   Point head_point(Index head) const;
 
   Index dimensions() const { return tables_.directions.rows() + 1; }
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
   /// Returns the number of heads, including mirror images if there are any.
-  Index head_point_count() const { return sides() * head_count(); }
-  const SampledHeads& sampled() const { return heads_; }
+  Index head_point_count() const { return orientation_count() * head_count(); }
+  const SampledHeads& sampled_heads() const { return heads_; }
 
   /// Returns the root mean square distance over the face in mm: the smaller of the distance as
   /// built and the distance with all extrapolation factors 1.
@@ -61,9 +61,9 @@ class FaceSpace {
   /// A point, and its products with the metric of one region.
   struct RegionPoint {
     const Point* point = nullptr;
-    Eigen::VectorXf as_built, unit;  ///< metric times point
+    Eigen::VectorXf as_built, unextrapolated;  ///< metric times point
   };
-  RegionPoint in_region(const Point& point, Index region) const;
+  RegionPoint region_point(const Point& point, Index region) const;
   /// Returns the distance over one region, after the whole faces are aligned.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
 
@@ -81,35 +81,37 @@ class FaceSpace {
 
   struct FunctionRows;
 
-  /// Number of sets of heads: 1, or 2 with the mirror images, which are the heads from number
-  /// head_count() on.
-  Index sides() const { return heads_.image == nullptr ? 1 : 2; }
-  const SampledHeads& side_of(Index head) const {
-    return head < head_count() ? heads_ : *heads_.image;
+  /// Returns 1, or 2 if there are mirror images, which are the heads from number head_count() on.
+  Index orientation_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
+  const SampledHeads& heads_in_orientation_of(Index head) const {
+    return head < head_count() ? heads_ : *heads_.mirror_images;
   }
-  std::size_t in_side(Index head) const { return static_cast<std::size_t>(head % head_count()); }
+  std::size_t unmirrored_index(Index head) const {
+    return static_cast<std::size_t>(head % head_count());
+  }
   /// Returns the index of the sample in row i. Samples of weight zero have no row.
   Index sample_at(Index i) const { return weighted_samples_[static_cast<std::size_t>(i)]; }
   void choose_weighted_samples(const std::vector<double>& weights);
   SpanBasis level_modes() const;
   template <class Value>
-  void put_function(const Value& value, float* row) const;
+  void write_function(const Value& value, float* row) const;
   FloatRows functions(const SpanBasis& modes, const std::vector<float>& peaks,
                       const FunctionRows& rows) const;
   FloatRows find_functions();
-  void place_heads_and_fields();
+  void compute_head_shapes_and_fields();
   void find_directions(std::size_t bands);
   void find_region_metrics(const FloatRows& basis);
   void find_region_shares();
   Shape shape_of(const Recipe& recipe, Extrapolation extrapolation) const;
-  Shape shape_in_side(const Recipe& recipe, Extrapolation extrapolation, Index side) const;
+  Shape shape_in_orientation(const Recipe& recipe, Extrapolation extrapolation,
+                             Index orientation) const;
   std::vector<float> aligned(const Shape& shape) const;
   Eigen::VectorXf coordinates(const Shape& shape) const;
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
   std::vector<Index> weighted_samples_;  ///< samples of nonzero weight
-  Eigen::VectorXf weight_roots_;         ///< √w of each sample in `weighted_samples_`
+  Eigen::VectorXf weight_square_roots_;  ///< √w of each sample in `weighted_samples_`
   FaceSpaceTables tables_;
   Shape mean_shape_;           ///< #P by 3
   std::vector<Shape> shapes_;  ///< shapes of all heads, including mirror images

@@ -12,14 +12,14 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kFounders = 12;  ///< founders tried before giving up
-/// number of couples of new parents that are tried, in addition to the attempts at founders
+/// number of pairs of new parents that are tried, in addition to the candidates for the founder
 constexpr std::uint32_t kCouples = 200;
 constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each founder
 constexpr int kFounderCandidates = 24;
 
 /// Options for a face that does not join the crowd: it must be believable, but has no distance
 /// limits.
-DiversityOptions unseen(DiversityOptions diversity) {
+DiversityOptions without_distance_limits(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
   diversity.min_distance_to_faces_mm = 0;
   diversity.max_weight = 1;
@@ -41,10 +41,10 @@ std::vector<FaceSearch::Found> find_members(const CastingOptions& casting,
     const int number = static_cast<int>(members.size()) + 1;
     FaceSearch search([&](std::uint32_t attempt) { return sampler.member(cast, number, attempt); },
                       judge, casting.diversity, 1);
-    auto member = search.settle(crowd, [&](const FaceSpace::Point& point) {
-      return sampler.new_parent_mm(point) < casting.diversity.min_distance_mm
+    auto member = search.choose_face(crowd, [&](const FaceSpace::Point& point) {
+      return sampler.distance_to_new_parent_mm(point) < casting.diversity.min_distance_mm
                  ? std::optional(Reason::kMinDistance)
-                 : sampler.refuses(cast, point, own, family_separation);
+                 : sampler.rejection_reason(cast, point, own, family_separation);
     });
     rejections.add(search.rejections());
     if (!member) break;
@@ -61,7 +61,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
                                       CrowdSoFar& crowd, FamilySeparation& family_separation,
                                       Rejections& rejections) {
   FamilySampler sampler(casting, family, judge, unrelated, crowd);
-  const DiversityOptions of_founder = unseen(casting.diversity);
+  const DiversityOptions of_founder = without_distance_limits(casting.diversity);
   const bool drawn = sampler.needs_parents();
   const std::uint32_t attempts_each = kFounderAttempts * attempt_factor(casting);
   for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
@@ -72,24 +72,24 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     FaceSearch founder([&](std::uint32_t attempt) { return sampler.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
                        f * attempts_each);
-    auto found = founder.settle(crowd);
+    auto found = founder.choose_face(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    const double to_half = sampler.strangers_nearer(found->point);
+    const double to_half = sampler.nearer_strangers_fraction(found->point);
     // The limit grows with the number of tries: two new parents soon match well, but if one parent
     // is given, there may be no good match.
-    const double enough = kStrangersNearerToHalf * (0.5 + static_cast<double>(f) / kCouples);
+    const double enough = kMaxNearerStrangersToMean * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child replaces the founder.
     if (family.twins) {
-      FaceSearch model([&](std::uint32_t attempt) { return sampler.model_of_twins(cast, attempt); },
+      FaceSearch model([&](std::uint32_t attempt) { return sampler.twin_model(cast, attempt); },
                        judge, of_founder, 1, f * attempts_each);
-      auto child = model.settle(crowd, [&](const FaceSpace::Point& point) {
-        const bool too_far = to_half <= kStrangersNearerToHalf &&
-                             sampler.strangers_nearer(point) > kStrangersNearerToHalf;
+      auto child = model.choose_face(crowd, [&](const FaceSpace::Point& point) {
+        const bool too_far = to_half <= kMaxNearerStrangersToMean &&
+                             sampler.nearer_strangers_fraction(point) > kMaxNearerStrangersToMean;
         return too_far ? std::optional(Reason::kFamily)
-                       : sampler.refuses(cast, point, {}, family_separation);
+                       : sampler.rejection_reason(cast, point, {}, family_separation);
       });
       rejections.add(model.rejections());
       if (!child) continue;
@@ -112,7 +112,8 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     }
     family_separation.add(family.name, points);
     for (const FaceSpace::Point& child : points) {
-      cast.strangers_nearer = std::max(cast.strangers_nearer, sampler.strangers_nearer(child));
+      cast.nearer_strangers_fraction =
+          std::max(cast.nearer_strangers_fraction, sampler.nearer_strangers_fraction(child));
     }
     return cast;
   }

@@ -15,8 +15,8 @@ struct Parent {
   std::optional<Eigen::Index> head;
   std::string id;       ///< id of the face, with or without the crowd's name; or name of the head
   bool is_new = false;  ///< the parent does not exist yet: casting makes a face with this id
-  std::optional<std::size_t> group =
-      {};  ///< new parent: group whose parameters are used; empty: the crowd's parameters
+  /// new parent: group whose parameters are used; empty: the crowd's parameters
+  std::optional<std::size_t> group = {};
   /// Possible targets of a new parent outside all groups: the heads tagged female or male. Empty:
   /// all targets of the crowd.
   std::vector<Eigen::Index> targets = {};
@@ -32,7 +32,7 @@ struct FamilyOptions {
   std::optional<Eigen::Index> target;
   std::vector<Parent> parents;  ///< empty, or mother and father
   /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 from neither
-  std::vector<int> inherit;
+  std::vector<int> inherited_parents;
   /// largest distance of a member from the founder, who is not in the crowd
   double max_distance_mm = 2.5;
   double min_distance_mm = 0;  ///< smallest distance between members

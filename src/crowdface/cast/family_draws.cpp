@@ -30,9 +30,9 @@ constexpr double kTwinsReach = 0.5;  // largest distance of a twin from the hidd
 
 /// A child resembles a parent if at most this fraction of strangers is nearer to the child than the
 /// parent is.
-constexpr double kStrangersNearer = 0.1;
-/// if the parents are far apart: how much larger a child's distance from a parent may be than the
-/// founder's, as a fraction of max_distance
+constexpr double kMaxNearerStrangers = 0.1;
+/// If the parents are far apart, a child may be farther from a parent than the founder is, by at
+/// most this fraction of max_distance.
 constexpr double kRoomAtHalf = 0.25;
 
 /// Returns the parameters of a new parent. If the crowd has no target of the parent's sex, all
@@ -57,8 +57,8 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
       judge_(judge),
       unrelated_(unrelated),
       parents_(family.parents.size()),
-      kin_(judge.space().dimensions()),
-      strangers_(judge.space().dimensions()) {
+      kin_points_(judge.space().dimensions()),
+      stranger_points_(judge.space().dimensions()) {
   const auto& faces = crowd.faces();
   for (std::size_t p = 0; p < parents_.size(); ++p) {
     const Parent& parent = family.parents[p];
@@ -96,14 +96,14 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const FacePlan& face = faces[i];
     const bool relative = face.family && contains(relatives_, *face.family);
-    (relative || is_parent(face.id) ? kin_ : strangers_).add(crowd.points()[i]);
+    (relative || is_parent(face.id) ? kin_points_ : stranger_points_).add(crowd.points()[i]);
   }
 }
 
 void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan face,
                                FaceSpace::Point point) {
-  take_back_age(face, {casting_.anchors, casting_.tags},
-                sampling_of(face));  // children do not inherit a parent's age
+  undo_age(face, {casting_.anchors, casting_.tags},
+           sampling_of(face));  // children do not inherit a parent's age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
@@ -130,7 +130,7 @@ void FamilySampler::prepare_inheritance() {
 
 /// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
 /// replaced.
-std::vector<SourceWeight> FamilySampler::form_of(std::size_t parent) const {
+std::vector<SourceWeight> FamilySampler::coarse_shape_of(std::size_t parent) const {
   return target_substitutes_.substituted(target_shares(parents_[parent].face.recipe));
 }
 
@@ -150,7 +150,8 @@ FaceKind FamilySampler::third_contributor() const {
   const auto likest = [&](auto& heads, const auto& head_of) {
     std::vector<std::size_t> common;
     for (const auto& one : heads) {
-      common.push_back(common_tags(both, casting_.tags[static_cast<std::size_t>(head_of(one))]));
+      common.push_back(
+          common_tag_count(both, casting_.tags[static_cast<std::size_t>(head_of(one))]));
     }
     std::vector<std::size_t> sorted = common;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
@@ -177,15 +178,17 @@ bool FamilySampler::sample_parents(const CrowdSoFar& crowd,
     const FaceKind kind = kind_of(parent, casting_);
     FaceSearch search(
         [&](std::uint32_t draw) {
-          return random_recipe(casting_, open, {0, draw, concat("parent/", parent.id)}, kind);
+          return random_face_plan(casting_, open, {0, draw, concat("parent/", parent.id)}, kind);
         },
         judge_, casting_.diversity, 1,
         attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts) *
             attempt_factor(casting_));
-    auto found = search.settle(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
-      if (new_parent_mm(point) < casting_.diversity.min_distance_mm) return Reason::kMinDistance;
-      return family_separation.refuses(point);
-    });
+    auto found =
+        search.choose_face(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
+          if (distance_to_new_parent_mm(point) < casting_.diversity.min_distance_mm)
+            return Reason::kMinDistance;
+          return family_separation.rejection_reason(point);
+        });
     rejections.add(search.rejections());
     if (!found) return false;
     add_parent(p, found->face.id, found->face, found->point);
@@ -195,7 +198,7 @@ bool FamilySampler::sample_parents(const CrowdSoFar& crowd,
   return true;
 }
 
-double FamilySampler::new_parent_mm(const FaceSpace::Point& point) const {
+double FamilySampler::distance_to_new_parent_mm(const FaceSpace::Point& point) const {
   double mm = HUGE_VAL;
   for (const FaceSearch::Found& parent : new_parents_) {
     mm = std::min(mm, FaceSpace::distance(point, parent.point));
@@ -222,7 +225,8 @@ BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, st
   } else {
     own = band_of(parents_[parent].face.recipe.regions[region], band);
   }
-  if (source_substitutes_.empty() || source_substitutes_[band].has_all(own.weights)) return own;
+  if (source_substitutes_.empty() || source_substitutes_[band].contains_all(own.weights))
+    return own;
   own.position.reset();
   own.weights = source_substitutes_[band].substituted(own.weights);
   return own;
@@ -232,14 +236,14 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   ManualRecipe open;
   open.target = family_.target;
   open.age = Range{0, 0};
-  FacePlan face = random_recipe(casting_, open, {0, attempt, concat("family/", family_.name)},
-                                contributor_kind_);
+  FacePlan face = random_face_plan(casting_, open, {0, attempt, concat("family/", family_.name)},
+                                   contributor_kind_);
   if (parents_.empty()) {
     face.family = family_.name;  // so that the family's limits on measurements apply
     return face;
   }
   if (!family_.target) {
-    set_target(face.recipe, mixed_weights(form_of(0), form_of(1), 0.5));
+    set_target(face.recipe, mixed_weights(coarse_shape_of(0), coarse_shape_of(1), 0.5));
     face.mother_share = 0.5;
   }
   const Recipe& mother = parents_[0].face.recipe;
@@ -250,12 +254,12 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {
       BandRecipe& band = band_of(region, b);
-      const int from = inherited_from(k, b);
+      const int from = inherited_parent(k, b);
       band = from >= 0 ? parent_band(static_cast<std::size_t>(from), k, b, band)
                        : mixed(parent_band(0, k, b, band), parent_band(1, k, b, band), 0.5,
                                casting_.scale);
     }
-    keep_order(region);
+    restore_level_order(region);
   }
   return face;
 }
@@ -270,43 +274,43 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const Draft& draft, dou
 }
 
 /// Returns 0 for the mother, 1 for the father, −1 for a random parent.
-int FamilySampler::inherited_from(std::size_t region, std::size_t band) const {
-  return family_.inherit[region * band_count(casting_.sampling) + band];
+int FamilySampler::inherited_parent(std::size_t region, std::size_t band) const {
+  return family_.inherited_parents[region * band_count(casting_.sampling) + band];
 }
 
 /// Mixes a face with a parent in its coarse shape, and with a parent in each band of each region.
-void FamilySampler::inherit(FacePlan& face, const FaceRandomKey& key) const {
+void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
-    const std::string purpose = concat(key.who, "/inherits/", what);
+    const std::string purpose = concat(key.owner, "/inherits/", what);
     return random_unit({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
   };
   if (!family_.target) {
     const double one = kLargeFormsShare / (1 - kForeignShare);
     const double mother = parent_of("large forms") == 0 ? one : 1 - one;
-    const auto of_parents = mixed_weights(form_of(0), form_of(1), 1 - mother);
+    const auto of_parents = mixed_weights(coarse_shape_of(0), coarse_shape_of(1), 1 - mother);
     set_target(face.recipe, mixed_weights(of_parents, target_shares(face.recipe), kForeignShare));
     face.mother_share = mother * (1 - kForeignShare);
   }
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {
-      const int from = inherited_from(k, b);
+      const int from = inherited_parent(k, b);
       const std::string& name = casting_.region_names[k];
       const std::size_t parent =
           from >= 0 ? static_cast<std::size_t>(from)
                     : parent_of(b == 0 ? name : concat(name, '/', casting_.sampling.bands[b].name));
       BandRecipe& band = band_of(region, b);
       band = mixed(band, parent_band(parent, k, b, band), kParentShare, casting_.scale);
-      face.inherits.emplace_back(parent == 0 ? "mother" : "father");
+      face.inherited_from.emplace_back(parent == 0 ? "mother" : "father");
     }
-    keep_order(region);
+    restore_level_order(region);
   }
   for (const KnownParent& parent : parents_) face.parents.push_back(parent.name);
 }
 
-double FamilySampler::reach_mm(const FamilyPlan& cast) const {
+double FamilySampler::max_reach_mm(const FamilyPlan& cast) const {
   const double most = family_.max_distance_mm;
-  return cast.alike_to_founder ? std::min(most, kTwinsReach) : most;
+  return cast.has_twin_model ? std::min(most, kTwinsReach) : most;
 }
 
 FamilySampler::Draft FamilySampler::draft(const FamilyPlan& cast, int member,
@@ -319,26 +323,26 @@ FamilySampler::Draft FamilySampler::draft(const FamilyPlan& cast, int member,
   if (parents_.empty()) open.target = cast.founder.recipe.target;
   open.age = Range{0, 0};
   Draft draft;
-  draft.random_face = random_recipe(casting_, open, key, contributor_kind_);
+  draft.random_face = random_face_plan(casting_, open, key, contributor_kind_);
   draft.random_face.family = family_.name;
-  if (!parents_.empty()) inherit(draft.random_face, key);
-  const std::string purpose = concat(key.who, "/how");
+  if (!parents_.empty()) inherit_from_parents(draft.random_face, key);
+  const std::string purpose = concat(key.owner, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
   // the fraction how_far sets the distance from the founder
-  draft.reach_mm = kNearestShare + (1 - kNearestShare) * how_far;
-  draft.reach_mm *= reach_mm(cast);
-  if (cast.alike_to_founder) {
-    draft.random_face.inherits = cast.founder.inherits;
+  draft.distance_mm = kNearestShare + (1 - kNearestShare) * how_far;
+  draft.distance_mm *= max_reach_mm(cast);
+  if (cast.has_twin_model) {
+    draft.random_face.inherited_from = cast.founder.inherited_from;
     draft.age = cast.founder.age.value_or(0);
   }
   return draft;
 }
 
-FacePlan FamilySampler::at_chosen_distance(const FamilyPlan& cast, const Draft& draft) const {
+FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& cast, const Draft& draft) const {
   const auto beyond = [&](const FacePlan& face) {
     return FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) >
-           draft.reach_mm;
+           draft.distance_mm;
   };
   // Bisect the step towards the random face.
   double t = 1, step = 0.5;
@@ -353,43 +357,43 @@ FacePlan FamilySampler::at_chosen_distance(const FamilyPlan& cast, const Draft& 
   return face;
 }
 
-FacePlan FamilySampler::model_of_twins(const FamilyPlan& cast, std::uint32_t attempt) const {
+FacePlan FamilySampler::twin_model(const FamilyPlan& cast, std::uint32_t attempt) const {
   Draft model = draft(cast, 0, attempt);
   const double age = std::exchange(model.age, 0);
-  FacePlan face = at_chosen_distance(cast, model);
+  FacePlan face = face_at_chosen_distance(cast, model);
   face.age = age;
   return face;
 }
 
 FacePlan FamilySampler::member(const FamilyPlan& cast, int member, std::uint32_t attempt) const {
-  return at_chosen_distance(cast, draft(cast, member, attempt));
+  return face_at_chosen_distance(cast, draft(cast, member, attempt));
 }
 
-std::optional<Reason> FamilySampler::refuses(const FamilyPlan& cast, const FaceSpace::Point& point,
-                                             const std::vector<FaceSpace::Point>& members,
-                                             const FamilySeparation& family_separation) const {
-  if (FaceSpace::distance(point, cast.founder_point) > reach_mm(cast)) return Reason::kFamily;
+std::optional<Reason> FamilySampler::rejection_reason(
+    const FamilyPlan& cast, const FaceSpace::Point& point,
+    const std::vector<FaceSpace::Point>& members, const FamilySeparation& family_separation) const {
+  if (FaceSpace::distance(point, cast.founder_point) > max_reach_mm(cast)) return Reason::kFamily;
   if (family_separation.intrudes(point, relatives_)) return Reason::kFamily;
   if (!resembles_parents(cast, point)) return Reason::kFamily;
-  if (kin_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
-  if (new_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
+  if (kin_points_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
+  if (distance_to_new_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
   double farthest = 0;
   for (const FaceSpace::Point& relative : members) {
     const double mm = FaceSpace::distance(point, relative);
     if (mm < family_.min_distance_mm) return Reason::kFamily;
     farthest = std::max(farthest, mm);
     // Each earlier member, too, must be nearer to this point than to any stranger.
-    if (strangers_.nearest(relative).mm <= mm) return Reason::kFamily;
+    if (stranger_points_.nearest(relative).distance_mm <= mm) return Reason::kFamily;
   }
-  if (strangers_.nearest(point).mm <= farthest) return Reason::kFamily;
+  if (stranger_points_.nearest(point).distance_mm <= farthest) return Reason::kFamily;
   return std::nullopt;
 }
 
 /// If the parents are far apart, no child is near both parents. Then a child may be about as far
 /// from each parent as the founder is.
 bool FamilySampler::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
-  if (strangers_nearer(point) <= kStrangersNearer) return true;
-  if (strangers_nearer(cast.founder_point) <= kStrangersNearerToHalf) return false;
+  if (nearer_strangers_fraction(point) <= kMaxNearerStrangers) return true;
+  if (nearer_strangers_fraction(cast.founder_point) <= kMaxNearerStrangersToMean) return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
     return FaceSpace::distance(point, parent.point) <=
            FaceSpace::distance(cast.founder_point, parent.point) +
@@ -397,12 +401,12 @@ bool FamilySampler::resembles_parents(const FamilyPlan& cast, const FaceSpace::P
   });
 }
 
-double FamilySampler::strangers_nearer(const FaceSpace::Point& point) const {
+double FamilySampler::nearer_strangers_fraction(const FaceSpace::Point& point) const {
   double share = 0;
   for (const KnownParent& parent : parents_) {
-    if (!target_substitutes_.has_all(target_shares(parent.face.recipe))) continue;
+    if (!target_substitutes_.contains_all(target_shares(parent.face.recipe))) continue;
     const double mm = FaceSpace::distance(point, parent.point);
-    share = std::max(share, unrelated_.share_nearer(point, mm, family_.group));
+    share = std::max(share, unrelated_.fraction_nearer(point, mm, family_.group));
   }
   return share;
 }

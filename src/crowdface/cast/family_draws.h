@@ -18,16 +18,17 @@ struct FamilyPlan {
   std::string name;
   FacePlan founder;  ///< not in the crowd
   FaceSpace::Point founder_point;
-  /// twins: the founder is a hidden child, whose age the twins have
-  bool alike_to_founder = false;
-  Index begin = 0, end = 0;     ///< range of the members in the crowd
-  double strangers_nearer = 0;  ///< largest fraction of strangers nearer to a child than its parent
+  /// whether the members are twins: then the founder is a hidden child of the same age as the twins
+  bool has_twin_model = false;
+  Index begin = 0, end = 0;  ///< range of the members in the crowd
+  /// largest fraction of strangers nearer to a child than its parent
+  double nearer_strangers_fraction = 0;
 };
 
 /// Largest fraction of strangers that may be nearer to the mean of both parents than a parent is.
 /// It is smaller than the corresponding limit for children, so that children can differ from that
 /// mean.
-inline constexpr double kStrangersNearerToHalf = 0.06;
+inline constexpr double kMaxNearerStrangersToMean = 0.06;
 
 /// Makes random faces of one family. Each member lies between the founder and a random face, at a
 /// random distance of at most max_distance from the founder.
@@ -40,35 +41,36 @@ class FamilySampler {
   /// Returns whether new parents must be made for this family because they are not in the crowd
   /// yet.
   bool needs_parents() const { return !missing_parents_.empty(); }
-  /// Makes the parents of needs_parents().
+  /// Makes the missing parents; see needs_parents().
   ///
   /// \return  false if there is no room for these parents in the crowd.
   bool sample_parents(const CrowdSoFar& crowd, const FamilySeparation& family_separation,
                       std::uint32_t attempt, Rejections& rejections);
   /// Returns the parents that the last call of sample_parents made, mother first.
   const std::vector<FaceSearch::Found>& new_parents() const { return new_parents_; }
-  /// Returns the distance from a point to the nearest new parent, not in the crowd yet.
-  double new_parent_mm(const FaceSpace::Point& point) const;
+  /// Returns the distance from a point to the nearest new parent. New parents are not yet in the
+  /// crowd.
+  double distance_to_new_parent_mm(const FaceSpace::Point& point) const;
 
   /// Returns the founder, from whom all members start: with parents, the mean of both parents;
   /// otherwise a random face.
   FacePlan founder(std::uint32_t attempt) const;
   /// Returns the hidden child that all twins resemble. The child's age is stored but not applied.
-  FacePlan model_of_twins(const FamilyPlan& cast, std::uint32_t attempt) const;
-  /// Returns an attempt at member number `member`, from 1.
+  FacePlan twin_model(const FamilyPlan& cast, std::uint32_t attempt) const;
+  /// Returns candidate number `attempt` for member number `member`, which counts from 1.
   FacePlan member(const FamilyPlan& cast, int member, std::uint32_t attempt) const;
 
   /// Returns why a point is rejected for a member of this family, nothing if it is accepted.
   ///
   /// \param members  Points of the members found so far.
-  std::optional<Reason> refuses(const FamilyPlan& cast, const FaceSpace::Point& point,
-                                const std::vector<FaceSpace::Point>& members,
-                                const FamilySeparation& family_separation) const;
+  std::optional<Reason> rejection_reason(const FamilyPlan& cast, const FaceSpace::Point& point,
+                                         const std::vector<FaceSpace::Point>& members,
+                                         const FamilySeparation& family_separation) const;
 
-  /// Returns the largest fraction, over both parents, of strangers that are nearer to a point than
-  /// the parent. For a family in a group, strangers are of this group, and only parents whose heads
-  /// are all in the group are considered.
-  double strangers_nearer(const FaceSpace::Point& point) const;
+  /// For each parent, computes the fraction of strangers that are nearer to the point than the
+  /// parent is. Returns the larger fraction. For a family in a group, strangers are of this group,
+  /// and only parents whose heads are all in the group are considered.
+  double nearer_strangers_fraction(const FaceSpace::Point& point) const;
 
  private:
   struct KnownParent {
@@ -79,22 +81,22 @@ class FamilySampler {
   /// The random face, age and distance from the founder of one member.
   struct Draft {
     FacePlan random_face;
-    double age = 0, reach_mm = 0;
+    double age = 0, distance_mm = 0;
   };
 
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
   void prepare_inheritance();
-  std::vector<SourceWeight> form_of(std::size_t parent) const;
+  std::vector<SourceWeight> coarse_shape_of(std::size_t parent) const;
   FaceKind third_contributor() const;
   const SamplingOptions& sampling_of(const FacePlan& face) const;
   BandRecipe parent_band(std::size_t parent, std::size_t region, std::size_t band,
                          const BandRecipe& random_band) const;
-  int inherited_from(std::size_t region, std::size_t band) const;
-  void inherit(FacePlan& face, const FaceRandomKey& key) const;
+  int inherited_parent(std::size_t region, std::size_t band) const;
+  void inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const;
   Draft draft(const FamilyPlan& cast, int member, std::uint32_t attempt) const;
   FacePlan mixed_face(const FacePlan& from, const Draft& draft, double t) const;
-  FacePlan at_chosen_distance(const FamilyPlan& cast, const Draft& draft) const;
-  double reach_mm(const FamilyPlan& cast) const;
+  FacePlan face_at_chosen_distance(const FamilyPlan& cast, const Draft& draft) const;
+  double max_reach_mm(const FamilyPlan& cast) const;
   bool resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const;
 
   const CastingOptions& casting_;
@@ -111,7 +113,7 @@ class FamilySampler {
   std::vector<SubstituteHeads> source_substitutes_;
   /// families of the parents, and families that share a parent
   std::vector<std::string> relatives_;
-  FacePointIndex kin_, strangers_;  ///< points of relatives, and of all other faces
+  NearestFaceSearch kin_points_, stranger_points_;  ///< points of relatives, and of all other faces
 };
 
 /// Returns the id of a family's member, such as "NAME_FAMILY_01".

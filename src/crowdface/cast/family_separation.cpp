@@ -37,22 +37,22 @@ void FamilySeparation::add(const std::string& family,
 
 UnrelatedFaces::UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space) {
   for (const FamilyOptions& family : casting.families) {
-    if (!family.parents.empty()) of_group_[family.group].resize(kStrangers);
+    if (!family.parents.empty()) faces_of_group_[family.group].resize(kStrangers);
   }
-  for (auto& [group, points] : of_group_) {
+  for (auto& [group, points] : faces_of_group_) {
     const FaceKind kind = kind_of_group(casting, group);
     parallel_for_each(static_cast<Index>(kStrangers), [&, &points = points](Index i) {
       const FaceRandomKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
       points[static_cast<std::size_t>(i)] =
-          space.point(random_recipe(casting, {}, key, kind).recipe);
+          space.point(random_face_plan(casting, {}, key, kind).recipe);
     });
   }
 }
 
-double UnrelatedFaces::share_nearer(const FaceSpace::Point& point, double mm,
-                                    std::optional<std::size_t> group) const {
-  const auto found = of_group_.find(group);
-  if (found == of_group_.end()) return 0;
+double UnrelatedFaces::fraction_nearer(const FaceSpace::Point& point, double mm,
+                                       std::optional<std::size_t> group) const {
+  const auto found = faces_of_group_.find(group);
+  if (found == faces_of_group_.end()) return 0;
   const auto& points = found->second;
   const auto nearer = std::count_if(points.begin(), points.end(), [&](const auto& stranger) {
     return FaceSpace::distance(point, stranger) < mm;

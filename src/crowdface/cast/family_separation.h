@@ -25,7 +25,7 @@ class FamilySeparation {
   bool intrudes(const FaceSpace::Point& point,
                 const std::vector<std::string>& relatives = {}) const;
   /// Returns why a stranger is rejected; nothing if it is accepted.
-  std::optional<Reason> refuses(const FaceSpace::Point& stranger) const {
+  std::optional<Reason> rejection_reason(const FaceSpace::Point& stranger) const {
     return intrudes(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
   }
   /// Adds the members of a family.
@@ -48,11 +48,11 @@ class UnrelatedFaces {
  public:
   UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space);
   /// Returns the fraction of a group's unrelated faces that are nearer than `mm` to a point, 0 … 1.
-  double share_nearer(const FaceSpace::Point& point, double mm,
-                      std::optional<std::size_t> group = std::nullopt) const;
+  double fraction_nearer(const FaceSpace::Point& point, double mm,
+                         std::optional<std::size_t> group = std::nullopt) const;
 
  private:
-  std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> of_group_;
+  std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> faces_of_group_;
 };
 
 }  // namespace crowdface

@@ -35,31 +35,31 @@ double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
 
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
-                   const Shortfall& shortfall, const std::function<void()>& tried,
-                   const TraitRules* traits, const MeshDefects& meshes) {
+                   const Shortfall& shortfall, const std::function<void()>& trial_done,
+                   const TraitRules* traits, const FindMeshDefects& meshes) {
   Remedy remedy;
-  remedy.binding = shortfall.rejections.most_frequent();
+  remedy.binding_constraint = shortfall.rejections.most_frequent();
   CastingOptions easier = casting;
-  if (!shortfall.family.empty() || !shortfall.reviewed.empty() || !shortfall.recipe.empty() ||
-      !shortfall.changed.empty()) {
+  if (!shortfall.family.empty() || !shortfall.reviewed_face.empty() || !shortfall.recipe.empty() ||
+      !shortfall.changed_face.empty()) {
     return remedy;
   }
   easier.reviews.clear();
   easier.changes.clear();
   easier.count = std::min(casting.count, kMaxTried);
-  remedy.tried = easier.count;
-  const Constraint& constraint = constraint_of(remedy.binding);
+  remedy.trial_faces = easier.count;
+  const Constraint& constraint = constraint_of(remedy.binding_constraint);
   if (!constraint.is_distance()) return remedy;
   double& distance = easier.diversity.*constraint.diversity;
   std::uint64_t draws = 0;
-  const auto shortfall_at = [&](double mm, const MeshDefects& defects) {
+  const auto shortfall_at = [&](double mm, const FindMeshDefects& defects) {
     distance = mm;
     FaceJudge judge(space, easier.diversity, believability, skin, defects);
-    judge.limit_traits(traits);
+    judge.set_trait_rules(traits);
     const CastingResult cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() +
-             cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidates_for(1));
-    if (tried) tried();
+             cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidate_count(1));
+    if (trial_done) trial_done();
     return cast.shortfall;
   };
   double works = 0, fails = distance;
@@ -80,7 +80,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   for (int trial = 0; meshes && works > 0 && shortfall_at(works, meshes); ++trial) {
     works = trial + 1 < kMaxMeshTrials ? whole_hundredths(0.93 * works) : 0;
   }
-  if (works > 0) remedy.largest_mm = works;
+  if (works > 0) remedy.largest_distance_mm = works;
   return remedy;
 }
 

@@ -7,11 +7,12 @@ namespace crowdface {
 
 /// A change of the limits that would make a crowd with a shortfall possible.
 struct Remedy {
-  Reason binding = Reason::kMinDistance;  ///< constraint that rejected most candidates
+  Reason binding_constraint = Reason::kMinDistance;  ///< constraint that rejected most candidates
   /// Largest value of the binding distance, in whole hundredths of a millimetre, with which casting
   /// succeeded. Empty if the binding constraint is not a distance, or if no value succeeded.
-  std::optional<double> largest_mm;
-  std::uint64_t tried = 0;  ///< number of faces in the trials: the whole count, or its first 400
+  std::optional<double> largest_distance_mm;
+  /// number of faces in the trials: the whole count, or its first 400
+  std::uint64_t trial_faces = 0;
 };
 
 /// Searches for a remedy: casts again with smaller distances, and bisects until the smallest
@@ -19,13 +20,13 @@ struct Remedy {
 /// have used 200,000 candidates. The time of a trial grows with the square of its faces, so the
 /// trials of a large crowd cast only the first faces.
 ///
-/// \param tried   Called after each trial.
-/// \param meshes  If given, trials also judge the candidates' meshes. After four failed trials, the
-///                remedy has no distance.
+/// \param trial_done  Called after each trial.
+/// \param meshes      If given, trials also judge the candidates' meshes. After four failed trials,
+///                    the remedy has no distance.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
-                   const Shortfall& shortfall, const std::function<void()>& tried = {},
-                   const TraitRules* traits = nullptr, const MeshDefects& meshes = {});
+                   const Shortfall& shortfall, const std::function<void()>& trial_done = {},
+                   const TraitRules* traits = nullptr, const FindMeshDefects& meshes = {});
 
 /// Checks in seconds whether a crowd of more than 3200 faces in spread mode is impossible: places
 /// up to 400 faces by first fit. Spread mode finds at most twice as many faces as first fit, so if

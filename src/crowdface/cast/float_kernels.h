@@ -18,7 +18,7 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to);
 /// Like add_scaled, but also returns fixed_order_dot of the new `to` with itself.
 double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to);
 
-/// Computes to[d] += factors[i]·rows[i][d], for one i after the other.
+/// Computes to[d] += factors[i]·rows[i][d], for all i in ascending order.
 ///
 /// \param rows  #count by #width.
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,

@@ -44,7 +44,7 @@ std::optional<HairColour> hair_colour_named(std::string_view name) {
   return found == colours.end() ? std::nullopt : std::optional(found->colour);
 }
 
-HairColour tinted(const HairColour& hair, Tint tint) {
+HairColour hair_colour_for(const HairColour& hair, Tint tint) {
   HairColour own = hair;
   if (tint == Tint::kBrows) {
     own.eumelanin += 0.1 + 0.15 * (1 - hair.eumelanin);
@@ -78,7 +78,7 @@ bool are_alike(const HairColour& a, const HairColour& b) {
          std::abs(a.grey - b.grey) < 0.2 + kRounding;
 }
 
-std::string label_of(const HairColour& colour) {
+std::string colour_label(const HairColour& colour) {
   return concat('e', percent(colour.eumelanin), 'p', percent(colour.pheomelanin), 'g',
                 percent(colour.grey));
 }
@@ -97,7 +97,7 @@ std::optional<HairColour> parse_hair_label(std::string_view label) {
   return label.empty() ? std::optional(colour) : std::nullopt;
 }
 
-std::array<float, 3> light_of(const HairColour& colour) {
+std::array<float, 3> reflected_light(const HairColour& colour) {
   // Constants fitted to the albedo of blond, brown, black, copper and white hair.
   constexpr std::array<double, 3> kWithoutPigment = {1.1, 0.78, 0.33};
   constexpr std::array<double, 3> kEumelanin = {5.3, 5.7, 5.2}, kPheomelanin = {0.5, 1.6, 2.8};
@@ -108,14 +108,14 @@ std::array<float, 3> light_of(const HairColour& colour) {
     const double absorbed = kEumelanin[c] * colour.eumelanin + kPheomelanin[c] * colour.pheomelanin;
     const double pigmented = kSurface + kWithoutPigment[c] * std::exp(-absorbed);
     light[c] = static_cast<float>(
-        std::min(double{kNeutralLight}, pigmented + colour.grey * (kWhite[c] - pigmented)));
+        std::min(double{kNeutralTextureMean}, pigmented + colour.grey * (kWhite[c] - pigmented)));
   }
   return light;
 }
 
 std::array<float, 3> tint_factors(const HairColour& colour) {
-  std::array<float, 3> factors = light_of(colour);
-  for (float& factor : factors) factor /= kNeutralLight;
+  std::array<float, 3> factors = reflected_light(colour);
+  for (float& factor : factors) factor /= kNeutralTextureMean;
   return factors;
 }
 

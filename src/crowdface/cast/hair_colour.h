@@ -35,7 +35,7 @@ enum class Tint { kNone, kHair, kBrows, kBeard, kLashes };
 /// Returns the rounded colour of a person's brows, beard or lashes: brows are darker than the scalp
 /// hair and turn grey late, beards are redder, lashes are darkest.
 /// \param hair  the colour of the scalp hair.
-HairColour tinted(const HairColour& hair, Tint tint);
+HairColour hair_colour_for(const HairColour& hair, Tint tint);
 
 /// Rounds a colour to steps that are hardly visible, so that many faces share the same colour.
 HairColour rounded_colour(const HairColour& colour);
@@ -46,15 +46,15 @@ bool is_shade_of(const HairColour& rounded, const HairColour& named);
 bool are_alike(const HairColour& a, const HairColour& b);
 
 /// Returns "e55p10g20": the three values in percent, for names of folders and files.
-std::string label_of(const HairColour& colour);
-/// Parses a label that label_of returns.
+std::string colour_label(const HairColour& colour);
+/// Parses a label that colour_label returns.
 std::optional<HairColour> parse_hair_label(std::string_view label);
 
 /// Mean value of neutral textures, linear RGB; 170 in 8-bit sRGB.
-inline constexpr float kNeutralLight = 0.4F;
+inline constexpr float kNeutralTextureMean = 0.4F;
 /// Mean reflected light of hair of this colour, linear RGB: the light that the pigments do not
 /// absorb (Beer-Lambert law), plus a constant fraction that the surface of the hair reflects.
-std::array<float, 3> light_of(const HairColour& colour);
+std::array<float, 3> reflected_light(const HairColour& colour);
 /// Factors on the linear RGB values of a neutral texture, at most 1, that give the texture this
 /// colour.
 std::array<float, 3> tint_factors(const HairColour& colour);

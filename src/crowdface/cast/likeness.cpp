@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "crowdface/cast/face_point_index.h"
+#include "crowdface/cast/nearest_face_search.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 
@@ -25,9 +25,10 @@ class LikenessTree {
   LikenessTree(const std::vector<FaceSpace::Point>& points, const std::vector<bool>& gone)
       : points_(points), gone_(gone) {
     add_variant(&FaceSpace::Point::as_built);
-    if (std::any_of(points.begin(), points.end(),
-                    [](const FaceSpace::Point& point) { return point.as_built != point.unit; })) {
-      add_variant(&FaceSpace::Point::unit);
+    if (std::any_of(points.begin(), points.end(), [](const FaceSpace::Point& point) {
+          return point.as_built != point.unextrapolated;
+        })) {
+      add_variant(&FaceSpace::Point::unextrapolated);
     }
   }
 
@@ -50,7 +51,8 @@ class LikenessTree {
       near.insert(std::upper_bound(near.begin(), near.end(), found, nearer), found);
       if (near.size() > count) near.pop_back();
       if (near.size() < count) return;
-      bound = static_cast<float>(near.back().mm * near.back().mm * (1 + PointBlocks::kRounding));
+      bound = static_cast<float>(near.back().distance_mm * near.back().distance_mm *
+                                 (1 + PointBlocks::kRounding));
     };
     for (const auto& [of, tree] : variants_) {
       const PointBlocks& points = tree.points();
@@ -73,7 +75,7 @@ class LikenessTree {
   using Variant = Eigen::VectorXf FaceSpace::Point::*;
 
   static bool nearer(const Neighbour& a, const Neighbour& b) {
-    return a.mm != b.mm ? a.mm < b.mm : a.face < b.face;
+    return a.distance_mm != b.distance_mm ? a.distance_mm < b.distance_mm : a.face < b.face;
   }
   static bool contains_face(const std::vector<Neighbour>& near, std::size_t face) {
     return std::ranges::find(near, face, &Neighbour::face) != near.end();

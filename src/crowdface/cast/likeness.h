@@ -11,7 +11,7 @@ namespace crowdface {
 /// Another face, and the distance to it.
 struct Neighbour {
   std::size_t face = 0;
-  double mm = 0;
+  double distance_mm = 0;
 };
 
 /// Similar faces in a whole crowd, independent of the order of casting.

@@ -93,7 +93,7 @@ class Merging {
     merge("group", change.id, other.group, change.group);
     merge("lock", change.id, other.locked, change.locked);
     merge("traits", change.id, other.traits, change.traits);
-    merge("wears", change.id, other.wears, change.wears);
+    merge("wears", change.id, other.attachments, change.attachments);
     merge("takes_off", change.id, other.takes_off, change.takes_off);
     merge("hair", change.id, other.hair, change.hair);
     merge("colours", change.id, other.colours, change.colours);
@@ -111,7 +111,7 @@ class Merging {
 MergedReviews merged_reviews(const std::vector<Review>& reviews) {
   MergedReviews merged{reviews, {}};
   for (std::size_t later = 0; later < reviews.size(); ++later) {
-    const auto seen = static_cast<std::size_t>(reviews[later].after.value_or(later));
+    const auto seen = static_cast<std::size_t>(reviews[later].seen_reviews.value_or(later));
     for (std::size_t earlier = seen; earlier < later; ++earlier) {
       Merging(reviews[earlier], earlier + 1, merged.reviews[later], later + 1, merged.conflicts)
           .merge();

@@ -15,9 +15,9 @@ struct MergedReviews {
   std::vector<std::string> conflicts;
 };
 
-/// Merges reviews whose reviewers did not see each other's results (see Review::after). Equal
-/// requests apply once: a face that both reviews reject is redrawn once, and equal keys of changes
-/// apply once. Both notes stay. If two reviews disagree,
+/// Merges reviews whose reviewers did not see each other's results (see Review::seen_reviews).
+/// Equal requests apply once: a face that both reviews reject is redrawn once, and equal keys of
+/// changes apply once. Both notes stay. If two reviews disagree,
 ///
 /// - a face that only one review rejects is redrawn;
 /// - of two rejections with different locked parts, the rejection of the earlier review applies;

@@ -40,7 +40,7 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
     }
     gram[a][a] += metric.ridge * freedom;
   }
-  metric.lower = cholesky(std::move(gram), count);
+  metric.cholesky_factor = cholesky(std::move(gram), count);
   return metric;
 }
 
@@ -53,7 +53,7 @@ double Plausibility::squared_distance(const Metric& metric, const Eigen::VectorX
   }
   for (const auto& head : metric.offsets) along.push_back(fixed_order_dot(head, z));
   const std::vector<double> solved =
-      solve_lower(metric.lower, std::move(along), metric.lower.size());
+      solve_lower(metric.cholesky_factor, std::move(along), metric.cholesky_factor.size());
   return (fixed_order_dot(z, z) - fixed_order_dot(solved, solved)) / metric.ridge;
 }
 
@@ -65,19 +65,19 @@ Plausibility::Plausibility(const FaceSpace& space) {
   }
   metric_ = metric_without(heads, count, -1);
   if (count < 3) {  // one remaining head has no variance: use the first head's distance
-    unit_ = std::sqrt(squared_distance(metric_, heads[0]));
+    typical_distance_ = std::sqrt(squared_distance(metric_, heads[0]));
   } else {
     double sum = 0;
     for (Index h = 0; h < count; ++h) {
       sum += squared_distance(metric_without(heads, count, h), heads[static_cast<std::size_t>(h)]);
     }
-    unit_ = std::sqrt(sum / static_cast<double>(count));
+    typical_distance_ = std::sqrt(sum / static_cast<double>(count));
   }
-  if (!(unit_ > 0)) unit_ = 1;
+  if (!(typical_distance_ > 0)) typical_distance_ = 1;
 }
 
 double Plausibility::score(const FaceSpace::Point& point) const {
-  return std::sqrt(std::max(squared_distance(metric_, point.as_built), 0.0)) / unit_;
+  return std::sqrt(std::max(squared_distance(metric_, point.as_built), 0.0)) / typical_distance_;
 }
 
 }  // namespace crowdface

@@ -23,18 +23,19 @@ class Plausibility {
   struct Metric {
     std::vector<double> mean;                  ///< #D
     std::vector<std::vector<double>> offsets;  ///< head − mean for each head, #D each
-    std::vector<std::vector<double>> lower;    ///< Cholesky factor of ridge·(H − 1)·I + Y Yᵀ
+    std::vector<std::vector<double>>
+        cholesky_factor;  ///< Cholesky factor of ridge·(H − 1)·I + Y Yᵀ
     double ridge = 1;
   };
   /// \param heads           The heads, then their mirror images if faces may be mirrored.
   /// \param count_of_heads  Number of heads without mirror images.
-  /// \param left_out        Head to leave out, with its image; −1: none.
+  /// \param left_out        Head to leave out, with its mirror image; −1: none.
   static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index count_of_heads,
                                Index left_out);
   static double squared_distance(const Metric& metric, const Eigen::VectorXf& at);
 
   Metric metric_;
-  double unit_ = 1;  ///< Mahalanobis distance that a new head typically has
+  double typical_distance_ = 1;  ///< Mahalanobis distance that a new head typically has
 };
 
 }  // namespace crowdface

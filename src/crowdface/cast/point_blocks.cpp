@@ -16,7 +16,7 @@ void PointBlocks::add(Index number, const float* values) {
     for (auto& chunk : chunks_) chunk.resize(chunk.size() + kChunk * kLanes);
   }
   for (Index d = 0; d < dimensions_; ++d) {
-    chunks_[static_cast<std::size_t>(d / kChunk)][place(size(), d)] = values[d];
+    chunks_[static_cast<std::size_t>(d / kChunk)][chunk_offset(size(), d)] = values[d];
   }
   numbers_.push_back(number);
 }
@@ -37,8 +37,8 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
   Lanes sums = {};
   for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
     // The sums only grow: once all sums exceed the bound, the block has no nearer point.
-    if (!add_squares(query.data() + chunk, &chunk_of(chunk)[place(block * kLanes, chunk)], kChunk,
-                     bound, sums.data())) {
+    if (!add_squares(query.data() + chunk, &chunk_of(chunk)[chunk_offset(block * kLanes, chunk)],
+                     kChunk, bound, sums.data())) {
       sums.fill(HUGE_VALF);
       return sums;
     }

@@ -62,7 +62,9 @@ class PointBlocks {
   Index padded_dimensions() const { return dimensions_; }
   /// Returns the number of a point, by the order in which points were added.
   Index number(Index at) const { return numbers_[static_cast<std::size_t>(at)]; }
-  float value(Index at, Index dimension) const { return chunk_of(dimension)[place(at, dimension)]; }
+  float value(Index at, Index dimension) const {
+    return chunk_of(dimension)[chunk_offset(at, dimension)];
+  }
 
   /// Returns the query with padded_dimensions() values.
   std::vector<float> padded_query(const Eigen::VectorXf& query) const;
@@ -79,7 +81,7 @@ class PointBlocks {
   static constexpr Index kChunk = 16;  ///< coordinates between two checks of the sums
 
   /// Returns the offset of coordinate `dimension` of point `at` within its chunk.
-  static std::size_t place(Index at, Index dimension) {
+  static std::size_t chunk_offset(Index at, Index dimension) {
     return static_cast<std::size_t>((at / kLanes * kChunk + dimension % kChunk) * kLanes +
                                     at % kLanes);
   }

@@ -10,19 +10,20 @@ PopulationBalance::PopulationBalance(const std::vector<TraitTarget>& targets) {
   for (const TraitTarget& target : targets) {
     Trait& trait = traits_.emplace_back(Trait{target, {}, {}});
     trait.excess.assign(kBins, 0);
-    trait.squares.assign(kBins, 0);
-    find_squares(trait);
+    trait.squared_differences.assign(kBins, 0);
+    update_squared_differences(trait);
   }
 }
 
 std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions& landmarks) {
-  const double share = normal_share(target, measure(measurements()[target.trait], landmarks));
+  const double share =
+      normal_fraction_below(target, measure(measurements()[target.trait], landmarks));
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
 }
 
 /// If a face joins, the requested number of faces up to bin b grows by (b + 1)/kBins. The actual
 /// number grows by one for the bin of the face and all higher bins.
-void PopulationBalance::find_squares(Trait& trait) {
+void PopulationBalance::update_squared_differences(Trait& trait) {
   const auto lacks = [&](std::size_t b) {
     return trait.excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);
   };
@@ -30,14 +31,14 @@ void PopulationBalance::find_squares(Trait& trait) {
   for (std::size_t b = 0; b < kBins; ++b) sum += lacks(b) * lacks(b);
   for (std::size_t b = kBins; b-- > 0;) {
     sum += 2 * lacks(b) + 1;
-    trait.squares[b] = sum;
+    trait.squared_differences[b] = sum;
   }
 }
 
 double PopulationBalance::cost(const Positions& landmarks) const {
   double sum = 0;
   for (const Trait& trait : traits_) {
-    sum += std::sqrt(std::max(trait.squares[bin_of(trait.target, landmarks)], 0.0));
+    sum += std::sqrt(std::max(trait.squared_differences[bin_of(trait.target, landmarks)], 0.0));
   }
   return sum;
 }
@@ -49,7 +50,7 @@ void PopulationBalance::add(const Positions& landmarks) {
       const double asked = static_cast<double>(b + 1) / static_cast<double>(kBins);
       trait.excess[b] += (b >= own ? 1 : 0) - asked;
     }
-    find_squares(trait);
+    update_squared_differences(trait);
   }
 }
 

@@ -31,10 +31,10 @@ class PopulationBalance {
     /// number of faces up to each bin minus the requested number
     std::vector<double> excess;
     /// for each bin: the sum of the squared differences if a face in this bin joins the crowd
-    std::vector<double> squares;
+    std::vector<double> squared_differences;
   };
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);
-  static void find_squares(Trait& trait);
+  static void update_squared_differences(Trait& trait);
 
   std::vector<Trait> traits_;
 };

@@ -58,16 +58,17 @@ std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
 ProxySkin::ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
                      const std::vector<Positions>& heads)
     : triangles_(std::move(triangles)), pairs_(facing_pairs(triangles_, mean)) {
-  for (const Positions& head : heads) heads_.push_back(target(head));
+  for (const Positions& head : heads) heads_.push_back(target_of_samples(head));
 }
 
-ProxySkin::Target ProxySkin::target(const Positions& samples) const {
+ProxySkin::Target ProxySkin::target_of_samples(const Positions& samples) const {
   return {TargetTriangles(triangles_, samples),
-          NewIntersections(triangles_, samples.rows(), intersecting(triangles_, samples, pairs_))};
+          NewIntersections(triangles_, samples.rows(),
+                           intersecting_pairs(triangles_, samples, pairs_))};
 }
 
 Index ProxySkin::intersecting_triangles(const Positions& samples, const Target& target) const {
-  return target.intersections.count(intersecting(triangles_, samples, pairs_));
+  return target.intersections.count(intersecting_pairs(triangles_, samples, pairs_));
 }
 
 }  // namespace crowdface

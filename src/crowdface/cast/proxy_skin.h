@@ -22,8 +22,8 @@ class ProxySkin {
     TargetTriangles triangles;  ///< the target's triangles, for flips and stretch
     NewIntersections intersections;
   };
-  const Target& head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
-  Target target(const Positions& samples) const;
+  const Target& target_of_head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
+  Target target_of_samples(const Positions& samples) const;
 
   /// Returns the number of triangles that intersect others where the target's triangles do not.
   /// Considers only triangles that are near each other on the mean head without being neighbours:

@@ -39,7 +39,7 @@ struct FaceChange {
   TraitLimits traits;  ///< the face is changed as little as these limits require
   /// Names of attachments, which replace attachments of the same kinds. No names: the face wears
   /// nothing.
-  std::optional<std::vector<std::string>> wears;
+  std::optional<std::vector<std::string>> attachments;
   /// Kinds and names of attachments that the face does not wear.
   std::vector<std::string> takes_off;
   std::optional<std::string> hair;    ///< name of a hair colour
@@ -47,7 +47,7 @@ struct FaceChange {
 
   bool needs_redraw() const { return group || !locked.empty() || !traits.empty(); }
   bool is_empty() const {
-    return !age && !age_step && !variant_of && !needs_redraw() && !wears && takes_off.empty() &&
+    return !age && !age_step && !variant_of && !needs_redraw() && !attachments && takes_off.empty() &&
            !hair && colours.empty();
   }
 };
@@ -59,7 +59,7 @@ struct Review {
   /// Empty: the whole crowd.
   std::optional<std::uint64_t> count;
   /// Number of earlier reviews whose results the reviewer saw; see merged_reviews. Empty: all.
-  std::optional<std::uint64_t> after = {};
+  std::optional<std::uint64_t> seen_reviews = {};
   /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes,
   /// so that these faces stay the same if the crowd's value changes later. Empty: the crowd's
   /// value.

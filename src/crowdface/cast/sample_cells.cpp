@@ -15,7 +15,7 @@ SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
   distances.search(samples);
   SampleCells cells;
   for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(adjacency.vertex_count()); ++v) {
-    cells.of_vertex.push_back(distances.nearest_source(v));
+    cells.sample_of_vertex.push_back(distances.nearest_source(v));
   }
   return cells;
 }
@@ -25,8 +25,8 @@ std::vector<double> sample_weights(const SampleCells& cells, const FaceSamples& 
   std::vector<double> weights(samples.size(), 0.0);
   double total = 0;
   for (std::size_t v = 0; v < areas.size(); ++v) {
-    if (cells.of_vertex[v] == SampleCells::kNone) continue;
-    weights[cells.of_vertex[v]] += areas[v];
+    if (cells.sample_of_vertex[v] == SampleCells::kNone) continue;
+    weights[cells.sample_of_vertex[v]] += areas[v];
     total += areas[v];
   }
   if (!(total > 0)) {
@@ -44,7 +44,7 @@ std::vector<std::array<std::uint32_t, 3>> cell_triangles(const Topology& topolog
   for (Index f = 0; f < topology.face_count(); ++f) {
     ring.clear();
     for (const std::uint32_t v : topology.face(f)) {
-      const std::uint32_t cell = cells.of_vertex[v];
+      const std::uint32_t cell = cells.sample_of_vertex[v];
       if (cell == SampleCells::kNone) continue;
       if (std::find(ring.begin(), ring.end(), cell) == ring.end()) ring.push_back(cell);
     }

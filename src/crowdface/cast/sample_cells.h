@@ -15,7 +15,7 @@ namespace crowdface {
 /// different cells, even where the lips touch.
 struct SampleCells {
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  std::vector<std::uint32_t> of_vertex;  ///< #V: index of the sample; kNone outside the skin
+  std::vector<std::uint32_t> sample_of_vertex;  ///< #V: index of the sample; kNone outside the skin
 };
 SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
                               const FaceSamples& samples);

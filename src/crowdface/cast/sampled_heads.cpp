@@ -28,11 +28,11 @@ void find_stretches(SampledHeads& sampled) {
 ///
 /// \param whole  Returns the positions of a head, or of its mirror image.
 template <class Whole>
-void take_samples(const HeadSet& faces, const FaceSamples& samples, const Whole& whole,
+void take_samples(const HeadSet& head_set, const FaceSamples& samples, const Whole& whole,
                   SampledHeads& sampled) {
   const auto count = static_cast<Index>(samples.size());
   sampled.mean = Positions::Zero(count, 3);
-  for (const Head& head : faces.heads) {
+  for (const Head& head : head_set.heads) {
     const Positions& positions = whole(head);
     Positions& rows = sampled.heads.emplace_back(count, 3);
     for (Index s = 0; s < count; ++s) {
@@ -40,7 +40,7 @@ void take_samples(const HeadSet& faces, const FaceSamples& samples, const Whole&
     }
     sampled.mean += rows;
   }
-  sampled.mean /= static_cast<double>(faces.heads.size());
+  sampled.mean /= static_cast<double>(head_set.heads.size());
 }
 
 Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
@@ -87,14 +87,14 @@ template <class Property>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {
   const double w = mirrored_weight(recipe);
   if (w == 0) return property(heads);
-  require(heads.image != nullptr, "a mirrored face, and no mirror images of heads");
-  if (w == 1) return property(*heads.image);
-  return blend_with_mirrored(property(heads), property(*heads.image), w);
+  require(heads.mirror_images != nullptr, "a mirrored face, and no mirror images of heads");
+  if (w == 1) return property(*heads.mirror_images);
+  return blend_with_mirrored(property(heads), property(*heads.mirror_images), w);
 }
 
 }  // namespace
 
-SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
+SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
                           std::uint64_t max_level, double mm_per_unit) {
   const auto count = static_cast<Index>(samples.size());
@@ -103,7 +103,8 @@ SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
   sampled.levels = trajectory_levels(max_level);
   sampled.mm_per_unit = mm_per_unit;
   take_samples(
-      faces, samples, [](const Head& head) -> const Positions& { return head.positions; }, sampled);
+      head_set, samples, [](const Head& head) -> const Positions& { return head.positions; },
+      sampled);
   sampled.alpha.resize(count, regions.alpha.cols());
   for (Index s = 0; s < count; ++s) {
     sampled.alpha.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
@@ -112,30 +113,31 @@ SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
   return sampled;
 }
 
-std::shared_ptr<const SampledHeads> sample_images(
-    const HeadSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
+std::shared_ptr<const SampledHeads> sample_mirror_images(
+    const HeadSet& head_set, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads) {
   const auto count = static_cast<Index>(samples.size());
   std::unordered_map<std::uint32_t, Index> column;
   for (std::size_t i = 0; i < traced.size(); ++i) column[traced[i]] = 3 * static_cast<Index>(i);
-  auto image = std::make_shared<SampledHeads>();
-  image->levels = heads.levels;
-  image->mm_per_unit = heads.mm_per_unit;
+  auto images = std::make_shared<SampledHeads>();
+  images->levels = heads.levels;
+  images->mm_per_unit = heads.mm_per_unit;
   take_samples(
-      faces, samples, [&](const Head& head) { return mirrored(mirror, head.positions); }, *image);
-  image->alpha = Columns::Zero(count, regions.alpha.cols());
-  image->owned_trajectories.resize(faces.heads.size());
-  for (Trajectory& own : image->owned_trajectories) {
+      head_set, samples, [&](const Head& head) { return mirrored(mirror, head.positions); },
+      *images);
+  images->alpha = Columns::Zero(count, regions.alpha.cols());
+  images->owned_trajectories.resize(head_set.heads.size());
+  for (Trajectory& own : images->owned_trajectories) {
     own.resize(static_cast<Index>(heads.levels.size()), 3 * count);
   }
   const MirrorPlane directions{mirror.plane.normal, 0};
   for (Index s = 0; s < count; ++s) {
     const std::uint32_t v = samples[static_cast<std::size_t>(s)];
     for (std::size_t c = 0; c < 3; ++c) {
-      image->alpha.row(s) += mirror.shares[v][c] * regions.alpha.row(mirror.corners[v][c]);
+      images->alpha.row(s) += mirror.shares[v][c] * regions.alpha.row(mirror.corners[v][c]);
     }
   }
-  parallel_for_each(image->owned_trajectories.size(), [&](std::size_t h) {
+  parallel_for_each(images->owned_trajectories.size(), [&](std::size_t h) {
     const Trajectory& from = heads.trajectories[h];
     for (Index l = 0; l < from.rows(); ++l) {
       for (Index s = 0; s < count; ++s) {
@@ -149,14 +151,14 @@ std::shared_ptr<const SampledHeads> sample_images(
         }
         const Eigen::Vector3d turned = directions.mirrored(moved);
         for (Index a = 0; a < 3; ++a) {
-          image->owned_trajectories[h](l, 3 * s + a) = static_cast<float>(turned(a));
+          images->owned_trajectories[h](l, 3 * s + a) = static_cast<float>(turned(a));
         }
       }
     }
   });
-  image->trajectories = image->owned_trajectories;
-  find_stretches(*image);
-  return image;
+  images->trajectories = images->owned_trajectories;
+  find_stretches(*images);
+  return images;
 }
 
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe) {

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// The data of the heads at the samples, from which the samples of any recipe follow.
+/// The data of the heads at the samples. They determine the samples of any recipe's face.
 struct SampledHeads {
   std::vector<Positions> heads;  ///< #S by 3 each, in millimetres
   Positions mean;                ///< #S by 3
@@ -26,11 +26,11 @@ struct SampledHeads {
   std::vector<Trajectory>
       owned_trajectories;  ///< storage of the trajectories, if this object owns them
   /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.
-  std::shared_ptr<const SampledHeads> image;
+  std::shared_ptr<const SampledHeads> mirror_images;
 };
 
 /// Returns the data of the heads at the samples, without mirror images.
-SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
+SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
                           std::uint64_t max_level, double mm_per_unit);
 
@@ -38,9 +38,10 @@ SampledHeads sample_heads(const HeadSet& faces, const RegionWeights& regions,
 /// trajectories are interpolated.
 ///
 /// \param heads   Heads at the same samples.
-/// \param traced  Vertices of the trajectories of `heads`: with_corners of the samples.
-std::shared_ptr<const SampledHeads> sample_images(
-    const HeadSet& faces, const RegionWeights& regions, const MirrorMap& mirror,
+/// \param traced  Vertices of the trajectories of `heads`: samples_and_mirror_corners of the
+///                samples.
+std::shared_ptr<const SampledHeads> sample_mirror_images(
+    const HeadSet& head_set, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads);
 
 /// Returns the samples of a recipe's target, #S by 3 in millimetres, mirrored like the face.

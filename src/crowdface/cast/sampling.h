@@ -123,7 +123,7 @@ inline std::size_t band_count(const SamplingOptions& sampling) {
   return std::max<std::size_t>(1, sampling.bands.size());
 }
 /// Returns whether any face may be mirrored or may have an asymmetry factor other than 1.
-inline bool mirrors(const SamplingOptions& sampling) {
+inline bool may_mirror(const SamplingOptions& sampling) {
   return sampling.asymmetry != Range{1, 1} || sampling.mirror != Mirroring::kNone;
 }
 /// Returns the distribution of the level at which a band of a region begins.

@@ -46,7 +46,7 @@ std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>&
 
 }  // namespace
 
-void choose_skin_of_children(const SkinOptions& draw, std::vector<FacePlan>& crowd) {
+void choose_skin_colours_of_children(const SkinOptions& draw, std::vector<FacePlan>& crowd) {
   std::map<std::string, double> tones;  // of heads and faces, by name
   for (std::size_t h = 0; h < draw.heads.size(); ++h) tones[draw.heads[h]] = draw.tones[h];
   std::map<std::string, bool> is_parent;
@@ -55,7 +55,7 @@ void choose_skin_of_children(const SkinOptions& draw, std::vector<FacePlan>& cro
   }
   const auto meet = [&](const FacePlan& face) {
     if (!is_parent.contains(face.id)) return;
-    const std::vector<double> shares = draw.shares(face.recipe);
+    const std::vector<double> shares = draw.colour_weights(face.recipe);
     double tone = 0;
     for (std::size_t h = 0; h < shares.size(); ++h) tone += shares[h] * draw.tones[h];
     tones[face.id] = tone;

@@ -19,7 +19,7 @@ struct SkinOptions {
   HeadTags tags;                   ///< #heads
   std::vector<double> tones;       ///< #heads: mean optical density of the colour textures
   /// Weights of the heads in a face's colours, #heads; they sum to one.
-  std::function<std::vector<double>(const Recipe&)> shares;
+  std::function<std::vector<double>(const Recipe&)> colour_weights;
   std::set<std::string> twins = {};  ///< families whose members are twins with the same tone
 };
 
@@ -30,6 +30,6 @@ struct SkinOptions {
 /// colours. Faces that already have colours keep these.
 ///
 /// \param crowd  In the order of the plan: parents before children.
-void choose_skin_of_children(const SkinOptions& options, std::vector<FacePlan>& crowd);
+void choose_skin_colours_of_children(const SkinOptions& options, std::vector<FacePlan>& crowd);
 
 }  // namespace crowdface

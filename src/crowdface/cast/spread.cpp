@@ -37,7 +37,8 @@ double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double 
 
 double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, double limit) {
   const double as_built = squared_up_to(a.as_built, b.as_built, limit);
-  return std::min(as_built, squared_up_to(a.unit, b.unit, std::min(limit, as_built)));
+  return std::min(as_built,
+                  squared_up_to(a.unextrapolated, b.unextrapolated, std::min(limit, as_built)));
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
         casting.diversity.max_attempts * (limited ? static_cast<int>(kAttemptFactorWithTraits) : 1);
     for (int attempt = 0; attempt < attempts; ++attempt) {
       const FaceRandomKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
-      FacePlan face = random_recipe(casting, {}, key, kind);
+      FacePlan face = random_face_plan(casting, {}, key, kind);
       const TraitRules* rules = judge.traits();
       if (rules != nullptr && !rules->measurer().meets(kind.sampling->traits,
                                                        rules->measurer().landmarks(face.recipe))) {
@@ -89,7 +90,7 @@ FarthestPoints::FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crow
       squared_distances_(pool.points.size(), HUGE_VAL),
       dropped_(pool.points.size(), false) {
   parallel_for_each(squared_distances_.size(), [&](std::size_t at) {
-    const double mm = crowd.index().nearest(pool_.points[at]).mm;
+    const double mm = crowd.nearest_search().nearest(pool_.points[at]).distance_mm;
     squared_distances_[at] = mm * mm;
   });
 }
@@ -102,7 +103,7 @@ FarthestPoints::Pick FarthestPoints::farthest(int kind) const {
     most = squared_distances_[p];
     best.candidate = static_cast<Index>(p);
   }
-  best.mm = std::sqrt(std::max(most, 0.0));
+  best.distance_mm = std::sqrt(std::max(most, 0.0));
   return best;
 }
 
@@ -119,7 +120,8 @@ void FarthestPoints::pick(Index candidate) {
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
                  const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
                  CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result) {
-  CandidatePool pool = sample_pool(casting, judge, kinds, casting.count, DiversityOptions::kPool);
+  CandidatePool pool =
+      sample_pool(casting, judge, kinds, casting.count, DiversityOptions::kPoolSizeFactor);
   result.rejections.add(pool.rejections);
   FarthestPoints points(pool, crowd);
   for (std::uint64_t index = 1; index <= casting.count; ++index) {
@@ -137,7 +139,7 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
       points.drop(pick.candidate);
       pick = points.farthest(kind);
     }
-    if (pick.candidate < 0 || pick.mm < casting.diversity.min_distance_mm) {
+    if (pick.candidate < 0 || pick.distance_mm < casting.diversity.min_distance_mm) {
       Rejections why = pool.rejections;
       if (pick.candidate >= 0) why.add(Reason::kMinDistance, why.total() + 1);
       result.shortfall = Shortfall{index - 1, why, kind};

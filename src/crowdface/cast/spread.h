@@ -33,15 +33,16 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
 /// Picks candidates from a pool, one after the other: always the candidate farthest from the picked
 /// candidates and from the initial crowd (greedy farthest point). In any other set of as many
 /// candidates, the closest pair is at most twice as far apart (Gonzalez 1985; Ravi, Rosenkrantz &
-/// Tayi 1994), provided that the distance is a metric (every factor 1), there are no groups, and
-/// the initial crowd is empty.
+/// Tayi 1994), provided that the distance is a metric (all extrapolation factors are 1), there are
+/// no groups, and the initial crowd is empty.
 class FarthestPoints {
  public:
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);
 
   struct Pick {
     Index candidate = -1;  ///< index of the candidate; −1: none left
-    double mm = 0;  ///< distance to the nearest picked or initial face; infinite if there is none
+    /// distance to the nearest picked or initial face; infinite if there is none
+    double distance_mm = 0;
   };
   /// Returns the farthest candidate of a group (−1: of no group). Does not pick it.
   Pick farthest(int kind) const;

@@ -24,8 +24,8 @@ Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& gro
 
 }  // namespace
 
-std::size_t common_tags(const std::vector<std::string>& one,
-                        const std::vector<std::string>& other) {
+std::size_t common_tag_count(const std::vector<std::string>& one,
+                             const std::vector<std::string>& other) {
   return static_cast<std::size_t>(
       std::count_if(one.begin(), one.end(), [&](const auto& tag) { return contains(other, tag); }));
 }
@@ -40,9 +40,10 @@ SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags
     }
     const Eigen::VectorXf place = space.head_point(head).as_built + apart;
     const auto rank = [&](Index other) {
-      const std::size_t common = tags.empty() ? 0
-                                              : common_tags(tags[static_cast<std::size_t>(head)],
-                                                            tags[static_cast<std::size_t>(other)]);
+      const std::size_t common = tags.empty()
+                                     ? 0
+                                     : common_tag_count(tags[static_cast<std::size_t>(head)],
+                                                        tags[static_cast<std::size_t>(other)]);
       return std::tuple(-static_cast<std::ptrdiff_t>(common), contains(taken, other),
                         (space.head_point(other).as_built - place).norm());
     };
@@ -53,7 +54,7 @@ SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags
 
 std::vector<SourceWeight> SubstituteHeads::substituted(
     const std::vector<SourceWeight>& shares) const {
-  if (has_all(shares)) return shares;
+  if (contains_all(shares)) return shares;
   std::map<Index, double> sums;
   for (const SourceWeight& share : shares) {
     sums[substitutes_[static_cast<std::size_t>(share.head)]] += share.weight;
@@ -63,7 +64,7 @@ std::vector<SourceWeight> SubstituteHeads::substituted(
   return result;
 }
 
-bool SubstituteHeads::has_all(const std::vector<SourceWeight>& shares) const {
+bool SubstituteHeads::contains_all(const std::vector<SourceWeight>& shares) const {
   return substitutes_.empty() || std::all_of(shares.begin(), shares.end(), [&](const auto& share) {
            return substitutes_[static_cast<std::size_t>(share.head)] == share.head;
          });

@@ -27,14 +27,15 @@ class SubstituteHeads {
   ///
   /// \param shares  Weights, by ascending head.
   std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& shares) const;
-  /// Returns whether the group contains every head that has a share.
-  bool has_all(const std::vector<SourceWeight>& shares) const;
+  /// Returns whether the group contains every head in `shares`.
+  bool contains_all(const std::vector<SourceWeight>& shares) const;
 
  private:
   std::vector<Index> substitutes_;  ///< #heads: substitute of each head; or empty
 };
 
 /// Returns how many tags two heads have in common.
-std::size_t common_tags(const std::vector<std::string>& one, const std::vector<std::string>& other);
+std::size_t common_tag_count(const std::vector<std::string>& one,
+                             const std::vector<std::string>& other);
 
 }  // namespace crowdface

@@ -21,7 +21,7 @@ Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64
   recipe.target = head_at(draw("training/target", 0)[0]);
   for (Index k = 0; k < heads.alpha.cols(); ++k) {
     RegionRecipe region;
-    region.finer.resize(bands - 1);
+    region.finer_bands.resize(bands - 1);
     auto most = static_cast<double>(heads.levels.back());
     for (std::size_t b = 0; b < bands; ++b) {
       const std::string purpose = b == 0 ? concat("training/", k) : concat("training/", k, "/", b);
@@ -41,7 +41,7 @@ Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64
     }
     recipe.regions.push_back(std::move(region));
   }
-  if (heads.image != nullptr) {
+  if (heads.mirror_images != nullptr) {
     const auto [side, factor] = draw("training/mirror", 0);
     recipe.mirrored = side < 0.5;
     recipe.asymmetry = 0.5 + factor;

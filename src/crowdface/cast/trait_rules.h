@@ -33,7 +33,7 @@ class TraitRules {
 /// Whether any face of the crowd has limits.
 bool has_trait_limits(const CastingOptions& casting);
 
-/// Most candidates for one face if measurements are limited, as a multiple of
+/// Largest number of candidates for one face if measurements are limited, as a multiple of
 /// DiversityOptions::max_attempts. Generating and measuring a candidate takes microseconds.
 inline constexpr std::uint32_t kAttemptFactorWithTraits = 20;
 /// Returns kAttemptFactorWithTraits if the crowd has limits on measurements, otherwise 1.

@@ -16,7 +16,7 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
     }
   }
   // The score of a head is a sum over its tags: total weight of the mixture's heads with the tag,
-  // minus the weight of those without it.
+  // minus the total weight of the heads without the tag.
   constexpr double kSame = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;

@@ -46,7 +46,7 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
   if (!tags) return;
   item.tags = *tags;
-  const bool any = !heads_with(*tags, draft.config.faces).empty();
+  const bool any = !heads_with_tags(*tags, draft.config.faces).empty();
   if (!any && draft.heads_known && draft.tags_known) {
     draft.complaints.add_at(node,
                             "no head has all of these tags, so no face would get this attachment");
@@ -69,17 +69,17 @@ const Keys<Attachment>& item_keys() {
     return item.tint != Tint::kNone;
   };
   const auto has_without = [](const Attachment& item, const auto&) {
-    return !item.without.empty();
+    return !item.excluded_tags.empty();
   };
   const auto excludes = [](const Attachment& item, const auto&) { return !item.excludes.empty(); };
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
-      key("file", &Attachment::file, obj_file(), "an OBJ file").after_casting(),
-      Key<Attachment>{"tags", read_item_tags, write_tags}.taking("list of tags"),
-      of_item("without", &AttachmentItem::without, list(name(), "a list of tags, [old]"))
+      key("file", &Attachment::file, obj_file(), "an OBJ file").ignored_by_recipes(),
+      Key<Attachment>{"tags", read_item_tags, write_tags}.with_accepted_values("list of tags"),
+      of_item("without", &AttachmentItem::excluded_tags, list(name(), "a list of tags, [old]"))
           .written_if(has_without),
-      word_key("moves", &Attachment::moves).after_casting(),
+      word_key("moves", &Attachment::moves).ignored_by_recipes(),
       of_item("share", &AttachmentItem::share, number(0, kMaxShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
       of_item("tint", &AttachmentItem::tint, word<Tint>()).written_if(has_tint),
@@ -91,7 +91,7 @@ const Keys<Attachment>& item_keys() {
 
 /// Returns whether other files of a face already have names with this ending: levels of detail or
 /// shapes.
-bool is_taken(const std::string& name, const Config& config) {
+bool is_ending_taken(const std::string& name, const Config& config) {
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
   return is_level || name == "shapes" || contains(config.shapes.names, name);
@@ -101,7 +101,7 @@ void check_item(const YamlNode& node, const Attachment& item, ConfigDraft& draft
   const auto& items = draft.config.attachments.items;
   if (std::ranges::find(items, item.name, &Attachment::name) != items.end()) {
     draft.complaints.add_at(node, concat("two attachments are called ", quoted(item.name)));
-  } else if (is_taken(item.name, draft.config)) {
+  } else if (is_ending_taken(item.name, draft.config)) {
     draft.complaints.add_at(node, concat("other files of a face already have the name ",
                                          quoted(item.name), "; choose another name"));
   }
@@ -152,9 +152,9 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
 
 /// Returns the first item whose kind, name or colour is this word; null if there is none. A quota
 /// for the word is a quota of this item's kind.
-const Attachment* first_called(const Attachments& attachments, const std::string& word) {
+const Attachment* first_item_matching(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(
-      attachments.items, [&](const Attachment& item) { return is_called(item, word); });
+      attachments.items, [&](const Attachment& item) { return matches_word(item, word); });
   return found == attachments.items.end() ? nullptr : &*found;
 }
 
@@ -176,7 +176,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
     if (!share) continue;
-    const Attachment* item = first_called(attachments, entry.key);
+    const Attachment* item = first_item_matching(attachments, entry.key);
     if (item == nullptr) {
       draft.complaints.add_at(
           entry.value, concat("no attachment is of the kind, name or colour ", quoted(entry.key),
@@ -217,18 +217,18 @@ auto write_shares(std::map<std::string, double> Attachments::*shares) {
 }
 
 /// The keys of attachments.yaml.
-const Keys<Attachments>& wardrobe_keys() {
+const Keys<Attachments>& attachments_file_keys() {
   static const Keys<Attachments> keys = {
       Key<Attachments>{"fitted_to", read_fitted_to, write_fitted_to}
-          .taking("`mean`, head, or OBJ file")
-          .after_casting(),
+          .with_accepted_values("`mean`, head, or OBJ file")
+          .ignored_by_recipes(),
       Key<Attachments>{"items", read_items, write_items}
-          .taking("list of mappings with the keys below")
-          .holding(item_keys()),
-      Key<Attachments>{"none", read_none, write_shares(&Attachments::none)}.taking(
+          .with_accepted_values("list of mappings with the keys below")
+          .with_nested_keys(item_keys()),
+      Key<Attachments>{"none", read_none, write_shares(&Attachments::none)}.with_accepted_values(
           "`{kind: share}`, shares 0 … 1"),
-      Key<Attachments>{"quotas", read_item_quotas, write_shares(&Attachments::quotas)}.taking(
-          "`{kind, name or colour: share}`, shares 0 … 1"),
+      Key<Attachments>{"quotas", read_item_quotas, write_shares(&Attachments::quotas)}
+          .with_accepted_values("`{kind, name or colour: share}`, shares 0 … 1"),
       hair_colours_key(&Attachments::hair_colours)};
   return keys;
 }
@@ -252,7 +252,7 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
 bool is_wearable(const Attachment& item, const Config::Faces& faces) {
   return std::ranges::any_of(faces.tags, [&](const std::vector<std::string>& tags) {
     return has_tags(tags, item.tags) &&
-           std::ranges::none_of(item.without,
+           std::ranges::none_of(item.excluded_tags,
                                 [&](const std::string& tag) { return contains(tags, tag); });
   });
 }
@@ -262,7 +262,7 @@ void remove_unwearable(Attachments& attachments, const Config::Faces& faces) {
   std::erase_if(attachments.items,
                 [&](const Attachment& item) { return !is_wearable(item, faces); });
   const auto is_unknown = [&](const std::string& word) {
-    return first_called(attachments, word) == nullptr;
+    return first_item_matching(attachments, word) == nullptr;
   };
   const auto is_of_unknown = [&](const auto& share) { return is_unknown(share.first); };
   std::erase_if(attachments.none, is_of_unknown);
@@ -272,7 +272,8 @@ void remove_unwearable(Attachments& attachments, const Config::Faces& faces) {
 
 /// Reads the section `attachments` of the file attachments.yaml in a folder. Its paths are relative
 /// to that folder.
-void read_from(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+void read_attachments_of_folder(const YamlNode& node, Attachments& attachments,
+                                ConfigDraft& draft) {
   const auto folder = path("a folder of attachments").read(node, draft);
   if (!folder) return;
   const std::filesystem::path file = *folder / "attachments.yaml";
@@ -287,7 +288,7 @@ void read_from(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   }
   const std::filesystem::path folder_of_config = std::exchange(draft.folder, *folder);
   const bool tags_known = std::exchange(draft.tags_known, false);
-  read_keys(section->value, wardrobe_keys(), attachments, draft);
+  read_keys(section->value, attachments_file_keys(), attachments, draft);
   if (const YamlEntry* items = section->value.find("items")) {
     check_excluded(items->value, attachments, draft);
   }
@@ -305,10 +306,12 @@ void read_from(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
 const Keys<Attachments>& attachments_keys() {
   static const Keys<Attachments> keys = [] {
     // read_attachments reads the value; it is written as items.
-    Keys<Attachments> all = {
-        Key<Attachments>{"from", [](const auto&...) {}, [](const auto&...) { return ""; }}.taking(
-            "folder")};
-    const Keys<Attachments>& more = wardrobe_keys();
+    Keys<Attachments> all = {Key<Attachments>{
+        "from", [](const auto&...) {},
+        [](const auto&...) {
+          return "";
+        }}.with_accepted_values("folder")};
+    const Keys<Attachments>& more = attachments_file_keys();
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
@@ -323,7 +326,7 @@ void warn_of_lost_shares(const YamlNode& node, const Attachments& from, ConfigDr
   std::set<std::string> kinds, lost;
   const auto add_kinds = [&](const std::map<std::string, double>& shares, auto& to) {
     for (const auto& share : shares) {
-      if (const Attachment* item = first_called(own, share.first)) to.insert(item->kind);
+      if (const Attachment* item = first_item_matching(own, share.first)) to.insert(item->kind);
     }
   };
   add_kinds(own.none, kinds);
@@ -352,7 +355,7 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
   }
   Attachments of_folder;
   if (from != nullptr) {
-    read_from(from->value, config.attachments, draft);
+    read_attachments_of_folder(from->value, config.attachments, draft);
     of_folder = config.attachments;
     if (node.find("none") != nullptr || node.find("quotas") != nullptr) {
       config.attachments.none.clear();
@@ -383,7 +386,7 @@ std::string write_attachments(const Config& config, const WriteContext& context)
 
 Key<Config> attachments_key() {
   return Key<Config>{"attachments", read_attachments, write_attachments, {}, attachments_starter}
-      .holding(attachments_keys());
+      .with_nested_keys(attachments_keys());
 }
 
 }  // namespace crowdface

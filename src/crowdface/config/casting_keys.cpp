@@ -130,15 +130,15 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_stretch", &Believability::max_stretch, number(1, 1000)),
       key("max_flipped", &Believability::max_flipped, number(0, 1)),
       key("max_intersecting", &Believability::max_intersecting, number(0, 1)),
-      key("max_gap", &Believability::max_gap_mm, length(kMaxDistance)),
+      key("max_gap", &Believability::max_gap_mm, length(kMaxDistanceMm)),
       key("max_exposed", &Believability::max_exposed_mm2, number(0, 1e6))
-          .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
+          .with_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertices > kMaxJudged) return std::nullopt;
             return StarterLines{"0.5",
                                 "skin that shows its back, in mm²: specks at nostrils and lips"};
           }),
       word_key("meshes", &Believability::meshes)
-          .in_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
+          .with_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertices > kMaxJudged) return std::nullopt;
             return StarterLines{std::string(word_of(Believability::Meshes::kJudge)), "",
                                 "Casting builds each face and drops it if too much skin passes "
@@ -155,7 +155,7 @@ void read_first_distances(const YamlNode& node, DiversityOptions& diversity, Con
       draft.complaints.add(
           entry.key_place,
           concat(node.path, ": expected a number of faces, found ", quoted(entry.key)));
-    } else if (const auto mm = length(kMaxDistance).read(entry.value, draft)) {
+    } else if (const auto mm = length(kMaxDistanceMm).read(entry.value, draft)) {
       diversity.min_distance_of_first_mm[*faces] = *mm;
     }
   }
@@ -166,13 +166,13 @@ void read_first_distances(const YamlNode& node, DiversityOptions& diversity, Con
 
 std::string write_first_distances(const DiversityOptions& diversity, const WriteContext& context) {
   const auto entries = texts_of(diversity.min_distance_of_first_mm, [&](const auto& first) {
-    return entry(std::to_string(first.first), length(kMaxDistance).write(first.second, context));
+    return entry(std::to_string(first.first), length(kMaxDistanceMm).write(first.second, context));
   });
   return entries.empty() ? "" : flow_map(entries);
 }
 
 /// A removed key. Accepts only `value`, which the configs of older crowds contain.
-Key<DiversityOptions> gone_key(std::string_view name, std::string_view value) {
+Key<DiversityOptions> removed_key(std::string_view name, std::string_view value) {
   return {name,
           [=](const YamlNode& node, auto&, ConfigDraft& draft) {
             if (node.text != value) {
@@ -187,14 +187,14 @@ Key<DiversityOptions> gone_key(std::string_view name, std::string_view value) {
 const Keys<Config::Distance>& distance_keys() {
   static const Keys<Config::Distance> keys = {
       word_key("area", &Config::Distance::area),
-      Key<Config::Distance>{"mask", read_mask, write_mask}.taking("image file")};
+      Key<Config::Distance>{"mask", read_mask, write_mask}.with_accepted_values("image file")};
   return keys;
 }
 
 namespace {
 
-/// Proposes a distance at which the starter's faces fit, under the starter's limits of
-/// believability.
+/// Proposes a minimum distance that all faces of the starter config can keep within its
+/// believability limits.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
   const std::size_t in_group = heads_of_smaller_group(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.names.size();
@@ -225,22 +225,23 @@ const Keys<DiversityOptions>& diversity_keys() {
   using Diversity = DiversityOptions;
   static const Keys<Diversity> keys = {
       word_key("mode", &Diversity::mode),
-      key("min_distance", &Diversity::min_distance_mm, length(kMaxDistance))
-          .in_starter(min_distance_starter),
-      Key<Diversity>{"min_distance_of_first", read_first_distances, write_first_distances}.taking(
-          "`{number of faces: length}`"),
-      key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistance))
-          .in_starter({"0.8 mm", "",
-                       "No face comes nearer than this to a head: below half a millimetre it looks "
-                       "like that person."}),
+      key("min_distance", &Diversity::min_distance_mm, length(kMaxDistanceMm))
+          .with_starter(min_distance_starter),
+      Key<Diversity>{"min_distance_of_first", read_first_distances, write_first_distances}
+          .with_accepted_values("`{number of faces: length}`"),
+      key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistanceMm))
+          .with_starter(
+              {"0.8 mm", "",
+               "No face comes nearer than this to a head: below half a millimetre it looks "
+               "like that person."}),
       key("min_distance_to_rejected", &Diversity::min_distance_to_rejected_mm,
-          length(kMaxDistance)),
+          length(kMaxDistanceMm)),
       key("max_weight", &Diversity::max_weight,
-          above_zero(number(0, 1), "a number above 0, up to 1")),
+          refuse_zero(number(0, 1), "a number above 0, up to 1")),
       {"quotas", refuse_quotas, [](const auto&...) { return ""; }},
-      gone_key("candidates", {}),
-      gone_key("pool", "10"),
-      gone_key("max_attempts", "1000")};
+      removed_key("candidates", {}),
+      removed_key("pool", "10"),
+      removed_key("max_attempts", "1000")};
   return keys;
 }
 
@@ -266,7 +267,7 @@ Key<Config> believability_key() {
                      write_believability,
                      {},
                      starter_section(believability_keys())}
-      .holding(believability_keys());
+      .with_nested_keys(believability_keys());
 }
 
 }  // namespace crowdface

@@ -66,7 +66,7 @@ void read_wears(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
       draft.complaints.add_at(node.items[i], concat(name, " excludes ", *excluded));
     }
   }
-  change.wears = *names;
+  change.attachments = *names;
 }
 
 void read_takes_off(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
@@ -149,13 +149,15 @@ const Keys<FaceChange>& change_keys() {
         return false;
       });
   static const Keys<FaceChange> keys = {
-      Key<FaceChange>{"age", read_change_of_age, write_change_of_age}.taking(
+      Key<FaceChange>{"age", read_change_of_age, write_change_of_age}.with_accepted_values(
           "`older`, `younger` or number, -1 … 1"),
       Key<FaceChange>{"wears", read_wears,
                       [](const FaceChange& change, const WriteContext& context) {
-                        return change.wears ? list(name(), "").write(*change.wears, context) : "";
+                        return change.attachments
+                                   ? list(name(), "").write(*change.attachments, context)
+                                   : "";
                       }}
-          .taking("list of attachments"),
+          .with_accepted_values("list of attachments"),
       Key<FaceChange>{"takes_off", read_takes_off,
                       [](const FaceChange& change, const WriteContext& context) {
                         return change.takes_off.empty()
@@ -168,7 +170,7 @@ const Keys<FaceChange>& change_keys() {
       Key<FaceChange>{
           "variant_of", read_variant_of,
           [](const FaceChange& change, const auto&) { return change.variant_of.value_or(""); }}
-          .taking("id of a face"),
+          .with_accepted_values("id of a face"),
       key("distance", &FaceChange::distance_mm, positive_length(kLargestDistanceMm))
           .written_if(
               [](const FaceChange& change, const auto&) { return change.variant_of.has_value(); }),
@@ -178,7 +180,7 @@ const Keys<FaceChange>& change_keys() {
                         change.locked = read_locked_parts(node, draft);
                       },
                       write_locked}
-          .taking("list of regions or bands"),
+          .with_accepted_values("list of regions or bands"),
       key("traits", &FaceChange::traits, trait_limits())};
   return keys;
 }
@@ -248,7 +250,7 @@ Key<Config> changes_key() {
                      [](const Config& config, const WriteContext& context) {
                        return write_changes(config.changes, context);
                      }}
-      .holding(change_keys())
+      .with_nested_keys(change_keys())
       .written_if([](const Config& config, const auto&) { return !config.changes.empty(); });
 }
 

@@ -62,7 +62,7 @@ Codec<double> iteration_count() {
 }
 
 /// A smoothness in this unit: one value or a range.
-Codec<SmoothnessDistribution> in_unit(Unit unit, const Codec<double>& one) {
+Codec<SmoothnessDistribution> smoothness_in_unit(Unit unit, const Codec<double>& one) {
   const Codec<Range> ranges = range(one);
   return {[=](const YamlNode& node, ConfigDraft& draft) {
             const auto read = ranges.read(node, draft);
@@ -71,7 +71,7 @@ Codec<SmoothnessDistribution> in_unit(Unit unit, const Codec<double>& one) {
           [=](const SmoothnessDistribution& smoothness, const WriteContext& context) {
             return ranges.write(smoothness.range, context);
           },
-          ranges.takes};
+          ranges.accepted_values};
 }
 
 /// Reads `{head or tag: weight}`. The weights of several tags of a head add up; an entry for the
@@ -142,7 +142,7 @@ std::string WriteContext::head(Eigen::Index index) const {
   return write_scalar(config.faces.names[static_cast<std::size_t>(index)]);
 }
 
-std::string without_article(std::string_view expected) {
+std::string remove_article(std::string_view expected) {
   for (const std::string_view article : {"a ", "an "}) {
     if (expected.starts_with(article)) expected.remove_prefix(article.size());
   }
@@ -194,17 +194,17 @@ Codec<double> length(double high_mm) {
 }
 
 Codec<double> positive_length(double high_mm) {
-  return above_zero(length(high_mm),
-                    concat("a length above 0 mm, up to ", plain_number(high_mm), " mm"));
+  return refuse_zero(length(high_mm),
+                     concat("a length above 0 mm, up to ", plain_number(high_mm), " mm"));
 }
 
-Codec<double> above_zero(const Codec<double>& codec, const std::string& expected) {
+Codec<double> refuse_zero(const Codec<double>& codec, const std::string& expected) {
   Codec<double> above =
       restricted(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
         if (value == 0) draft.complaints.expected(node, expected);
         return value != 0;
       });
-  above.takes = without_article(expected);
+  above.accepted_values = remove_article(expected);
   return above;
 }
 
@@ -230,7 +230,7 @@ Codec<Range> range(const Codec<double>& one) {
             const std::string low = one.write(range.low, context);
             return range.low == range.high ? low : flow_list({low, one.write(range.high, context)});
           },
-          concat(one.takes, ", or a range")};
+          concat(one.accepted_values, ", or a range")};
 }
 
 Codec<Range> age() {
@@ -254,8 +254,8 @@ Codec<Range> extrapolation() {
 }
 
 Codec<SmoothnessDistribution> smoothness() {
-  const auto fractions = in_unit(Unit::kFraction, fraction());
-  const auto sizes = in_unit(Unit::kSize, relief_size());
+  const auto fractions = smoothness_in_unit(Unit::kFraction, fraction());
+  const auto sizes = smoothness_in_unit(Unit::kSize, relief_size());
   return {[=](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
             const bool is_list = node.kind == YamlNode::Kind::kList && !node.items.empty();
             const bool size = is_size(is_list ? node.items[0] : node);
@@ -275,7 +275,7 @@ Codec<SmoothnessDistribution> smoothness() {
 }
 
 Codec<SmoothnessDistribution> iterations() {
-  return in_unit(Unit::kIterations, iteration_count());
+  return smoothness_in_unit(Unit::kIterations, iteration_count());
 }
 
 std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context) {
@@ -291,7 +291,7 @@ Codec<std::string> name() {
 Codec<std::string> text(const std::string& expected) {
   return plain<std::string>(
       [=](const YamlNode& node, Complaints& out) { return read_text(node, expected, out); },
-      write_scalar, without_article(expected));
+      write_scalar, remove_article(expected));
 }
 
 Codec<Eigen::Index> head() {
@@ -371,7 +371,7 @@ Codec<std::filesystem::path> path(const std::string& expected) {
             const auto relative = absolute.lexically_relative(context.folder);
             return write_scalar(relative.empty() ? absolute.string() : relative.string());
           },
-          without_article(expected)};
+          remove_article(expected)};
 }
 
 Codec<std::filesystem::path> obj_file() {

@@ -32,11 +32,11 @@ template <class Value>
 struct Codec {
   std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;
   std::function<std::string(const Value&, const WriteContext&)> write;
-  std::string takes = {};  ///< the accepted values, for docs/config.md: "number, 0 … 1"
+  std::string accepted_values = {};  ///< the accepted values, for docs/config.md: "number, 0 … 1"
 };
 
 /// Removes a leading "a " or "an ": "a list of tags" becomes "list of tags".
-std::string without_article(std::string_view expected);
+std::string remove_article(std::string_view expected);
 
 /// A number in [low, high].
 Codec<double> number(double low, double high);
@@ -49,7 +49,7 @@ Codec<double> length(double high_mm);
 /// Like `length`, but refuses 0.
 Codec<double> positive_length(double high_mm);
 /// Like `codec`, but refuses 0. \param expected  text for messages, such as "a number above 0".
-Codec<double> above_zero(const Codec<double>& codec, const std::string& expected);
+Codec<double> refuse_zero(const Codec<double>& codec, const std::string& expected);
 /// One value, or a range `[low, high]`.
 Codec<Range> range(const Codec<double>& one);
 Codec<Range> asymmetry();  ///< 0 to kMaxAsymmetry
@@ -92,7 +92,7 @@ Codec<Value> restricted(Codec<Value> codec, const Fits& fits) {
 
 /// Lists the words of an enumeration for docs/config.md: "`front`, `skin`".
 template <class Value>
-std::string shown_words() {
+std::string quoted_words() {
   return join(texts_of(words_of<Value>(),
                        [](const Word<Value>& word) { return concat('`', word.text, '`'); }));
 }
@@ -104,7 +104,7 @@ Codec<Value> word() {
             return read_choice(node, words_of<Value>(), draft.complaints);
           },
           [](Value value, const WriteContext&) { return std::string(word_of(value)); },
-          shown_words<Value>()};
+          quoted_words<Value>()};
 }
 
 /// A list of values, written in one line. \param expected  for messages, such as "a list of tags".
@@ -122,19 +122,19 @@ Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expe
             return flow_list(
                 texts_of(values, [&](const Value& value) { return item.write(value, context); }));
           },
-          without_article(expected)};
+          remove_article(expected)};
 }
 
 /// A list of words without duplicates.
-/// \param expected  for messages, such as "a list of views, [front, profile]".
-/// \param fewest    minimum number of words.
+/// \param expected   for messages, such as "a list of views, [front, profile]".
+/// \param min_count  minimum number of words.
 template <class Value>
-Codec<std::vector<Value>> words(const std::string& expected, std::size_t fewest = 1) {
+Codec<std::vector<Value>> words(const std::string& expected, std::size_t min_count = 1) {
   auto codec = list(word<Value>(), expected);
-  codec.takes = concat("list of ", shown_words<Value>(), ", each once");
+  codec.accepted_values = concat("list of ", quoted_words<Value>(), ", each once");
   codec.read = [=, read = codec.read](const YamlNode& node,
                                       ConfigDraft& draft) -> std::optional<std::vector<Value>> {
-    if (node.kind != YamlNode::Kind::kList || node.items.size() < fewest) {
+    if (node.kind != YamlNode::Kind::kList || node.items.size() < min_count) {
       return draft.complaints.expected(node, expected);
     }
     refuse_repeated(node, draft.complaints);

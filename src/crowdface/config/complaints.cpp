@@ -35,18 +35,19 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
 
 void Complaints::report_to(Problems& problems) const {
   // a longer list would push the first problems off the screen
-  constexpr std::size_t kMaxTold = 100;
+  constexpr std::size_t kMaxReportedComplaints = 100;
   std::vector<Complaint> sorted = complaints_;
   const auto key = [](const Complaint& c) {
     return std::tuple(c.place.line == 0, c.place.line, c.place.column);
   };
   std::ranges::stable_sort(sorted, {}, key);
-  for (std::size_t i = 0; i < std::min(sorted.size(), kMaxTold); ++i) {
+  for (std::size_t i = 0; i < std::min(sorted.size(), kMaxReportedComplaints); ++i) {
     problems.add(sorted[i].kind, concat(sorted[i].place.text(), ": ", sorted[i].what));
   }
-  if (sorted.size() > kMaxTold) {
-    problems.add(ExitCode::kUsage, concat(sorted[kMaxTold].place.text(), ": and ",
-                                          sorted.size() - kMaxTold, " more problems from here on"));
+  if (sorted.size() > kMaxReportedComplaints) {
+    problems.add(ExitCode::kUsage,
+                 concat(sorted[kMaxReportedComplaints].place.text(), ": and ",
+                        sorted.size() - kMaxReportedComplaints, " more problems from here on"));
   }
 }
 

@@ -25,7 +25,7 @@ class Complaints {
   /// Adds "PATH: expected EXPECTED, found …" at the node.
   /// \return `nullopt`, so that a function that reads a value can return this call.
   std::nullopt_t expected(const YamlNode& node, const std::string& expected);
-  /// Return whether the node is a list (a mapping). If not, add the complaint of expected().
+  /// Returns whether the node is a list (or a mapping). If not, adds the complaint "expected WHAT".
   bool expect_list(const YamlNode& node, const std::string& what);
   bool expect_map(const YamlNode& node, const std::string& what);
 

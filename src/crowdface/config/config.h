@@ -102,7 +102,7 @@ struct Config {
     std::uint64_t count = 0;  ///< number of sampled faces; recipes add further faces
     std::uint64_t seed = 1;
     /// Not a key: the number of sampled faces in the folder, if it has a crowd of this config
-    std::optional<std::uint64_t> existing;
+    std::optional<std::uint64_t> existing_count;
   } crowd;
 
   struct Faces {
@@ -236,10 +236,10 @@ struct Config {
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
-    std::vector<std::string> texts;      ///< #files, the files' texts, with the key `count`
-    std::vector<std::string> originals;  ///< #files, the files' texts as they were read
-    std::vector<Review> reviews;         ///< #files, the parsed texts
-    bool without_kept = false;           ///< the reviews in the crowd's folder are set aside
+    std::vector<std::string> texts;           ///< #files, the files' texts, with the key `count`
+    std::vector<std::string> original_texts;  ///< #files, the files' texts as they were read
+    std::vector<Review> reviews;              ///< #files, the parsed texts
+    bool ignores_kept_reviews = false;        ///< the reviews in the crowd's folder are set aside
   } review;
   std::filesystem::path edits;  ///< file saved by `crowdface edit`, already merged; empty: none
 
@@ -270,8 +270,8 @@ struct Config {
     std::vector<MeshFormat> meshes = {MeshFormat::kObj};  ///< no duplicates; may be empty
     std::vector<double> lods;  ///< levels of detail: percent of the triangles, descending
     Subdivision subdivision = Subdivision::kNone;  ///< subdivision scheme that USD files declare
-    std::optional<ContactSheet> contact_sheet =
-        ContactSheet{};  ///< empty for `contact_sheet: none`
+    /// empty for `contact_sheet: none`
+    std::optional<ContactSheet> contact_sheet = ContactSheet{};
     Gallery gallery = Gallery::kAuto;
     /// Number of faces in each numbered subfolder of meshes, renders, …; none or 0: no subfolders.
     std::optional<std::uint64_t> faces_per_folder;
@@ -294,12 +294,12 @@ struct Config {
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
 /// Returns the part of the effective config that a face's files may depend on, apart from its
-/// recipe and the input files: every key that is not marked with Key::apart_from_faces. Keys at
-/// their default are left out, so that faces written before a key existed stay up to date.
+/// recipe and the input files: every key that is not marked with Key::ignored_by_face_files. Keys
+/// at their default are left out, so that faces written before a key existed stay up to date.
 std::string face_settings(const Config& config);
 
 /// Returns the part of the effective config that a plan depends on, apart from reviews: every key
-/// that is not marked with Key::after_casting, and `changes`.
+/// that is not marked with Key::ignored_by_recipes, and `changes`.
 /// \param directory  the folder that the paths are relative to.
 std::string plan_settings(const Config& config, const std::filesystem::path& directory);
 

@@ -133,7 +133,7 @@ std::optional<KeptDistances> distances_of(const YamlNode& root) {
     const auto faces = parse_unsigned(entry.key);
     const auto mm = millimetres_of(entry.value);
     if (!faces || !mm) return std::nullopt;
-    distances.of_first_mm[*faces] = *mm;
+    distances.min_distance_of_first_mm[*faces] = *mm;
   }
   return distances;
 }
@@ -145,16 +145,18 @@ bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   if (!before || !now || !count) return false;
   DiversityOptions a, b;
   a.min_distance_mm = before->min_distance_mm;
-  a.min_distance_of_first_mm = before->of_first_mm;
+  a.min_distance_of_first_mm = before->min_distance_of_first_mm;
   b.min_distance_mm = now->min_distance_mm;
-  b.min_distance_of_first_mm = now->of_first_mm;
+  b.min_distance_of_first_mm = now->min_distance_of_first_mm;
   // These are the only face numbers after which the required distance may change.
   std::set<std::uint64_t> ends = {0, *count};
   for (const auto* distances : {&*before, &*now}) {
-    for (const auto& first : distances->of_first_mm) ends.insert(std::min(first.first, *count));
+    for (const auto& first : distances->min_distance_of_first_mm)
+      ends.insert(std::min(first.first, *count));
   }
-  return std::ranges::all_of(
-      ends, [&](std::uint64_t face) { return a.min_distance_of(face) == b.min_distance_of(face); });
+  return std::ranges::all_of(ends, [&](std::uint64_t face) {
+    return a.min_distance_mm_of(face) == b.min_distance_mm_of(face);
+  });
 }
 
 }  // namespace
@@ -167,7 +169,7 @@ std::vector<std::string> config_differences(const std::string& old_text, const s
   if (!old || !root || !complaints.empty())
     return {"every key, because one of the two is not a valid config"};
   auto defaults = parse_yaml(effective_config(Config{}, "/"), "", complaints);
-  std::set<std::string> ignored = keys_after_casting();
+  std::set<std::string> ignored = keys_ignored_by_recipes();
   if (only_grows(*old, *root)) {
     ignored.insert(kCount);
     if (keeps_distances(*old, *root)) ignored.insert({kDistance, kFirstDistances});

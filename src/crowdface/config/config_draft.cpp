@@ -38,12 +38,13 @@ std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& 
   return std::nullopt;
 }
 
-bool has_tags(const std::vector<std::string>& of_head, const std::vector<std::string>& tags) {
-  return std::ranges::all_of(tags, [&](const std::string& tag) { return contains(of_head, tag); });
+bool has_tags(const std::vector<std::string>& head_tags, const std::vector<std::string>& tags) {
+  return std::ranges::all_of(tags,
+                             [&](const std::string& tag) { return contains(head_tags, tag); });
 }
 
-std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
-                                     const Config::Faces& faces) {
+std::vector<Eigen::Index> heads_with_tags(const std::vector<std::string>& tags,
+                                          const Config::Faces& faces) {
   std::vector<Eigen::Index> heads;
   for (std::size_t h = 0; h < faces.tags.size(); ++h) {
     if (has_tags(faces.tags[h], tags)) heads.push_back(static_cast<Eigen::Index>(h));
@@ -51,7 +52,7 @@ std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
   return heads;
 }
 
-std::vector<std::string> without_ages(std::vector<std::string> tags) {
+std::vector<std::string> remove_age_tags(std::vector<std::string> tags) {
   std::erase_if(tags,
                 [](const auto& tag) { return tag == "young" || tag == "adult" || tag == "old"; });
   return tags;
@@ -81,7 +82,8 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
     }
   }
   if (heads.empty() && draft.heads_known && draft.tags_known) {
-    for (const auto& of_head : tags) known.insert(known.end(), of_head.begin(), of_head.end());
+    for (const auto& head_tags : tags)
+      known.insert(known.end(), head_tags.begin(), head_tags.end());
     draft.complaints.add(place, concat(path, ": no head and no tag is called ", quoted(name),
                                        suggestion(name, known)));
   }

@@ -20,7 +20,7 @@ struct ConfigDraft {
   Complaints& complaints;
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
   std::vector<std::filesystem::path> kept_reviews;  ///< see ConfigOverrides
-  std::optional<std::uint64_t> kept_count;          ///< see ConfigOverrides
+  std::optional<std::uint64_t> kept_face_count;     ///< see ConfigOverrides
   std::optional<double> kept_min_distance_mm;       ///< see ConfigOverrides
   std::filesystem::path ignored_reviews;            ///< see ConfigOverrides
   std::vector<std::string> warnings;                ///< see ConfigReading
@@ -36,13 +36,13 @@ struct ConfigDraft {
 /// selects itself in all regions, a part selects itself. Empty if nothing has that name.
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config);
 
-/// Returns whether `of_head`, the tags of a head, contains all of `tags`.
-bool has_tags(const std::vector<std::string>& of_head, const std::vector<std::string>& tags);
+/// Returns whether the tags of a head contain all of `tags`.
+bool has_tags(const std::vector<std::string>& head_tags, const std::vector<std::string>& tags);
 /// Returns the heads that have all of these tags, ascending.
-std::vector<Eigen::Index> heads_with(const std::vector<std::string>& tags,
-                                     const Config::Faces& faces);
+std::vector<Eigen::Index> heads_with_tags(const std::vector<std::string>& tags,
+                                          const Config::Faces& faces);
 /// Removes the tags that name an age: young, adult, old.
-std::vector<std::string> without_ages(std::vector<std::string> tags);
+std::vector<std::string> remove_age_tags(std::vector<std::string> tags);
 
 /// Resolves a path against the folder and removes "a/../" lexically, without reading links.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);

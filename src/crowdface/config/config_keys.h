@@ -16,18 +16,18 @@ struct StarterFacts;
 
 /// A key and its comments in a starter config.
 struct StarterLines {
-  std::string value;        ///< value for entry(); empty: only the comment `above` is written
-  std::string beside = {};  ///< comment on the same line
-  std::string above = {};   ///< comment before the key, one or more lines
+  std::string value;                ///< value for entry(); empty: only `comment_above` is written
+  std::string comment_beside = {};  ///< comment on the same line
+  std::string comment_above = {};   ///< comment before the key, one or more lines
 };
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
 /// A row of the tables in docs/config.md.
 struct KeyRow {
   std::string section, key;
-  std::string takes;          ///< accepted values
-  std::string initial;        ///< default value; "required"; or empty if there is no default
-  bool decides_faces = true;  ///< see Key::decides_faces
+  std::string accepted_values;  ///< accepted values
+  std::string default_value;    ///< default value; "required"; or empty if there is no default
+  bool affects_recipes = true;  ///< see Key::affects_recipes
 };
 
 template <class Section>
@@ -44,30 +44,30 @@ struct Key {
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
   /// Returns the section's value as text for entry(); an empty text leaves the key out.
   std::function<std::string(const Section&, const WriteContext&)> write;
-  std::string_view required = {};  ///< required keys only: an example, for the message
-  Starter starter = {};            ///< empty: the key is not in a starter config
-  std::string takes = {};          ///< accepted values, for docs/config.md
+  std::string_view required_example = {};  ///< required keys only: an example, for the message
+  Starter starter = {};                    ///< empty: the key is not in a starter config
+  std::string accepted_values = {};        ///< accepted values, for docs/config.md
   /// Documents the nested keys, if the value is a mapping. \param section  path of that mapping.
   std::function<std::vector<KeyRow>(const std::string& section)> rows = {};
-  bool shapes_faces = true;   ///< false: the value itself never affects a face's files
-  bool decides_faces = true;  ///< false: no recipe depends on the value or on the files it names
+  bool affects_face_files = true;  ///< false: the value itself never affects a face's files
+  bool affects_recipes = true;  ///< false: no recipe depends on the value or on the files it names
 
-  Key in_starter(const Starter& lines) const {
+  Key with_starter(const Starter& lines) const {
     Key key = *this;
     key.starter = lines;
     return key;
   }
-  Key in_starter(const StarterLines& lines) const {
-    return in_starter([=](const StarterFacts&) { return lines; });
+  Key with_starter(const StarterLines& lines) const {
+    return with_starter([=](const StarterFacts&) { return lines; });
   }
-  Key taking(const std::string& values) const {
+  Key with_accepted_values(const std::string& values) const {
     Key key = *this;
-    key.takes = values;
+    key.accepted_values = values;
     return key;
   }
   /// Documents a value that is a mapping. \param keys  keys of that mapping; must outlive this key.
   template <class Inner>
-  Key holding(const std::vector<Key<Inner>>& keys, const Inner& initial = {}) const {
+  Key with_nested_keys(const std::vector<Key<Inner>>& keys, const Inner& initial = {}) const {
     Key key = *this;
     key.rows = [&keys, initial](const std::string& section) {
       return key_rows(section, keys, initial);
@@ -76,15 +76,15 @@ struct Key {
   }
   /// Marks a key whose value no face file depends on directly. Other digests cover the input files
   /// that the key names, and the recipes that the key leads to.
-  Key apart_from_faces() const {
+  Key ignored_by_face_files() const {
     Key key = *this;
-    key.shapes_faces = false;
+    key.affects_face_files = false;
     return key;
   }
   /// Marks a key that may change in a finished crowd, because no recipe depends on the key.
-  Key after_casting() const {
+  Key ignored_by_recipes() const {
     Key key = *this;
-    key.decides_faces = false;
+    key.affects_recipes = false;
     return key;
   }
   /// Writes the key only if `is(section, writing)` holds.
@@ -107,7 +107,7 @@ std::vector<std::string> names_of(const Keys<Section>& keys) {
   return texts_of(keys, [](const Key<Section>& key) { return key.name; });
 }
 
-/// Returns the comment above, then "key: value   # beside"; each line starts with '\n'.
+/// Returns `comment_above`, then "key: value   # comment_beside"; each line starts with '\n'.
 std::string starter_lines(std::string_view key, const StarterLines& lines);
 
 /// Reads a mapping with these keys into the section. \return whether the node is a mapping.
@@ -116,8 +116,9 @@ bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section
                ConfigDraft& draft) {
   const MapReader map(node, names_of(keys), draft.complaints);
   for (const Key<Section>& key : keys) {
-    const YamlNode* value =
-        key.required.empty() ? map.find(key.name) : map.require(key.name, key.required);
+    const YamlNode* value = key.required_example.empty()
+                                ? map.find(key.name)
+                                : map.require(key.name, key.required_example);
     if (value != nullptr) key.read(*value, section, draft);
   }
   return node.kind == YamlNode::Kind::kMap;
@@ -131,8 +132,8 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
   std::vector<std::string> entries;
   for (const Key<Section>& key : keys) {
     const bool is_whole = context.part == WriteContext::Part::kAll;
-    if (context.part == WriteContext::Part::kFaces && !key.shapes_faces) continue;
-    if (context.part == WriteContext::Part::kPlan && !key.decides_faces) continue;
+    if (context.part == WriteContext::Part::kFaces && !key.affects_face_files) continue;
+    if (context.part == WriteContext::Part::kPlan && !key.affects_recipes) continue;
     const std::string value = key.write(section, context);
     const bool left_out = !is_whole && value == key.write(Section{}, context);
     if (!value.empty() && !left_out) entries.push_back(entry(key.name, value));
@@ -141,7 +142,7 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
 }
 
 /// Shortens a value to one line for docs/config.md: removes a leading "default: ".
-std::string in_one_line(std::string_view value);
+std::string one_line_text(std::string_view value);
 
 /// Returns the rows of a section's keys and of all nested keys.
 template <class Section>
@@ -150,11 +151,12 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
   std::vector<KeyRow> rows;
   const Config defaults;
   for (const Key<Section>& key : keys) {
-    if (!key.takes.empty() || !key.decides_faces) {
-      rows.push_back(
-          {section, std::string(key.name), key.takes,
-           key.required.empty() ? in_one_line(key.write(initial, {defaults, {}})) : "required",
-           key.decides_faces});
+    if (!key.accepted_values.empty() || !key.affects_recipes) {
+      rows.push_back({section, std::string(key.name), key.accepted_values,
+                      key.required_example.empty()
+                          ? one_line_text(key.write(initial, {defaults, {}}))
+                          : "required",
+                      key.affects_recipes});
     }
     if (!key.rows) continue;
     const std::string path =
@@ -167,8 +169,8 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
 
 /// Returns the rows of all documented keys of a config.
 std::vector<KeyRow> config_key_rows();
-/// Returns the paths of the keys marked with Key::after_casting, such as "output".
-std::set<std::string> keys_after_casting();
+/// Returns the paths of the keys marked with Key::ignored_by_recipes, such as "output".
+std::set<std::string> keys_ignored_by_recipes();
 
 /// Writes a list of sections that have the same keys.
 template <class Section>
@@ -219,11 +221,11 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
           },
           required,
           {},
-          codec.takes};
+          codec.accepted_values};
 }
 
-/// Checks a section after it has been read. \param sound  whether reading added no complaint.
-using SectionCheck = void (*)(const YamlNode& node, bool sound, ConfigDraft& draft);
+/// Checks a section after it has been read. \param is_valid  whether reading added no complaint.
+using SectionCheck = void (*)(const YamlNode& node, bool is_valid, ConfigDraft& draft);
 
 /// A key whose value is a mapping with the given keys.
 template <class Section, class Member>
@@ -282,7 +284,7 @@ std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& dr
 bool is_sampled_face(const std::string& id, const Config& config);
 bool is_face(const std::string& id, const Config& config);
 /// Returns the ids of a family's members and of its sampled parents.
-std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd);
+std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const std::string& crowd);
 /// The key `hair_colours` of a section: fractions of the faces by the name of their hair colour.
 template <class Section>
 Key<Section> hair_colours_key(std::map<std::string, double> Section::*shares) {
@@ -304,7 +306,7 @@ Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
       [=](const Section& section, const WriteContext& context) {
         return (section.*weights).empty() ? "" : write_weights(section.*weights, context);
       }}
-      .taking("`{head: weight}`");
+      .with_accepted_values("`{head: weight}`");
 }
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_review(const Config& config, const WriteContext& context);

@@ -20,7 +20,7 @@ YamlNode option_node(const char* option, const std::string& text) {
 }
 
 /// Inserts the reviews stored in the crowd's folder before the reviews that the config names.
-void put_first(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
+void insert_kept_reviews(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
   YamlNode reviews;
   reviews.kind = YamlNode::Kind::kList;
   for (const std::filesystem::path& file : kept) {
@@ -39,7 +39,7 @@ void put_first(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
 }
 
 void apply(const ConfigOverrides& overrides, YamlNode& root, Complaints& complaints) {
-  for (const std::string& assignment : overrides.set) {
+  for (const std::string& assignment : overrides.assignments) {
     set_value(root, assignment, complaints);
   }
   if (overrides.count) {
@@ -49,7 +49,7 @@ void apply(const ConfigOverrides& overrides, YamlNode& root, Complaints& complai
   if (overrides.seed) {
     set_text(root, "crowd.seed", *overrides.seed, concat("--seed ", *overrides.seed), complaints);
   }
-  if (!overrides.kept_reviews.empty()) put_first(overrides.kept_reviews, root);
+  if (!overrides.kept_reviews.empty()) insert_kept_reviews(overrides.kept_reviews, root);
 }
 
 /// Reads `--review` and `--out`. Their paths are relative to the working directory, not to the
@@ -73,7 +73,7 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   draft.config.file = file;
   draft.folder = file.parent_path();
   draft.kept_reviews = overrides.kept_reviews;
-  draft.kept_count = overrides.kept_count;
+  draft.kept_face_count = overrides.kept_face_count;
   draft.kept_min_distance_mm = overrides.kept_min_distance_mm;
   draft.ignored_reviews = overrides.ignored_reviews;
   std::optional<YamlNode> root = parse(complaints);
@@ -113,7 +113,7 @@ ConfigReading read_config_text(std::string_view text, const std::filesystem::pat
 std::optional<Config> read_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems) {
   ConfigReading reading = read_config_parts(file, overrides, problems);
-  if (!reading.complete) return std::nullopt;
+  if (!reading.is_complete) return std::nullopt;
   return std::move(reading.config);
 }
 

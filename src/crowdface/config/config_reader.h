@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// Command-line options that change a config, as the user typed them.
 struct ConfigOverrides {
-  std::vector<std::string> set;          ///< `--set`: "key.path=value"; later ones win
+  std::vector<std::string> assignments;  ///< `--set`: "key.path=value"; later ones win
   std::optional<std::string> count;      ///< `--count`, wins over `--set crowd.count`
   std::optional<std::string> seed;       ///< `--seed`
   std::optional<std::string> out;        ///< `--out`, relative to the working directory
@@ -23,11 +23,11 @@ struct ConfigOverrides {
   /// `--without-reviews`: the reviews stored in the crowd's folder do not apply
   bool without_reviews = false;
   /// the stored reviews apply even if the folder holds another config's crowd
-  bool with_reviews_of_others = false;
+  bool keep_reviews_of_other_configs = false;
   /// Reviews stored in the crowd's folder. They are read first; a later copy is ignored.
   std::vector<std::filesystem::path> kept_reviews = {};
   /// The crowd's number of sampled faces, for kept reviews that do not state it.
-  std::optional<std::uint64_t> kept_count = {};
+  std::optional<std::uint64_t> kept_face_count = {};
   /// The crowd's `diversity.min_distance`, for kept reviews that do not state a distance, if the
   /// config's distance differs.
   std::optional<double> kept_min_distance_mm = {};
@@ -39,7 +39,7 @@ struct ConfigOverrides {
 struct ConfigReading {
   /// if there were problems, only the parts that the flags declare valid may be used
   Config config;
-  bool complete = false;       ///< there was no problem; the whole config is valid
+  bool is_complete = false;    ///< there was no problem; the whole config is valid
   bool heads_known = false;    ///< faces.files and faces.names are valid
   bool regions_known = false;  ///< regions.names and regions.mask are valid
   /// Keys of a complete config that other keys override, a line for each.

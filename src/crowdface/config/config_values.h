@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-inline constexpr double kMaxDistance = 1000;  ///< largest distance between heads, mm
+inline constexpr double kMaxDistanceMm = 1000;  ///< largest distance between heads, mm
 
 /// Looks up the entries of one mapping. The constructor adds a complaint for each unknown key.
 class MapReader {

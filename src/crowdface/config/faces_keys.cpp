@@ -23,16 +23,17 @@ using Faces = Config::Faces;
 /// else in a config.
 void add_head(const fs::path& file, const std::string& name, const YamlNode& node, Faces& faces,
               ConfigDraft& draft) {
-  const std::string shown = quoted(file.string());
+  const std::string quoted_if_invalid = quoted(file.string());
   expect_file(node, file, draft);
   if (!is_name(name)) {
-    draft.complaints.add_at(node, objection_to_head_name(name, file));
+    draft.complaints.add_at(node, invalid_head_name_message(name, file));
   } else if (name == "all" || name == "target") {
-    draft.complaints.add_at(node, concat("a head cannot have the name ", quoted(name),
-                                         ", because the word is reserved; rename ", shown));
+    draft.complaints.add_at(node,
+                            concat("a head cannot have the name ", quoted(name),
+                                   ", because the word is reserved; rename ", quoted_if_invalid));
   } else if (contains(faces.names, name)) {
     draft.complaints.add_at(
-        node, concat("two heads are called ", quoted(name), "; the second is ", shown));
+        node, concat("two heads are called ", quoted(name), "; the second is ", quoted_if_invalid));
   }
   faces.files.push_back(file);
   faces.names.push_back(name);
@@ -59,11 +60,11 @@ void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft)
   if (!folder) return;
   try {
     const std::vector<fs::path> files = list_heads(*folder);
-    const std::string left_out = left_out_of_heads(*folder);
+    const std::string left_out = other_meshes_message(*folder);
     if (!left_out.empty()) log_warning(left_out);
     std::string where = concat(" in ", quoted(node.text));
     if (files.empty())
-      where += concat(" (OBJ, PLY, GLB, glTF, FBX, USD, NumPy)", pattern_below(*folder));
+      where += concat(" (OBJ, PLY, GLB, glTF, FBX, USD, NumPy)", suggested_head_pattern(*folder));
     draft.heads_known = expect_head_count(node, files.size(), where, draft.complaints);
     add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
   } catch (const MissingInput& error) {
@@ -84,7 +85,7 @@ void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
 /// Reads a list of heads. \return whether all entries are files that may be heads.
 bool read_file_list(const YamlNode& node, std::vector<fs::path>& files,
                     std::vector<const YamlNode*>& nodes, ConfigDraft& draft) {
-  bool sound = true;
+  bool is_valid = true;
   for (const YamlNode& item : node.items) {
     const auto file = path("a mesh").read(item, draft);
     if (file && is_head_file(*file)) {
@@ -92,12 +93,12 @@ bool read_file_list(const YamlNode& node, std::vector<fs::path>& files,
       nodes.push_back(&item);
       continue;
     }
-    sound = false;
+    is_valid = false;
     if (file)
       draft.complaints.expected(item,
                                 "a file whose name ends in .obj, .ply, .glb, .gltf, .fbx or .npy");
   }
-  return sound;
+  return is_valid;
 }
 
 void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
@@ -109,22 +110,22 @@ void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
     return;
   std::vector<fs::path> files;
   std::vector<const YamlNode*> nodes;
-  const bool sound = read_file_list(node, files, nodes, draft);
+  const bool is_valid = read_file_list(node, files, nodes, draft);
   add_heads(files, nodes, faces, draft);
   draft.heads_known =
-      sound && expect_head_count(node, node.items.size(), " files", draft.complaints);
+      is_valid && expect_head_count(node, node.items.size(), " files", draft.complaints);
 }
 
 void read_more_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   if (!draft.complaints.expect_list(node, "a list of meshes, [a.obj, b.obj]")) return;
   std::vector<fs::path> files;
   std::vector<const YamlNode*> nodes;
-  const bool sound = read_file_list(node, files, nodes, draft);
+  const bool is_valid = read_file_list(node, files, nodes, draft);
   // Each head is named after its own file, so it keeps its name when another head joins.
   for (std::size_t h = 0; h < files.size(); ++h) {
     add_head(files[h], files[h].stem().string(), *nodes[h], faces, draft);
   }
-  draft.heads_known = draft.heads_known && sound &&
+  draft.heads_known = draft.heads_known && is_valid &&
                       expect_head_count(node, faces.files.size(), " with these", draft.complaints);
 }
 
@@ -154,12 +155,12 @@ Codec<Axis> axis() {
 }
 
 /// Returns a name for a comment. Quotes an invalid head name, because it may contain a line end.
-std::string shown(const std::string& name) {
+std::string quoted_if_invalid(const std::string& name) {
   return is_name(name) ? name : quoted(name);
 }
 
 std::string name_some(std::vector<std::string> names) {
-  std::transform(names.begin(), names.end(), names.begin(), shown);
+  std::transform(names.begin(), names.end(), names.begin(), quoted_if_invalid);
   if (names.empty()) return "none yet";
   if (names.size() < 3) return join(names, " and ");
   return concat(names.front(), ", ", names[1], ", … ", names.back());
@@ -184,23 +185,24 @@ StarterLines starter_tags(const StarterFacts& facts) {
 const Keys<Faces>& faces_keys() {
   static const Keys<Faces> keys = {
       Key<Faces>{"directory", read_head_directory, [](const auto&...) { return ""; }}
-          .taking("folder")
-          .in_starter([](const StarterFacts& facts) {
+          .with_accepted_values("folder")
+          .with_starter([](const StarterFacts& facts) {
             return StarterLines{write_scalar(facts.heads.string())};
           }),
-      Key<Faces>{"files", read_files, write_files}.taking("list of meshes, or a pattern"),
-      Key<Faces>{"also", read_more_files, [](const auto&...) { return ""; }}.taking(
+      Key<Faces>{"files", read_files, write_files}.with_accepted_values(
+          "list of meshes, or a pattern"),
+      Key<Faces>{"also", read_more_files, [](const auto&...) { return ""; }}.with_accepted_values(
           "list of meshes"),
       key("units", &Faces::units, length_unit(),
           "write the unit of the files: mm, cm, m, in, or a length")
-          .in_starter(starter_units),
-      key("up", &Faces::up, axis()).in_starter([](const StarterFacts& facts) {
+          .with_starter(starter_units),
+      key("up", &Faces::up, axis()).with_starter([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.up), "the axis that points to the top of the head"};
       }),
-      key("front", &Faces::front, axis()).in_starter([](const StarterFacts& facts) {
+      key("front", &Faces::front, axis()).with_starter([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.front), "the axis along which the faces look"};
       }),
-      word_key("align", &Faces::align).in_starter([](const StarterFacts& facts) {
+      word_key("align", &Faces::align).with_starter([](const StarterFacts& facts) {
         if (!facts.align_rigidly)
           return StarterLines{
               std::string(word_of(Align::kCheck)),
@@ -209,7 +211,7 @@ const Keys<Faces>& faces_keys() {
             std::string(word_of(Align::kRigid)),
             "some heads are in another pose; each is turned and moved onto the first"};
       }),
-      Key<Faces>{"tags", read_head_tags, write_tags, {}, starter_tags}.taking(
+      Key<Faces>{"tags", read_head_tags, write_tags, {}, starter_tags}.with_accepted_values(
           "`{head: [tag, …]}`")};
   return keys;
 }
@@ -263,8 +265,8 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
     config.sampling.targets.push_back({static_cast<Eigen::Index>(h), 1});
     config.sampling.sources.push_back(static_cast<Eigen::Index>(h));
   }
-  config.sampling.old_heads = heads_with({"old"}, faces);
-  config.sampling.young_heads = heads_with({"young"}, faces);
+  config.sampling.old_heads = heads_with_tags({"old"}, faces);
+  config.sampling.young_heads = heads_with_tags({"young"}, faces);
 }
 
 std::optional<StarterLines> faces_starter(const StarterFacts& facts) {
@@ -282,7 +284,7 @@ std::string write_faces(const Config& config, const WriteContext& context) {
 Key<Config> faces_key() {
   return Key<Config>{"faces", read_faces, write_faces,
                      "such as \"faces: {directory: heads, units: cm}\"", faces_starter}
-      .holding(faces_keys());
+      .with_nested_keys(faces_keys());
 }
 
 }  // namespace crowdface

@@ -15,9 +15,9 @@ constexpr std::uint64_t kMaxMembers = 1000;
 
 /// Returns whether an earlier family has a member or a sampled parent with this id. The id may lack
 /// the prefix "CROWD_".
-bool is_of_a_family(const std::string& id, const Config& config) {
+bool is_face_of_family(const std::string& id, const Config& config) {
   return std::ranges::any_of(config.families, [&](const FamilyOptions& family) {
-    const std::vector<std::string> ids = ids_of(family, config.crowd.name);
+    const std::vector<std::string> ids = face_ids_of_family(family, config.crowd.name);
     return contains(ids, id) || contains(ids, concat(config.crowd.name, '_', id));
   });
 }
@@ -52,7 +52,7 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   if (!name) return std::nullopt;
   if (*name == "drawn") {
     // Build mothers on heads with the tag `female`, fathers on heads with `male`, if there are any.
-    drawn.targets = heads_with({role == word_of(0) ? "female" : "male"}, draft.config.faces);
+    drawn.targets = heads_with_tags({role == word_of(0) ? "female" : "male"}, draft.config.faces);
     return drawn;
   }
   const auto& heads = draft.config.faces.names;
@@ -60,7 +60,7 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   if (head != heads.end()) return Parent{head - heads.begin(), *name};
   const auto& recipes = draft.config.recipes;
   const bool known = std::ranges::find(recipes, *name, &ManualRecipe::id) != recipes.end() ||
-                     is_of_a_family(*name, draft.config);
+                     is_face_of_family(*name, draft.config);
   if (!known && draft.heads_known) {
     draft.complaints.add_at(node, concat("expected drawn, a head, a recipe's id or a member of ",
                                          "an earlier family (smith_01), found ", quoted(*name)));
@@ -106,7 +106,8 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     const YamlNode* from = map.find(name);
     if (from == nullptr) continue;
     const int parent = word<int>().read(*from, draft).value_or(-1);
-    for (const std::size_t part : find_parts(name, draft.config)) family.inherit[part] = parent;
+    for (const std::size_t part : find_parts(name, draft.config))
+      family.inherited_parents[part] = parent;
   }
 }
 
@@ -115,7 +116,8 @@ std::string write_inherit(const FamilyOptions& family, const WriteContext& conte
   const std::vector<std::string> names = context.config.part_names();
   std::vector<std::string> entries;
   for (std::size_t part = 0; part < names.size(); ++part) {
-    entries.push_back(entry(write_scalar(names[part]), std::string(word_of(family.inherit[part]))));
+    entries.push_back(
+        entry(write_scalar(names[part]), std::string(word_of(family.inherited_parents[part]))));
   }
   return flow_map(entries);
 }
@@ -134,7 +136,7 @@ void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& 
 
 void refuse_taken_ids(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
   const auto& recipes = draft.config.recipes;
-  for (const std::string& id : ids_of(family, draft.config.crowd.name)) {
+  for (const std::string& id : face_ids_of_family(family, draft.config.crowd.name)) {
     if (std::ranges::find(recipes, id, &ManualRecipe::id) == recipes.end()) continue;
     draft.complaints.add_at(
         node, concat("the recipe ", quoted(id),
@@ -149,11 +151,12 @@ const Keys<FamilyOptions>& family_keys() {
       key("members", &Family::members, whole(1, kMaxMembers), "write the number of faces"),
       key("group", &Family::group, group()),
       key("target", &Family::target, head()),
-      Key<Family>{"parents", read_parents, write_parents}.taking("`{mother: …, father: …}`"),
-      Key<Family>{"inherit", read_inherit, write_inherit}.taking(
+      Key<Family>{"parents", read_parents, write_parents}.with_accepted_values(
+          "`{mother: …, father: …}`"),
+      Key<Family>{"inherit", read_inherit, write_inherit}.with_accepted_values(
           "`{region or band: mother, father or drawn}`"),
-      key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistance)),
-      key("min_distance", &Family::min_distance_mm, length(kMaxDistance)),
+      key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistanceMm)),
+      key("min_distance", &Family::min_distance_mm, length(kMaxDistanceMm)),
       word_key("twins", &Family::twins).written_if([](const Family& family, const auto&) {
         return family.twins;
       }),
@@ -166,7 +169,7 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node, "a list of families, [{name: smith, members: 6, …}]");
   for (const YamlNode& item : node.items) {
     FamilyOptions family;
-    family.inherit.assign(config.part_names().size(), -1);
+    family.inherited_parents.assign(config.part_names().size(), -1);
     if (!read_keys(item, family_keys(), family, draft)) continue;
     if (!family.name.empty()) check_name(item.find("name")->value, family, draft);
     constexpr double kTwinsMm = 0.1, kChildren = 0.4;
@@ -190,7 +193,7 @@ std::string write_families(const Config& config, const WriteContext& context) {
 
 }  // namespace
 
-std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& crowd) {
+std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const std::string& crowd) {
   std::vector<std::string> ids;
   for (int m = 1; m <= family.members; ++m) ids.push_back(member_id(crowd, family.name, m));
   for (const Parent& parent : family.parents) {
@@ -200,7 +203,7 @@ std::vector<std::string> ids_of(const FamilyOptions& family, const std::string& 
 }
 
 Key<Config> families_key() {
-  return Key<Config>{"families", read_families, write_families}.holding(family_keys());
+  return Key<Config>{"families", read_families, write_families}.with_nested_keys(family_keys());
 }
 
 }  // namespace crowdface

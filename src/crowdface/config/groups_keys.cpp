@@ -13,10 +13,10 @@ namespace {
 constexpr double kRounding = 1e-9;
 
 /// Marks a group that gives neither share nor count; such groups divide the remainder equally.
-constexpr double kOpenShare = -1;
+constexpr double kUnsetShare = -1;
 
-/// Removes the old and the young heads for which `wanted` is false; keeps all old (or young) heads if
-/// none would remain.
+/// Removes the old and the young heads for which `wanted` is false; keeps all old (or young) heads
+/// if none would remain.
 template <class Wanted>
 void bind_ages(SamplingOptions& sampling, const Wanted& wanted) {
   for (auto* heads : {&sampling.old_heads, &sampling.young_heads}) {
@@ -31,13 +31,13 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
   if (!tags || tags->empty()) return;
   group.sampling.targets.clear();
-  group.sampling.sources = heads_with(*tags, draft.config.faces);
+  group.sampling.sources = heads_with_tags(*tags, draft.config.faces);
   for (const Eigen::Index head : group.sampling.sources)
     group.sampling.targets.push_back({head, 1});
   if (group.sampling.targets.empty() && draft.heads_known && draft.tags_known) {
     draft.complaints.add_at(node, "no head has all of these tags");
   }
-  const auto of_any_age = heads_with(without_ages(*tags), draft.config.faces);
+  const auto of_any_age = heads_with_tags(remove_age_tags(*tags), draft.config.faces);
   bind_ages(group.sampling, [&](Eigen::Index head) { return contains(of_any_age, head); });
 }
 
@@ -48,12 +48,12 @@ void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
   if (tags == nullptr || targets == nullptr || !draft.heads_known || !draft.tags_known) return;
   const std::vector<std::string> wanted =
       texts_of(tags->value.items, [](const YamlNode& item) { return item.text; });
-  const std::vector<Eigen::Index> bound = heads_with(wanted, draft.config.faces);
+  const std::vector<Eigen::Index> bound = heads_with_tags(wanted, draft.config.faces);
   const auto& heads = draft.config.faces.names;
   const auto check = [&](const std::string& name, const YamlPlace& place) {
     const auto head = std::ranges::find(heads, name);
     if (head != heads.end() && contains(bound, head - heads.begin())) return;
-    const std::vector<Eigen::Index> called = heads_with({name}, draft.config.faces);
+    const std::vector<Eigen::Index> called = heads_with_tags({name}, draft.config.faces);
     const auto is_bound = [&](Eigen::Index one) { return contains(bound, one); };
     const bool is_known = head != heads.end() || !called.empty();  // others are refused already
     if (!is_known || std::ranges::any_of(called, is_bound)) return;
@@ -80,13 +80,13 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const bool known = draft.heads_known && draft.tags_known;
   SamplingOptions& sampling = group.sampling;
   const bool had_some = !sampling.targets.empty() && !sampling.sources.empty();
-  for (const std::string& tag : without_ages(*tags)) {
-    const auto tagged = heads_with({tag}, draft.config.faces);
+  for (const std::string& tag : remove_age_tags(*tags)) {
+    const auto tagged = heads_with_tags({tag}, draft.config.faces);
     bind_ages(sampling, [&](Eigen::Index head) { return !contains(tagged, head); });
   }
   std::vector<std::string> emptied;  // names of bands without a remaining head
   for (const std::string& tag : *tags) {
-    const std::vector<Eigen::Index> tagged = heads_with({tag}, draft.config.faces);
+    const std::vector<Eigen::Index> tagged = heads_with_tags({tag}, draft.config.faces);
     if (known && tagged.empty()) {
       draft.complaints.add_at(node, concat("no head has the tag ", quoted(tag)));
     }
@@ -114,13 +114,13 @@ const Keys<Group>& group_keys() {
   static const Keys<Group> keys = [] {
     constexpr std::uint64_t kMaxFaces = 1'000'000;
     const auto has_share = [](const Group& group, const auto&) {
-      return !group.count && group.share != kOpenShare;
+      return !group.count && group.share != kUnsetShare;
     };
     Keys<Group> own = {
         key("name", &Group::name, name(), "such as elderly"),
         key("share", &Group::share, number(0, 1)).written_if(has_share),
         key("count", &Group::count, whole(0, kMaxFaces)),
-        Key<Group>{"tags", read_group_tags, [](const auto&...) { return ""; }}.taking(
+        Key<Group>{"tags", read_group_tags, [](const auto&...) { return ""; }}.with_accepted_values(
             "list of tags")};
     for (const Key<SamplingOptions>& sampled : sampling_keys()) {
       own.push_back({sampled.name,
@@ -142,11 +142,12 @@ const Keys<Group>& group_keys() {
         },
         [=](const Group& group, const WriteContext& context) {
           return limits.write(group.sampling.traits, context);
-        }}.taking(limits.takes));
+        }}.with_accepted_values(limits.accepted_values));
     own.push_back(hair_colours_key(&Group::hair_colours));
     // `without` must follow all keys that name heads.
-    own.push_back(Key<Group>{"without", read_without, [](const auto&...) { return ""; }}.taking(
-        "list of tags"));
+    own.push_back(
+        Key<Group>{"without", read_without, [](const auto&...) { return ""; }}.with_accepted_values(
+            "list of tags"));
     return own;
   }();
   return keys;
@@ -171,7 +172,7 @@ void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   for (const Group& group : groups) {
     counted += group.count.value_or(0);
     if (group.count) continue;
-    (group.share == kOpenShare ? open : shared) += group.share == kOpenShare ? 1 : group.share;
+    (group.share == kUnsetShare ? open : shared) += group.share == kUnsetShare ? 1 : group.share;
   }
   if (shared > 1 + kRounding) {
     draft.complaints.add_at(node, concat("the shares sum to ", shared, ", more than 1"));
@@ -181,7 +182,7 @@ void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
                                          draft.config.crowd.count));
   }
   for (Group& group : groups) {
-    if (group.share == kOpenShare) group.share = std::max(0.0, 1 - shared) / std::max(open, 1.0);
+    if (group.share == kUnsetShare) group.share = std::max(0.0, 1 - shared) / std::max(open, 1.0);
   }
 }
 
@@ -190,7 +191,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
                                "a list of groups, [{name: elderly, share: 0.3, tags: [old]}]");
   for (const YamlNode& item : node.items) {
     Group group;
-    group.share = kOpenShare;
+    group.share = kUnsetShare;
     group.sampling = config.sampling;
     if (!read_keys(item, group_keys(), group, draft)) continue;
     bind_targets(item, group, draft);
@@ -228,9 +229,9 @@ std::size_t heads_of_smaller_group(const StarterFacts& facts) {
 
 Key<Config> groups_key() {
   Group open;
-  open.share = kOpenShare;
-  return Key<Config>{"groups", read_groups, write_groups, {}, groups_starter}.holding(group_keys(),
-                                                                                      open);
+  open.share = kUnsetShare;
+  return Key<Config>{"groups", read_groups, write_groups, {}, groups_starter}.with_nested_keys(
+      group_keys(), open);
 }
 
 }  // namespace crowdface

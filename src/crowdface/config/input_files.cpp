@@ -53,7 +53,7 @@ bool may_hold_mesh(const fs::path& path) {
 
 /// Returns whether a name matches a pattern with the wildcards `*` and `?`. If the characters after
 /// an asterisk do not match, only the last asterisk takes one more character.
-bool is_like(std::string_view pattern, std::string_view name) {
+bool matches_wildcards(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, after_asterisk = pattern.npos, taken = 0;
   while (n < name.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
@@ -100,7 +100,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
   return files;
 }
 
-std::string left_out_of_heads(const fs::path& folder) {
+std::string other_meshes_message(const fs::path& folder) {
   const std::vector<fs::path> heads = list_heads(folder);
   std::vector<std::string> others;
   for (const fs::path& file : visible_files(folder, may_hold_mesh)) {
@@ -136,7 +136,7 @@ std::vector<fs::path> files_matching(const fs::path& pattern) {
       if (!is_folder(folder.empty() ? "." : folder)) continue;
       for (const fs::path& entry : list_folder(folder.empty() ? "." : folder)) {
         const std::string name = entry.filename().string();
-        if (!name.starts_with('.') && is_like(text, name)) next.push_back(folder / name);
+        if (!name.starts_with('.') && matches_wildcards(text, name)) next.push_back(folder / name);
       }
     }
     found = std::move(next);
@@ -203,7 +203,7 @@ std::vector<fs::path> input_files(const Config& config) {
   return files;
 }
 
-void refuse_path_no_config_can_hold(const fs::path& path) {
+void require_storable_path(const fs::path& path) {
   if (is_utf8(path.native()) && !has_control_character(path.native())) return;
   throw UsageError(concat(
       quoted(path.native()),
@@ -216,14 +216,14 @@ void check_paths(const Config& config, Problems& problems) {
   for (const fs::path& path : paths) {
     std::error_code ignored;
     try {
-      refuse_path_no_config_can_hold(fs::absolute(path, ignored));
+      require_storable_path(fs::absolute(path, ignored));
     } catch (const UsageError& error) {
       problems.add(error);
     }
   }
 }
 
-std::string pattern_below(const fs::path& folder) {
+std::string suggested_head_pattern(const fs::path& folder) {
   for (const fs::path& below : list_folder(folder)) {
     if (!is_folder(below)) continue;
     std::vector<fs::path> inner = {below};
@@ -244,7 +244,7 @@ std::string pattern_below(const fs::path& folder) {
   return {};
 }
 
-std::string objection_to_head_name(const std::string& name, const fs::path& file) {
+std::string invalid_head_name_message(const std::string& name, const fs::path& file) {
   return concat("the head's name, ", quoted(name),
                 ", comes from its file name; expected at most 64 letters (a-z), digits, '_', '-' "
                 "and '.'; rename ",

@@ -23,14 +23,14 @@ std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folde
 
 /// Returns a message that names the files in the folder that may contain a mesh but are not in
 /// list_heads; empty if there are none. \throws MissingInput if the folder cannot be read.
-std::string left_out_of_heads(const std::filesystem::path& folder);
+std::string other_meshes_message(const std::filesystem::path& folder);
 
 /// A hint for a folder without heads whose subfolders contain one mesh each: a pattern for these
 /// meshes, up to two folders deep. Empty if no pattern fits.
-std::string pattern_below(const std::filesystem::path& folder);
+std::string suggested_head_pattern(const std::filesystem::path& folder);
 
 /// The message for a head whose file gives it a name that is_name refuses.
-std::string objection_to_head_name(const std::string& name, const std::filesystem::path& file);
+std::string invalid_head_name_message(const std::string& name, const std::filesystem::path& file);
 
 /// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path: `*`
 /// matches any number of characters except '/', `?` matches one. Wildcards do not match hidden
@@ -49,9 +49,9 @@ std::vector<std::filesystem::path> input_files(const Config& config);
 
 /// \throws UsageError if a path is not UTF-8 or contains a control character, because a config
 /// cannot store such a path.
-void refuse_path_no_config_can_hold(const std::filesystem::path& path);
+void require_storable_path(const std::filesystem::path& path);
 
-/// Adds a problem for each path that a config cannot store (see refuse_path_no_config_can_hold),
+/// Adds a problem for each path that a config cannot store (see require_storable_path),
 /// among the absolute paths of the input files and the crowd's folder. The crowd's config.yaml
 /// stores these paths.
 void check_paths(const Config& config, Problems& problems);

@@ -28,7 +28,7 @@ std::string write_like(const Neck& neck, const WriteContext& context) {
 const Keys<Neck>& neck_keys() {
   static const Keys<Neck> keys = {
       key("body", &Neck::body, existing_file("a mesh file")),
-      Key<Neck>{"like", read_like, write_like}.taking("head, or `mean`"),
+      Key<Neck>{"like", read_like, write_like}.with_accepted_values("head, or `mean`"),
       key("rim", &Neck::rim, existing_file("a text file of vertex numbers")),
       key("body_rim", &Neck::body_rim, existing_file("a text file of vertex numbers")),
       key("falloff", &Neck::falloff_mm, positive_length(kMaxFalloffMm)),
@@ -69,7 +69,7 @@ std::string write_neck(const Config& config, const WriteContext& context) {
 }  // namespace
 
 Key<Config> neck_key() {
-  return Key<Config>{"neck", read_neck, write_neck}.holding(neck_keys());
+  return Key<Config>{"neck", read_neck, write_neck}.with_nested_keys(neck_keys());
 }
 
 }  // namespace crowdface

@@ -135,17 +135,17 @@ bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft)
 
 const Keys<Sheet>& contact_sheet_keys() {
   static const Keys<Sheet> keys = {
-      key("columns", &Sheet::columns, whole(1, 32)).apart_from_faces(),
-      key("rows", &Sheet::rows, whole(1, 64)).apart_from_faces(),
+      key("columns", &Sheet::columns, whole(1, 32)).ignored_by_face_files(),
+      key("rows", &Sheet::rows, whole(1, 64)).ignored_by_face_files(),
       key("cell", &Sheet::cell, whole(32, 2048)),
       key("views", &Sheet::views,
           words<View>("a list of views, [front, three_quarter, profile, back]")),
       key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]"))
-          .apart_from_faces(),
-      word_key("order", &Sheet::order).apart_from_faces(),
+          .ignored_by_face_files(),
+      word_key("order", &Sheet::order).ignored_by_face_files(),
       Key<Sheet>{"compare", read_comparison, write_comparison}
-          .taking(concat(shown_words<With>(), ", or a file or crowd folder"))
-          .apart_from_faces(),
+          .with_accepted_values(concat(quoted_words<With>(), ", or a file or crowd folder"))
+          .ignored_by_face_files(),
       Key<Sheet>{"compare_scale",
                  [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
                    const auto scale = positive_length(kLongestScaleMm).read(node, draft);
@@ -154,11 +154,11 @@ const Keys<Sheet>& contact_sheet_keys() {
                  [](const Sheet& sheet, const WriteContext& context) {
                    return length(kLongestScaleMm).write(sheet.compare.scale_mm, context);
                  }}
-          .taking(positive_length(kLongestScaleMm).takes)
-          .apart_from_faces(),
+          .with_accepted_values(positive_length(kLongestScaleMm).accepted_values)
+          .ignored_by_face_files(),
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
-          .apart_from_faces(),
-      key("shapes", &Sheet::shapes, restricted(whole(0, 64), can_be_shown)).apart_from_faces(),
+          .ignored_by_face_files(),
+      key("shapes", &Sheet::shapes, restricted(whole(0, 64), can_be_shown)).ignored_by_face_files(),
       word_key("texture", &Sheet::texture)};
   return keys;
 }
@@ -215,22 +215,23 @@ std::vector<std::string> other_formats() {
 const Keys<Output>& output_keys() {
   static const Keys<Output> keys = {
       key("directory", &Output::directory, path("a folder"))
-          .in_starter([](const StarterFacts& facts) {
+          .with_starter([](const StarterFacts& facts) {
             return StarterLines{write_scalar(concat("out/", facts.crowd_name))};
           })
-          .apart_from_faces(),
+          .ignored_by_face_files(),
       key("meshes", &Output::meshes,
           words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
-          .in_starter({"[obj]", concat("and ", join(other_formats()), "; [] for pictures only")}),
-      Key<Output>{"lods", read_lods, write_lods}.taking("decreasing list of up to 8 percentages"),
+          .with_starter({"[obj]", concat("and ", join(other_formats()), "; [] for pictures only")}),
+      Key<Output>{"lods", read_lods, write_lods}.with_accepted_values(
+          "decreasing list of up to 8 percentages"),
       word_key("subdivision", &Output::subdivision),
       word_key("gallery", &Output::gallery),
       key("faces_per_folder", &Output::faces_per_folder, whole(0, kMaxFacesPerFolder)),
-      Key<Output>{"surfaces", read_surfaces, write_surfaces}.taking(
-          concat("`{material: surface}`, a surface is one of ", shown_words<SurfaceKind>(),
+      Key<Output>{"surfaces", read_surfaces, write_surfaces}.with_accepted_values(
+          concat("`{material: surface}`, a surface is one of ", quoted_words<SurfaceKind>(),
                  " or a colour `\"#rrggbb\"`")),
       Key<Output>{"contact_sheet", read_contact_sheet, write_contact_sheet, {}, starter_sheet}
-          .holding(contact_sheet_keys())};
+          .with_nested_keys(contact_sheet_keys())};
   return keys;
 }
 

@@ -90,8 +90,10 @@ class OverriddenKeys {
 
   void find_in_group(const YamlNode& node, std::size_t g) {
     const Group& group = config_.groups[g];
-    if (const auto tags = words_at(node, "tags"); !tags.empty()) find_beside_tags(node, g, tags);
-    if (const auto tags = words_at(node, "without"); !tags.empty()) find_left_out(node, g, tags);
+    if (const auto tags = words_at(node, "tags"); !tags.empty())
+      find_heads_without_group_tags(node, g, tags);
+    if (const auto tags = words_at(node, "without"); !tags.empty())
+      find_excluded_heads(node, g, tags);
     const YamlNode *count = value_at(node, "count"), *share = value_at(node, "share");
     const bool wants_none =
         (count != nullptr && group.count == 0U) || (share != nullptr && group.share == 0);
@@ -101,13 +103,14 @@ class OverriddenKeys {
     }
   }
 
-  /// Finds what a group with tags takes from heads that lack these tags, and the keys that the
+  /// Finds the heads without a group's tags that lend detail to the group, and the keys that the
   /// group's tags replace.
-  void find_beside_tags(const YamlNode& node, std::size_t g, const std::vector<std::string>& tags) {
+  void find_heads_without_group_tags(const YamlNode& node, std::size_t g,
+                                     const std::vector<std::string>& tags) {
     const SamplingOptions &own = config_.groups[g].sampling, &all = config_.sampling;
     const auto take = [&](const std::string& key, const Heads& heads, const char* what,
                           const std::vector<std::string>& wanted) {
-      const Heads tagged = heads_with(wanted, config_.faces);
+      const Heads tagged = heads_with_tags(wanted, config_.faces);
       const auto others =
           std::ranges::count_if(heads, [&](auto head) { return !contains(tagged, head); });
       if (others == 0) return;
@@ -122,9 +125,9 @@ class OverriddenKeys {
         take(concat(node.path, ".bands.", band.name), *band.sources, "sources", tags);
     }
     if (own.age.high > 0)
-      take(node.path + ".age", own.old_heads, "heads tagged old", without_ages(tags));
+      take(node.path + ".age", own.old_heads, "heads tagged old", remove_age_tags(tags));
     if (own.age.low < 0)
-      take(node.path + ".age", own.young_heads, "heads tagged young", without_ages(tags));
+      take(node.path + ".age", own.young_heads, "heads tagged young", remove_age_tags(tags));
     const auto replaced = [&](const char* key) {
       tell("sampling.", key, ": does not apply to the group ", config_.groups[g].name,
            ", whose tags select its heads (", counted_faces(faces_of_[g]), ")");
@@ -137,7 +140,8 @@ class OverriddenKeys {
   }
 
   /// Finds heads that a group names although its key `without` leaves them out.
-  void find_left_out(const YamlNode& node, std::size_t g, const std::vector<std::string>& tags) {
+  void find_excluded_heads(const YamlNode& node, std::size_t g,
+                           const std::vector<std::string>& tags) {
     const Heads left_out = with_any(tags);
     for (const char* key : {"targets", "sources"}) {
       std::vector<std::string> named;
@@ -208,12 +212,12 @@ class OverriddenKeys {
            counted_faces(config_.crowd.count), " keep the colours of the attachments' textures");
     }
     for (const Config::Attachment& item : attachments.items) {
-      Heads wearers = heads_with(item.tags, config_.faces);
-      const Heads refused = with_any(item.without);
+      Heads wearers = heads_with_tags(item.tags, config_.faces);
+      const Heads refused = with_any(item.excluded_tags);
       std::erase_if(wearers, [&](Eigen::Index head) { return contains(refused, head); });
       if (wearers.empty()) {
         tell("attachments.items: ", item.name, ": each head that has its tags also has a tag of ",
-             "without, ", join(item.without), "; no face wears it");
+             "without, ", join(item.excluded_tags), "; no face wears it");
       }
     }
   }

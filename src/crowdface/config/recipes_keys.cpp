@@ -34,7 +34,7 @@ const Keys<HandBand>& recipe_band_keys() {
                     [](const HandBand& band, const WriteContext& context) {
                       return band.weights.empty() ? "" : write_weights(band.weights, context);
                     }}
-          .taking("`{head: weight}`"),
+          .with_accepted_values("`{head: weight}`"),
       // Both keys are stored in one member; its unit selects the key to write.
       key("smoothness", &HandBand::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
       key("iterations", &HandBand::smoothness, iterations()).written_if(in_iterations),
@@ -81,9 +81,10 @@ const Keys<HandRegion>& region_keys() {
   static const Keys<HandRegion> keys = [] {
     Keys<HandRegion> own;
     for (const Key<HandBand>& key : recipe_band_keys())
-      own.push_back({key.name, key.read, key.write, {}, {}, key.takes});
-    own.push_back(Key<HandRegion>{"bands", read_recipe_bands, write_recipe_bands}.taking(
-        "`{band: {…}}`, the same keys"));
+      own.push_back({key.name, key.read, key.write, {}, {}, key.accepted_values});
+    own.push_back(
+        Key<HandRegion>{"bands", read_recipe_bands, write_recipe_bands}.with_accepted_values(
+            "`{band: {…}}`, the same keys"));
     return own;
   }();
   return keys;
@@ -157,8 +158,8 @@ const Keys<ManualRecipe>& recipe_keys() {
       key("traits", &ManualRecipe::traits, trait_limits()),
       colours_key(&ManualRecipe::colours),
       Key<ManualRecipe>{"regions", read_regions_of, write_regions_of}
-          .taking("`{region: {…}}`")
-          .holding(region_keys())};
+          .with_accepted_values("`{region: {…}}`")
+          .with_nested_keys(region_keys())};
   return keys;
 }
 
@@ -193,15 +194,15 @@ void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
     return;
   }
   double sum = 0;
-  bool sound = true;
+  bool is_valid = true;
   for (const YamlEntry& entry : node.entries) {
     const auto head = find_head(entry.key, entry.key_place, node.path, draft);
     const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
     sum += weight.value_or(0);
-    sound = sound && weight;
+    is_valid = is_valid && weight;
     if (head && weight) weights.push_back({*head, *weight});
   }
-  if (sound && sum <= 0) {
+  if (is_valid && sum <= 0) {
     draft.complaints.add_at(node, "the weights sum to zero; at least one must be above 0");
   }
   std::ranges::sort(weights, {}, &WeightedHead::head);
@@ -215,7 +216,7 @@ void read_colours(const YamlNode& node, std::vector<WeightedHead>& weights, Conf
 }
 
 Key<Config> recipes_key() {
-  return Key<Config>{"recipes", read_recipes, write_recipes}.holding(recipe_keys());
+  return Key<Config>{"recipes", read_recipes, write_recipes}.with_nested_keys(recipe_keys());
 }
 
 std::optional<ManualRecipe> parse_manual_recipe(std::string_view text, const std::string& source,

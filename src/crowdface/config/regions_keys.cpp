@@ -77,9 +77,9 @@ const Keys<Regions>& regions_keys() {
       Key<Regions>{"names", read_region_names,
                    [](const Regions& regions, const auto&) { return flow_names(regions.names); },
                    "such as [top, middle, bottom]"}
-          .taking(concat("list of 1 to ", kMaxRegions, " names")),
+          .with_accepted_values(concat("list of 1 to ", kMaxRegions, " names")),
       Key<Regions>{"mask", read_masks, write_masks, "the image whose channels are the regions"}
-          .taking("image file, or list of image files")};
+          .with_accepted_values("image file, or list of image files")};
   return keys;
 }
 
@@ -114,7 +114,7 @@ std::string write_regions(const Config& config, const WriteContext& context) {
 }  // namespace
 
 Key<Config> regions_key() {
-  return Key<Config>{"regions", read_regions, write_regions, {}, regions_starter}.holding(
+  return Key<Config>{"regions", read_regions, write_regions, {}, regions_starter}.with_nested_keys(
       regions_keys());
 }
 

@@ -22,7 +22,7 @@ std::vector<std::string> named_ids(const Config& config) {
   std::vector<std::string> ids;
   for (const ManualRecipe& recipe : config.recipes) ids.push_back(recipe.id);
   for (const FamilyOptions& family : config.families) {
-    const std::vector<std::string> own = ids_of(family, config.crowd.name);
+    const std::vector<std::string> own = face_ids_of_family(family, config.crowd.name);
     ids.insert(ids.end(), own.begin(), own.end());
   }
   return ids;
@@ -77,10 +77,10 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
     review.count = read_whole(*count, 0, kMostFaces, draft.complaints);
   }
   if (const YamlNode* after = map.find("after")) {
-    review.after = read_whole(*after, 0, kMostFaces, draft.complaints);
+    review.seen_reviews = read_whole(*after, 0, kMostFaces, draft.complaints);
   }
   if (const YamlNode* distance = map.find("min_distance")) {
-    review.min_distance_mm = length(kMaxDistance).read(*distance, draft);
+    review.min_distance_mm = length(kMaxDistanceMm).read(*distance, draft);
   }
   if (const YamlNode* changes = map.find("changes")) review.changes = read_changes(*changes, draft);
   const YamlNode* faces = map.find("changes") != nullptr
@@ -119,7 +119,7 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
 
 /// Adds a key to a review's text: as a new line, or, if the review is written in braces, as the
 /// first key in them.
-std::string with_key(std::string text, const std::string& key) {
+std::string insert_key(std::string text, const std::string& key) {
   std::size_t first = 0;
   while (first < text.size() &&
          (text[first] == '#' || is_blank(text[first]) || text[first] == '\n')) {
@@ -132,20 +132,21 @@ std::string with_key(std::string text, const std::string& key) {
   return text + concat(key, '\n');
 }
 
-/// Returns a review's text with the keys `count` and `min_distance` of `kept` that it does not state.
-std::string completed(std::string text, const Review& review, const Review& kept) {
+/// Returns a review's text with the keys `count` and `min_distance` of `kept` that it does not
+/// state.
+std::string add_missing_keys(std::string text, const Review& review, const Review& kept) {
   if (!review.count && kept.count) {
-    text = with_key(std::move(text), concat("count: ", *kept.count));
+    text = insert_key(std::move(text), concat("count: ", *kept.count));
   }
   if (!review.min_distance_mm && kept.min_distance_mm) {
-    text = with_key(std::move(text), concat("min_distance: ", *kept.min_distance_mm, " mm"));
+    text = insert_key(std::move(text), concat("min_distance: ", *kept.min_distance_mm, " mm"));
   }
   return text;
 }
 
-/// Adds a review file, unless it is a copy of an earlier review file. A review that does not state
-/// the number of faces that it is about gets this number; a kept review also gets the smallest
-/// distance that its faces have, if the crowd's changes.
+/// Adds a review file, unless it is a copy of an earlier review file. If the review does not state
+/// how many faces were reviewed, adds this number. To a kept review, also adds the minimum distance
+/// of its faces if the crowd's minimum distance changes.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;
@@ -155,18 +156,18 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
   const std::string original = text;
   Config::Reviews& known = config.review;
   for (std::size_t i = 0; i < known.texts.size() && !text.empty(); ++i) {
-    if (known.texts[i] == completed(text, review, known.reviews[i])) return;
+    if (known.texts[i] == add_missing_keys(text, review, known.reviews[i])) return;
   }
   const bool is_kept = contains(draft.kept_reviews, file);
   Review whole = review;
   if (!whole.count) {
-    whole.count = is_kept ? draft.kept_count.value_or(config.crowd.count) : config.crowd.count;
+    whole.count = is_kept ? draft.kept_face_count.value_or(config.crowd.count) : config.crowd.count;
   }
   if (!whole.min_distance_mm && is_kept) whole.min_distance_mm = draft.kept_min_distance_mm;
-  if (!text.empty()) text = completed(std::move(text), review, whole);
+  if (!text.empty()) text = add_missing_keys(std::move(text), review, whole);
   known.files.push_back(file);
   known.texts.push_back(std::move(text));
-  known.originals.push_back(original);
+  known.original_texts.push_back(original);
   known.reviews.push_back(std::move(whole));
 }
 
@@ -253,7 +254,7 @@ std::string format_review(const Review& review, const Config& config) {
   const std::vector<std::string> parts = config.part_names();
   std::vector<std::string> entries = {"schema: 1"};
   if (review.count) entries.push_back(concat("count: ", *review.count));
-  if (review.after) entries.push_back(concat("after: ", *review.after));
+  if (review.seen_reviews) entries.push_back(concat("after: ", *review.seen_reviews));
   if (review.min_distance_mm) {
     entries.push_back(concat("min_distance: ", *review.min_distance_mm, " mm"));
   }

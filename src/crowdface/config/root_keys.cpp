@@ -17,14 +17,14 @@ const Keys<Config::Crowd>& crowd_keys() {
   constexpr std::uint64_t kMaxCount = 1'000'000;
   static const Keys<Crowd> keys = {
       key("name", &Crowd::name, name(), "write the prefix of the faces' ids")
-          .in_starter([](const StarterFacts& facts) {
+          .with_starter([](const StarterFacts& facts) {
             return StarterLines{write_scalar(facts.crowd_name),
                                 concat("ids start with it: ", facts.crowd_name, "_0001, …")};
           }),
       key("count", &Crowd::count, whole(0, kMaxCount), "write the number of faces to sample")
-          .in_starter({"24", "how many faces; a larger crowd starts with the same ones"}),
+          .with_starter({"24", "how many faces; a larger crowd starts with the same ones"}),
       key("seed", &Crowd::seed, whole(0, UINT64_MAX))
-          .in_starter({"1", "another number, another crowd"})};
+          .with_starter({"1", "another number, another crowd"})};
   return keys;
 }
 
@@ -48,8 +48,8 @@ const Keys<Config::Smoothing>& smoothing_keys() {
   return keys;
 }
 
-void check_smoothing(const YamlNode&, bool sound, ConfigDraft& draft) {
-  draft.smoothing_known = sound;
+void check_smoothing(const YamlNode&, bool is_valid, ConfigDraft& draft) {
+  draft.smoothing_known = is_valid;
 }
 
 const Keys<Config::Blending>& blending_keys() {
@@ -65,11 +65,11 @@ const Keys<Config::Textures>& textures_keys() {
     return textures.colours == ColourWeights::kSampled;
   };
   static const Keys<Textures> keys = {
-      word_key("blend", &Textures::blend).after_casting(),
-      key("size", &Textures::size, whole(16, 16384)).after_casting(),
+      word_key("blend", &Textures::blend).ignored_by_recipes(),
+      key("size", &Textures::size, whole(16, 16384)).ignored_by_recipes(),
       key("formats", &Textures::formats,
           words<TextureFormat>("a list of formats, [png, jpeg, exr]"))
-          .after_casting(),
+          .ignored_by_recipes(),
       word_key("colours", &Textures::colours).written_if(are_sampled),
       key("alike", &Textures::alike, list(name(), "a list of tags, [female, male]"))
           .written_if(are_sampled)};
@@ -116,14 +116,14 @@ std::string write_anchors(const Plane& plane, const WriteContext& context) {
 const Keys<Plane>& plane_keys() {
   static const Keys<Plane> keys = {
       word_key("layout", &Plane::layout),
-      Key<Plane>{"anchors", read_anchors, write_anchors}.taking("`{head: [x, y]}`")};
+      Key<Plane>{"anchors", read_anchors, write_anchors}.with_accepted_values("`{head: [x, y]}`")};
   return keys;
 }
 
 /// Refuses `layout: manual` if a head has no anchor.
-void check_plane(const YamlNode& node, bool sound, ConfigDraft& draft) {
+void check_plane(const YamlNode& node, bool is_valid, ConfigDraft& draft) {
   const Config& config = draft.config;
-  if (config.plane.layout != Layout::kManual || !draft.heads_known || !sound) return;
+  if (config.plane.layout != Layout::kManual || !draft.heads_known || !is_valid) return;
   std::vector<std::string> missing;
   for (std::size_t h = 0; h < config.faces.names.size(); ++h) {
     if (!config.plane.anchors.contains(static_cast<Eigen::Index>(h))) {
@@ -180,11 +180,11 @@ Key<Config> file_key(std::string_view name, std::filesystem::path Config::*membe
 }
 
 /// Refuses GLB meshes if textures are EXR only: GLB embeds textures but does not support EXR.
-void check_output(const YamlNode& node, bool sound, ConfigDraft& draft) {
+void check_output(const YamlNode& node, bool is_valid, ConfigDraft& draft) {
   const Config& config = draft.config;
   const bool only_exr = std::ranges::all_of(
       config.textures.formats, [](TextureFormat format) { return format == TextureFormat::kExr; });
-  if (!sound || !contains(config.output.meshes, MeshFormat::kGlb) || !only_exr) return;
+  if (!is_valid || !contains(config.output.meshes, MeshFormat::kGlb) || !only_exr) return;
   const YamlEntry* entry = node.find("meshes");
   draft.complaints.add_at(
       entry != nullptr ? entry->value : node,
@@ -244,51 +244,51 @@ SamplingOptions with_a_region() {
 const Keys<Config>& root_keys() {
   static const Keys<Config> keys = {
       Key<Config>{"schema", read_schema, [](const auto&...) { return "1"; }, "write \"schema: 1\""}
-          .in_starter({"1"}),
+          .with_starter({"1"}),
       section_key("crowd", &Config::crowd, crowd_keys(),
                   "such as \"crowd: {name: market, count: 24}\"")
-          .apart_from_faces(),
-      faces_key().apart_from_faces(),
-      regions_key().apart_from_faces(),
+          .ignored_by_face_files(),
+      faces_key().ignored_by_face_files(),
+      regions_key().ignored_by_face_files(),
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
-      Key<Config>{"parts", read_parts, write_parts}.holding(parts_keys()),
-      shapes_key().apart_from_faces().after_casting(),
+      Key<Config>{"parts", read_parts, write_parts}.with_nested_keys(parts_keys()),
+      shapes_key().ignored_by_face_files().ignored_by_recipes(),
       file_key("points", &Config::points, "none, or a YAML file of points")
-          .apart_from_faces()
-          .after_casting(),
+          .ignored_by_face_files()
+          .ignored_by_recipes(),
       file_key("rig", &Config::rig, "none, or a GLB file with joints")
-          .apart_from_faces()
-          .after_casting(),
-      landmarks_key().apart_from_faces(),
-      neck_key().apart_from_faces().after_casting(),
-      attachments_key().apart_from_faces(),
+          .ignored_by_face_files()
+          .ignored_by_recipes(),
+      landmarks_key().ignored_by_face_files(),
+      neck_key().ignored_by_face_files().ignored_by_recipes(),
+      attachments_key().ignored_by_face_files(),
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
-      section_key("plane", &Config::plane, plane_keys(), {}, check_plane).apart_from_faces(),
+      section_key("plane", &Config::plane, plane_keys(), {}, check_plane).ignored_by_face_files(),
       section_key("sampling", &Config::sampling, sampling_keys())
-          .holding(sampling_keys(), with_a_region())
-          .apart_from_faces(),
-      section_key("distance", &Config::distance, distance_keys()).apart_from_faces(),
-      section_key("diversity", &Config::diversity, diversity_keys()).apart_from_faces(),
-      believability_key().apart_from_faces(),
-      traits_key().apart_from_faces(),
-      trait_table_key("population", &Config::population).apart_from_faces(),
+          .with_nested_keys(sampling_keys(), with_a_region())
+          .ignored_by_face_files(),
+      section_key("distance", &Config::distance, distance_keys()).ignored_by_face_files(),
+      section_key("diversity", &Config::diversity, diversity_keys()).ignored_by_face_files(),
+      believability_key().ignored_by_face_files(),
+      traits_key().ignored_by_face_files(),
+      trait_table_key("population", &Config::population).ignored_by_face_files(),
       trait_table_key("quantiles_of", &Config::quantiles_of)
-          .apart_from_faces()
+          .ignored_by_face_files()
           .written_if(
               [](const Config& config, const auto&) { return !config.quantiles_of.file.empty(); }),
-      groups_key().apart_from_faces(),
-      recipes_key().apart_from_faces(),
-      families_key().apart_from_faces(),
-      changes_key().apart_from_faces().after_casting(),
-      Key<Config>{"review", read_review, write_review}.apart_from_faces().after_casting(),
+      groups_key().ignored_by_face_files(),
+      recipes_key().ignored_by_face_files(),
+      families_key().ignored_by_face_files(),
+      changes_key().ignored_by_face_files().ignored_by_recipes(),
+      Key<Config>{"review", read_review, write_review}.ignored_by_face_files().ignored_by_recipes(),
       // read_edits merges the file before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
-      section_key("output", &Config::output, output_keys(), {}, check_output).after_casting()};
+      section_key("output", &Config::output, output_keys(), {}, check_output).ignored_by_recipes()};
   return keys;
 }
 
-std::string in_one_line(std::string_view value) {
+std::string one_line_text(std::string_view value) {
   constexpr std::string_view kEverywhere = "\ndefault: ";  // start of a value per region
   if (value.starts_with(kEverywhere)) value.remove_prefix(kEverywhere.size());
   return std::string(value);
@@ -296,14 +296,14 @@ std::string in_one_line(std::string_view value) {
 
 std::vector<KeyRow> config_key_rows() {
   std::vector<KeyRow> rows = key_rows("", root_keys(), Config{});
-  std::erase_if(rows, [](const KeyRow& row) { return row.takes.empty(); });
+  std::erase_if(rows, [](const KeyRow& row) { return row.accepted_values.empty(); });
   return rows;
 }
 
-std::set<std::string> keys_after_casting() {
+std::set<std::string> keys_ignored_by_recipes() {
   std::set<std::string> paths;
   for (const KeyRow& row : key_rows("", root_keys(), Config{})) {
-    if (row.decides_faces) continue;
+    if (row.affects_recipes) continue;
     paths.insert(row.section.empty() ? row.key : concat(row.section, '.', row.key));
   }
   return paths;

@@ -99,11 +99,11 @@ Key<Section> per_region_key(std::string_view name, Member Region::*member,
           },
           {},
           {},
-          codec.takes};
+          codec.accepted_values};
 }
 
 /// The head that a position refers to: a head's name, or `target` for the target of the face.
-const Key<PositionDistribution> kFaceKey = {
+const Key<PositionDistribution> kHeadOfPositionKey = {
     "face",
     [](const YamlNode& node, PositionDistribution& position, ConfigDraft& draft) {
       if (!is_word(node, "target")) position.head = head().read(node, draft);
@@ -116,8 +116,8 @@ const Keys<PositionDistribution>& position_keys() {
   using Position = PositionDistribution;
   static const Keys<Position> keys = {
       word_key("distribution", &Position::kind, "anchored, uniform, around or fixed"),
-      key("pull", &Position::pull, number(0, 1)), kFaceKey,
-      key("radius", &Position::radius, above_zero(number(0, kMaxRadius), "a number above 0")),
+      key("pull", &Position::pull, number(0, 1)), kHeadOfPositionKey,
+      key("radius", &Position::radius, refuse_zero(number(0, kMaxRadius), "a number above 0")),
       key("position", &Position::at, point())};
   return keys;
 }
@@ -178,7 +178,7 @@ Codec<SmoothnessDistribution> sampled_smoothness() {
                        ? flow_map({entry("iterations", iterations().write(value, context))})
                        : smoothness().write(value, context);
           },
-          concat(smoothness().takes, ", or `{iterations: …}`")};
+          concat(smoothness().accepted_values, ", or `{iterations: …}`")};
 }
 
 constexpr std::size_t kMaxBands = 4;
@@ -256,7 +256,7 @@ std::string write_bands(const SamplingOptions& sampling, const WriteContext& con
 }
 
 bool is_mirrored(const SamplingOptions& sampling, const WriteContext& context) {
-  return mirrors(sampling) || mirrors(context.config.sampling);
+  return may_mirror(sampling) || may_mirror(context.config.sampling);
 }
 
 }  // namespace
@@ -272,11 +272,11 @@ const Keys<SamplingOptions>& sampling_keys() {
                                names_of(position_keys())),
       per_region_key<Sampling>("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
                                {"iterations"})
-          .in_starter({"[0.15, 0.7]", "",
-                       "How much of the target's relief is replaced by that of the sources: 0 "
-                       "nothing, 1 all of it\nup to 240 mm. Or a size: [4 mm, 30 mm]."}),
+          .with_starter({"[0.15, 0.7]", "",
+                         "How much of the target's relief is replaced by that of the sources: 0 "
+                         "nothing, 1 all of it\nup to 240 mm. Or a size: [4 mm, 30 mm]."}),
       per_region_key<Sampling>("extrapolation", &RegionSampling::extrapolation, extrapolation())
-          .in_starter(
+          .with_starter(
               {"[0.9, 1.2]", "", "Above 1 features are stronger than scanned, below 1 weaker."}),
       Key<Sampling>{"max_sources",
                     [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
@@ -288,11 +288,11 @@ const Keys<SamplingOptions>& sampling_keys() {
                     [](const Sampling& sampling, const WriteContext&) {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
-          .taking(concat("`all`, or ", whole(1, kMaxSources).takes))
-          .in_starter({"3", "", "How many heads lend their features to each region of a face."}),
+          .with_accepted_values(concat("`all`, or ", whole(1, kMaxSources).accepted_values))
+          .with_starter({"3", "", "How many heads lend their features to each region of a face."}),
       Key<Sampling>{"bands", read_bands, write_bands}
-          .taking("mapping from names to the keys of a band")
-          .holding(band_keys()),
+          .with_accepted_values("mapping from names to the keys of a band")
+          .with_nested_keys(band_keys()),
       key("age", &Sampling::age, age()),
       key("asymmetry", &Sampling::asymmetry, asymmetry()).written_if(is_mirrored),
       word_key("mirror", &Sampling::mirror).written_if(is_mirrored)};

@@ -110,12 +110,12 @@ const Keys<Shapes>& shapes_keys() {
                   [](const Shapes& shapes, const WriteContext& context) {
                     return path("").write(shapes.directory, context);
                   }}
-          .taking("folder"),
+          .with_accepted_values("folder"),
       Key<Shapes>{"heads", read_shape_heads,
                   [](const Shapes& shapes, const WriteContext& context) {
                     return path("").write(shapes.heads, context);
                   }}
-          .taking("folder")};
+          .with_accepted_values("folder")};
   return keys;
 }
 
@@ -176,7 +176,7 @@ std::string write_shapes(const Config& config, const WriteContext& context) {
 }  // namespace
 
 Key<Config> shapes_key() {
-  return Key<Config>{"shapes", read_shapes, write_shapes}.holding(shapes_keys());
+  return Key<Config>{"shapes", read_shapes, write_shapes}.with_nested_keys(shapes_keys());
 }
 
 }  // namespace crowdface

@@ -24,8 +24,8 @@ std::string unknown_measurement(const std::string& name) {
 }
 
 /// Reads "38 mm", "104" (degrees or a ratio) or "70 %" (a quantile).
-std::optional<TraitEnd> read_end(const YamlNode& node, const Measurement& measurement,
-                                 ConfigDraft& draft) {
+std::optional<TraitBound> read_bound(const YamlNode& node, const Measurement& measurement,
+                                     ConfigDraft& draft) {
   const bool is_length = measurement.kind == Measurement::Kind::kDistance;
   const std::string expected =
       concat(is_length ? "a length with its unit, such as \"38 mm\","
@@ -41,11 +41,11 @@ std::optional<TraitEnd> read_end(const YamlNode& node, const Measurement& measur
     if (!percent || *percent < 0 || *percent > 100) {
       return draft.complaints.expected(node, "a quantile from 0 % to 100 %");
     }
-    return TraitEnd{*percent / 100, true};
+    return TraitBound{*percent / 100, true};
   }
   const auto value = is_length ? parse_length_mm(text) : parse_double(text);
   if (!value || std::abs(*value) > kLargestTrait) return draft.complaints.expected(node, expected);
-  return TraitEnd{*value, false};
+  return TraitBound{*value, false};
 }
 
 std::optional<TraitLimit> read_limit(const YamlEntry& entry, ConfigDraft& draft) {
@@ -58,15 +58,15 @@ std::optional<TraitLimit> read_limit(const YamlEntry& entry, ConfigDraft& draft)
   const YamlNode& node = entry.value;
   TraitLimit limit{*trait};
   if (node.kind == YamlNode::Kind::kList && node.items.size() == 2) {
-    limit.at_least = read_end(node.items[0], measurement, draft);
-    limit.at_most = read_end(node.items[1], measurement, draft);
+    limit.at_least = read_bound(node.items[0], measurement, draft);
+    limit.at_most = read_bound(node.items[1], measurement, draft);
   } else if (node.kind == YamlNode::Kind::kMap) {
     const MapReader map(node, {"at_least", "at_most"}, draft.complaints);
     if (const YamlNode* least = map.find("at_least")) {
-      limit.at_least = read_end(*least, measurement, draft);
+      limit.at_least = read_bound(*least, measurement, draft);
     }
     if (const YamlNode* most = map.find("at_most")) {
-      limit.at_most = read_end(*most, measurement, draft);
+      limit.at_most = read_bound(*most, measurement, draft);
     }
   } else {
     return draft.complaints.expected(node, "[least, greatest] or {at_least: …, at_most: …}");
@@ -79,7 +79,7 @@ std::optional<TraitLimit> read_limit(const YamlEntry& entry, ConfigDraft& draft)
   return limit;
 }
 
-std::string end_text(const TraitEnd& end, const Measurement& measurement) {
+std::string bound_text(const TraitBound& end, const Measurement& measurement) {
   if (end.is_quantile) return concat(end.value * 100, " %");
   const bool is_length = measurement.kind == Measurement::Kind::kDistance;
   return is_length ? concat(end.value, " mm") : concat(end.value);
@@ -88,8 +88,8 @@ std::string end_text(const TraitEnd& end, const Measurement& measurement) {
 std::string limit_text(const TraitLimit& limit) {
   const Measurement& measurement = measurements()[limit.trait];
   std::vector<std::string> ends;
-  if (limit.at_least) ends.push_back(entry("at_least", end_text(*limit.at_least, measurement)));
-  if (limit.at_most) ends.push_back(entry("at_most", end_text(*limit.at_most, measurement)));
+  if (limit.at_least) ends.push_back(entry("at_least", bound_text(*limit.at_least, measurement)));
+  if (limit.at_most) ends.push_back(entry("at_most", bound_text(*limit.at_most, measurement)));
   return entry(measurement.name, flow_map(ends));
 }
 

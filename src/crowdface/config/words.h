@@ -111,7 +111,7 @@ inline const auto& all_words() {
                          {"teeth", SurfaceKind::kTeeth},
                          {"gums", SurfaceKind::kGums},
                          {"hidden", SurfaceKind::kHidden}},
-      Words<int>{{"mother", 0}, {"father", 1}, {"drawn", -1}}};  // FamilyOptions::inherit
+      Words<int>{{"mother", 0}, {"father", 1}, {"drawn", -1}}};  // FamilyOptions::inherited_parents
   return words;
 }
 

@@ -33,15 +33,15 @@ bool is_plain(std::string_view text) {
 }
 
 /// Sets the location of every node of a command-line value to the location of the option.
-void place_at(YamlNode& node, const YamlPlace& place, const std::string& path) {
+void set_locations(YamlNode& node, const YamlPlace& place, const std::string& path) {
   node.place = place;
   node.path = path;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    place_at(node.items[i], place, concat(path, " #", i + 1));
+    set_locations(node.items[i], place, concat(path, " #", i + 1));
   }
   for (YamlEntry& entry : node.entries) {
     entry.key_place = place;
-    place_at(entry.value, place, concat(path, '.', entry.key));
+    set_locations(entry.value, place, concat(path, '.', entry.key));
   }
 }
 
@@ -73,7 +73,7 @@ void put(YamlNode& root, const std::vector<std::string_view>& keys, YamlNode val
   }
   const std::string path = target->path;
   *target = std::move(value);
-  place_at(*target, place, path);
+  set_locations(*target, place, path);
 }
 
 YamlPlace place_on_command_line(std::string shown) {

@@ -39,7 +39,7 @@ YamlText::YamlText(std::string_view text, const std::string& source)
   }
 }
 
-std::string_view YamlText::text_from(int line, int byte_column) const {
+std::string_view YamlText::text_at_position(int line, int byte_column) const {
   const auto row = std::min(static_cast<std::size_t>(std::max(line, 0)), line_starts_.size() - 1);
   const auto column = static_cast<std::size_t>(std::max(byte_column, 0));
   return text_.substr(std::min(line_starts_[row] + column, text_.size()));
@@ -57,7 +57,7 @@ YamlPlace YamlText::place_of(std::size_t offset) const {
 }
 
 YamlPlace YamlText::place(int line, int byte_column) const {
-  return place_of(text_.size() - text_from(line, byte_column).size());
+  return place_of(text_.size() - text_at_position(line, byte_column).size());
 }
 
 std::optional<YamlText::Problem> YamlText::find_problem() const {
@@ -98,13 +98,13 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
 }
 
 bool YamlText::is_null_at(int line, int byte_column) const {
-  const std::string_view rest = text_from(line, byte_column);
+  const std::string_view rest = text_at_position(line, byte_column);
   return rest.starts_with('~') || rest.starts_with("null") || rest.starts_with("Null") ||
          rest.starts_with("NULL");
 }
 
 bool YamlText::is_unclosed_quote_at(int line, int byte_column) const {
-  const std::string_view rest = text_from(line, byte_column);
+  const std::string_view rest = text_at_position(line, byte_column);
   if (!rest.starts_with('\'') && !rest.starts_with('"')) return false;
   const char quote = rest[0];
   for (std::size_t i = 1; i < rest.size(); ++i) {

@@ -35,7 +35,7 @@ class YamlText {
   bool is_unclosed_quote_at(int line, int byte_column) const;
 
  private:
-  std::string_view text_from(int line, int byte_column) const;
+  std::string_view text_at_position(int line, int byte_column) const;
   YamlPlace place_of(std::size_t offset) const;
 
   std::string_view text_;

@@ -140,7 +140,7 @@ inline bool is_gallery_page_file(const std::filesystem::path& path) {
 
 /// Folder with the material files of an attachment and the textures that they name, relative to the
 /// folder of the meshes that all faces share.
-/// \param colour  text from label_of, or empty.
+/// \param colour  text from colour_label, or empty.
 inline std::filesystem::path attachment_folder(const std::string& name,
                                                const std::string& colour = {}) {
   const std::filesystem::path folder = std::filesystem::path("attachments") / name;

@@ -191,13 +191,16 @@ TableColumns table_columns(const PlanNames& names) {
         [=](Face face) { return face.notes.nearest ? text(*face.notes.nearest) : std::string(); };
   };
   const TableColumns more = {
-      {"nearest_face",
-       nearest([&names](const Nearest& near) { return name_at(names.heads, near.head); })},
-      {"nearest_face_mm",
-       nearest([](const Nearest& near) { return format_number(rounded(near.head_mm)); })},
-      {"nearest_crowd", nearest([](const Nearest& near) { return near.crowd.value_or(""); })},
-      {"nearest_crowd_mm", nearest([](const Nearest& near) {
-         return near.crowd ? format_number(rounded(near.crowd_mm)) : "";
+      {"nearest_face", nearest([&names](const NearestNeighbours& near) {
+         return name_at(names.heads, near.head);
+       })},
+      {"nearest_face_mm", nearest([](const NearestNeighbours& near) {
+         return format_number(rounded(near.head_distance_mm));
+       })},
+      {"nearest_crowd",
+       nearest([](const NearestNeighbours& near) { return near.earlier_face.value_or(""); })},
+      {"nearest_crowd_mm", nearest([](const NearestNeighbours& near) {
+         return near.earlier_face ? format_number(rounded(near.earlier_face_distance_mm)) : "";
        })},
       {"group", [](Face face) { return face.group.value_or(""); }},
       {"mixture", [&names](Face face) { return weights_text(face.recipe.mixture, names); }}};

@@ -73,9 +73,9 @@ Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& se
     json["parents"] = {{"mother", face.parents[0]}, {"father", face.parents[1]}};
     if (face.mother_share > 0) json["mother_share"] = rounded(face.mother_share);
   }
-  if (!face.inherits.empty()) {
+  if (!face.inherited_from.empty()) {
     for (std::size_t k = 0; k < names.regions.size(); ++k) {
-      json["inherits"][names.regions[k]] = inherits_to_json(face.inherits, k, names);
+      json["inherits"][names.regions[k]] = inherits_to_json(face.inherited_from, k, names);
     }
   }
   if (!names.attachments.empty()) json["attachments"] = face.attachments;
@@ -94,11 +94,13 @@ Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& se
     json["regions"][names.regions[k]] = region_to_json(face.recipe.regions[k], names);
   }
   if (face.notes.nearest) {
-    const Nearest& nearest = *face.notes.nearest;
-    json["nearest"] = {{"face", name_at(names.heads, nearest.head)},
-                       {"face_mm", rounded(nearest.head_mm)},
-                       {"crowd", or_null(nearest.crowd)},
-                       {"crowd_mm", nearest.crowd ? Json(rounded(nearest.crowd_mm)) : Json()}};
+    const NearestNeighbours& nearest = *face.notes.nearest;
+    json["nearest"] = {
+        {"face", name_at(names.heads, nearest.head)},
+        {"face_mm", rounded(nearest.head_distance_mm)},
+        {"crowd", or_null(nearest.earlier_face)},
+        {"crowd_mm",
+         nearest.earlier_face ? Json(rounded(nearest.earlier_face_distance_mm)) : Json()}};
   }
   json["settings"] = settings.hex();
   return json;

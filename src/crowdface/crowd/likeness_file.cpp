@@ -86,7 +86,7 @@ CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
   constexpr std::size_t kNeighbours = 6;  // for each face: two rows on its gallery page
   CrowdLikeness likeness{anchors, find_likeness(points, kNeighbours)};
   for (std::vector<Neighbour>& near : likeness.likeness.neighbours) {
-    for (Neighbour& other : near) other.mm = rounded(other.mm);
+    for (Neighbour& other : near) other.distance_mm = rounded(other.distance_mm);
   }
   return likeness;
 }
@@ -112,7 +112,7 @@ TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
       const std::vector<Neighbour>& near = likeness.likeness.neighbours[face];
       for (std::size_t n = 0; n < near.size(); ++n) {
         line += concat(n > 0 ? ",\n   " : "\n   ", Json(ids[near[n].face]).dump(), ": ",
-                       Json(near[n].mm).dump());
+                       Json(near[n].distance_mm).dump());
       }
       return line + (near.empty() ? "}" : "\n  }");
     })(take);

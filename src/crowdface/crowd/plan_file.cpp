@@ -69,9 +69,9 @@ class LineReader {
     }
     if (const Json* inherits = found(json, "inherits")) {
       for (const std::string& name : names_.regions) {
-        if (names_.bands.empty()) face.inherits.push_back(text(*inherits, name));
+        if (names_.bands.empty()) face.inherited_from.push_back(text(*inherits, name));
         for (const std::string& band : names_.bands) {
-          face.inherits.push_back(text(member(*inherits, name), band));
+          face.inherited_from.push_back(text(member(*inherits, name), band));
         }
       }
     }
@@ -225,9 +225,9 @@ class LineReader {
     }
     for (std::size_t b = 1; b <= finer; ++b) {
       const std::string& own = names_.bands[b];
-      result.finer.push_back(band(member(*bands, own), own));
+      result.finer_bands.push_back(band(member(*bands, own), own));
       const std::uint64_t before = band_of(result, b - 1).iterations;
-      const std::uint64_t begins = result.finer.back().iterations;
+      const std::uint64_t begins = result.finer_bands.back().iterations;
       if (begins > before) {
         fail(concat(own, ".iterations"),
              concat("at most the iterations of the previous band, ", before), concat(begins));
@@ -262,17 +262,17 @@ class LineReader {
   }
 
   /// No mesh depends on this field, so lines written by hand may omit it or hold a wrong value.
-  std::optional<Nearest> nearest(const Json& json) const {
+  std::optional<NearestNeighbours> nearest(const Json& json) const {
     if (!json.is_object()) return std::nullopt;
     const std::string face = json.value("face", Json()).is_string() ? text(json, "face") : "";
     const auto head = std::find(names_.heads.begin(), names_.heads.end(), face);
     const Json head_mm = json.value("face_mm", Json());
     if (head == names_.heads.end() || !head_mm.is_number()) return std::nullopt;
-    Nearest result{head - names_.heads.begin(), head_mm.get<double>(), std::nullopt, 0};
+    NearestNeighbours result{head - names_.heads.begin(), head_mm.get<double>(), std::nullopt, 0};
     const Json crowd_mm = json.value("crowd_mm", Json());
     if (json.value("crowd", Json()).is_string() && crowd_mm.is_number()) {
-      result.crowd = text(json, "crowd");
-      result.crowd_mm = crowd_mm.get<double>();
+      result.earlier_face = text(json, "crowd");
+      result.earlier_face_distance_mm = crowd_mm.get<double>();
     }
     return result;
   }

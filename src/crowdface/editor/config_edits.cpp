@@ -69,7 +69,7 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
   const fs::path trial = concat(file.string(), ".trial");
   write_file(trial, text);
   ConfigOverrides with_trial;
-  with_trial.set.push_back(concat("edits=", write_scalar(concat(name, ".trial"))));
+  with_trial.assignments.push_back(concat("edits=", write_scalar(concat(name, ".trial"))));
   Problems problems;
   read_config(config, with_trial, problems);
   remove_if_exists(trial);

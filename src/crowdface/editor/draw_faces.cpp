@@ -23,8 +23,8 @@ BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index
   BandRecipe band;
   if (a.position && b.position) {
     band.position = *a.position + share * (*b.position - *a.position);
-    band.weights = weights_at(casting.anchors, target, sources, *band.position,
-                              casting.normalization, casting.sampling.max_sources);
+    band.weights = weights_at_position(casting.anchors, target, sources, *band.position,
+                                       casting.normalization, casting.sampling.max_sources);
   } else {
     band.weights = mixed_weights(a.weights, b.weights, share);
   }
@@ -42,8 +42,8 @@ FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
   open.id = request.from.id;
   open.age = Range{0, 0};
   if (keeps_target) open.target = old.recipe.target;
-  FacePlan face =
-      random_recipe(casting, open, {0, attempt, concat("edit/", open.id)}, kind_of_group(casting));
+  FacePlan face = random_face_plan(casting, open, {0, attempt, concat("edit/", open.id)},
+                                   kind_of_group(casting));
   if (keeps_target) {
     face.recipe.mixture = old.recipe.mixture;
     face.recipe.colours = old.recipe.colours;
@@ -58,14 +58,14 @@ FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
                      face.recipe.target, sources_of(casting.sampling, b), casting);
     }
   }
-  take_over(request.locked, request.from.recipe, face.recipe);
+  copy_bands(request.locked, request.from.recipe, face.recipe);
   return face;
 }
 
 }  // namespace
 
 std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudge& judge,
-                                   const FacePointIndex& crowd, const SampleRequest& request) {
+                                   const NearestFaceSearch& crowd, const SampleRequest& request) {
   constexpr std::uint32_t kAttemptsEach = 40;
   const auto most = static_cast<std::uint32_t>(request.count) * kAttemptsEach;
   std::vector<FacePlan> faces;

@@ -7,7 +7,7 @@
 
 #include "crowdface/cast/draw_recipe.h"
 #include "crowdface/cast/face_judge.h"
-#include "crowdface/cast/face_point_index.h"
+#include "crowdface/cast/nearest_face_search.h"
 
 namespace crowdface {
 
@@ -17,8 +17,8 @@ struct SampleRequest {
   std::vector<std::size_t>
       locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
   std::optional<FacePlan> like;  ///< sample variations of this face
-  double amount =
-      1;  ///< how far variations move from `like` towards an independently sampled face, 0 to 1
+  /// how far variations move from `like` towards an independently sampled face, 0 to 1
+  double amount = 1;
   std::size_t count = 1;            ///< number of faces to sample
   std::uint32_t first_attempt = 0;  ///< a different number yields different faces
 };
@@ -28,6 +28,6 @@ struct SampleRequest {
 /// \return fewer faces than requested if too many attempts violate the limits.
 /// \throws Unsatisfiable if all attempts violate the limits.
 std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudge& judge,
-                                   const FacePointIndex& crowd, const SampleRequest& request);
+                                   const NearestFaceSearch& crowd, const SampleRequest& request);
 
 }  // namespace crowdface

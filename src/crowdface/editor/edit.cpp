@@ -70,7 +70,7 @@ std::vector<std::string> generate_arguments(const Config& config, const ConfigOv
   const auto add = [&](const char* option, const std::optional<std::string>& value) {
     if (value) arguments.insert(arguments.end(), {option, *value});
   };
-  for (const std::string& assignment : overrides.set) add("--set", assignment);
+  for (const std::string& assignment : overrides.assignments) add("--set", assignment);
   add("--count", overrides.count);
   add("--seed", overrides.seed);
   add("--out", config.output.directory.string());

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <future>
 
-#include "crowdface/cast/attachment_draw.h"
+#include "crowdface/cast/attachment_sampling.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/run/casting.h"

@@ -21,8 +21,8 @@ void move(const CastingOptions& casting, Recipe& recipe, std::size_t region, dou
                         share * anchors[(region + 1) % anchors.size()];
   recipe.regions[region].position = at;
   recipe.regions[region].weights =
-      weights_at(anchors, recipe.target, sources_of(casting.sampling, 0), at, casting.normalization,
-                 casting.sampling.max_sources);
+      weights_at_position(anchors, recipe.target, sources_of(casting.sampling, 0), at,
+                          casting.normalization, casting.sampling.max_sources);
 }
 
 /// The median time of several repetitions, in milliseconds.

@@ -37,18 +37,18 @@ std::string with_spaces(std::string_view name) {
 }
 
 std::string sentence(Reason reason, const Config& config) {
-  return describe_broken(reason, config.diversity, config.believability);
+  return describe_violation(reason, config.diversity, config.believability);
 }
 
 /// Measures a face, and warns of each limit that it does not meet.
 void measure_traits(const FaceTraits& traits, const TraitRules& rules, const FacePlan& face,
                     FaceMeasures& measures) {
-  const TraitSpread& spread = traits.measurer().spread();
+  const TraitDistributions& spread = traits.measurer().spread();
   const std::vector<double> values = traits.values(face.recipe);
   const TraitLimits limits = rules.limits_of(face);
   for (std::size_t t = 0; t < values.size(); ++t) {
     const std::size_t trait = traits.traits()[t];
-    const std::vector<double>& heads = spread.ascending(trait);
+    const std::vector<double>& heads = spread.sorted_values(trait);
     measures.traits.push_back(
         {trait, values[t], values[t] - spread.mean(trait), heads.front(), heads.back()});
     const auto limit = std::ranges::find(limits, trait, &TraitLimit::trait);
@@ -128,7 +128,7 @@ EditSession::Judging EditSession::judging() const {
   auto where =
       std::make_unique<const CastingSpace>(casting_space(job_.config, job_.inputs, prepared_, {}));
   const FaceSpace& space = where->space;
-  FacePointIndex crowd(space.dimensions());
+  NearestFaceSearch crowd(space.dimensions());
   if (crowd_) {
     std::vector<FaceSpace::Point> points(crowd_->size());
     parallel_for_each(points.size(),
@@ -139,7 +139,7 @@ EditSession::Judging EditSession::judging() const {
   auto traits = available_face_traits(job_.config, job_.inputs, prepared_);
   std::unique_ptr<const TraitRules> rules;
   if (traits) rules = std::make_unique<const TraitRules>(traits->measurer(), casting_);
-  judge.limit_traits(rules.get());
+  judge.set_trait_rules(rules.get());
   return {std::move(where), std::move(judge), std::move(crowd), std::move(traits),
           std::move(rules)};
 }
@@ -160,13 +160,13 @@ void EditSession::use_masks(const RegionWeights& masks) {
   previous_face_ = {};
 }
 
-FacePointIndex::Nearest EditSession::nearest_other_face(const FaceSpace::Point& point,
-                                                        const FacePlan& recipe,
-                                                        const std::string& opened) const {
-  FacePointIndex::Nearest nearest;
+NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::Point& point,
+                                                               const FacePlan& recipe,
+                                                               const std::string& opened) const {
+  NearestFaceSearch::NearestFace nearest;
   const auto search = [&](Index begin, Index end) {
     if (begin == end) return;
-    const auto found = judging_.get().crowd.nearest(point, nearest.mm, begin, end);
+    const auto found = judging_.get().crowd.nearest(point, nearest.distance_mm, begin, end);
     if (found.face >= 0) nearest = found;
   };
   Index begin = 0;
@@ -190,16 +190,16 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
   const FaceJudge& judge = judging.judge;
   const FaceSpace::Point point = judge.space().point(recipe.recipe);
   FaceMeasures measures;
-  const FacePointIndex::Nearest head = judge.nearest_head(point);
+  const NearestFaceSearch::NearestFace head = judge.nearest_head(point);
   measures.head = head.face;
-  measures.head_mm = head.mm;
+  measures.head_mm = head.distance_mm;
   measures.head_as_built_mm =
       (point.as_built - judge.space().head_point(head.face).as_built).norm();
   if (crowd_) {
-    const FacePointIndex::Nearest nearest = nearest_other_face(point, recipe, opened);
+    const NearestFaceSearch::NearestFace nearest = nearest_other_face(point, recipe, opened);
     if (nearest.face >= 0) {
       measures.face = static_cast<std::size_t>(nearest.face);
-      measures.face_mm = nearest.mm;
+      measures.face_mm = nearest.distance_mm;
     }
   }
   if (judging.traits) measure_traits(*judging.traits, *judging.rules, recipe, measures);
@@ -216,7 +216,7 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
                                   const std::string& opened) const {
   FaceMeasures measures = measure(recipe, opened);
   if (job_.config.believability.check &&
-      builder_.wider_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
+      builder_.gap_excess_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
     measures.warnings.push_back(sentence(Reason::kGap, job_.config));
   }
   return measures;

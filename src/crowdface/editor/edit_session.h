@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/cast/face_judge.h"
-#include "crowdface/cast/face_point_index.h"
+#include "crowdface/cast/nearest_face_search.h"
 #include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/mesh_faults.h"
 #include "crowdface/editor/texture_atlas.h"
@@ -122,13 +122,14 @@ class EditSession {
   struct Judging {
     std::unique_ptr<const CastingSpace> where;
     FaceJudge judge;
-    FacePointIndex crowd;
+    NearestFaceSearch crowd;
     std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
     std::unique_ptr<const TraitRules> rules;
   };
   Judging judging() const;
-  FacePointIndex::Nearest nearest_other_face(const FaceSpace::Point& point, const FacePlan& recipe,
-                                             const std::string& opened) const;
+  NearestFaceSearch::NearestFace nearest_other_face(const FaceSpace::Point& point,
+                                                    const FacePlan& recipe,
+                                                    const std::string& opened) const;
   nlohmann::ordered_json regions_json() const;
   FacePlan first_face() const;
   std::vector<HeadLevels> preview_levels() const;

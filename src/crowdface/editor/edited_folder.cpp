@@ -169,7 +169,7 @@ fs::path EditedFolder::save_review(const Config& config, const std::function<voi
   Review review;
   const std::string before = path_exists(file) ? read_file(file) : std::string();
   if (before.empty() || crowd_has_review(config, before)) {
-    review.after = config.review.reviews.size();
+    review.seen_reviews = config.review.reviews.size();
   } else {
     review = parse_review(before, file.string(), config, problems);
   }

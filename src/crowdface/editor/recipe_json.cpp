@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                          const CastingOptions& casting) {
   return band.position &&
-         weights_at(casting.anchors, target, sources, *band.position, casting.normalization,
-                    casting.sampling.max_sources) == band.weights;
+         weights_at_position(casting.anchors, target, sources, *band.position,
+                             casting.normalization, casting.sampling.max_sources) == band.weights;
 }
 
 Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Index target,
@@ -95,7 +95,7 @@ Json recipe_to_json(const FacePlan& face, const CastingOptions& casting, const C
   for (const SourceWeight& part : face.recipe.colours) {
     json["colours"][heads[static_cast<std::size_t>(part.head)]] = part.weight;
   }
-  if (!is_unmirrored(face.recipe) || mirrors(casting.sampling)) {
+  if (!is_unmirrored(face.recipe) || may_mirror(casting.sampling)) {
     json["asymmetry"] = face.recipe.asymmetry;
     json["mirrored"] = face.recipe.mirrored;
   }
@@ -126,7 +126,7 @@ FacePlan face_of_json(const Json& recipe, const CastingOptions& casting, const C
   if (!hand.age) hand.age = Range{0, 0};
   if (!hand.asymmetry) hand.asymmetry = Range{1, 1};
   if (!hand.mirrored) hand.mirrored = false;
-  FacePlan face = complete_recipe(casting, hand);
+  FacePlan face = completed_face_plan(casting, hand);
   if (!is_unmirrored(face.recipe) && mirroring_key(config).empty()) {
     throw UsageError(
         "asymmetry and mirrored: expected a config that has sampling.asymmetry, "

@@ -90,14 +90,14 @@ FacePlan EditSession::first_face() const {
   face.id = "edited";
   for (std::size_t k = 0; k < casting_.sampling.regions.size(); ++k) {
     RegionRecipe region;
-    region.finer.resize(band_count(casting_.sampling) - 1);
+    region.finer_bands.resize(band_count(casting_.sampling) - 1);
     for (std::size_t b = 0; b < band_count(region); ++b) {
       const Range smoothness = fractions_of(smoothness_of(casting_.sampling, k, b), casting_.scale);
       BandRecipe& band = band_of(region, b);
       band.position = casting_.anchors.front();
       band.weights =
-          weights_at(casting_.anchors, 0, sources_of(casting_.sampling, b), *band.position,
-                     casting_.normalization, casting_.sampling.max_sources);
+          weights_at_position(casting_.anchors, 0, sources_of(casting_.sampling, b), *band.position,
+                              casting_.normalization, casting_.sampling.max_sources);
       band.smoothness = (smoothness.low + smoothness.high) / 2;
       band.iterations = iterations_of(band.smoothness, casting_.scale);
     }

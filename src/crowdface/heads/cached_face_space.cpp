@@ -23,8 +23,8 @@ void add_heads(Hasher& hasher, const SampledHeads& heads) {
   for (const Trajectory& trajectory : heads.trajectories) add_matrix(hasher, trajectory);
   add_matrix(hasher, heads.mean);
   add_matrix(hasher, heads.alpha);
-  hasher.add_array(std::span(heads.levels)).add(heads.image != nullptr);
-  if (heads.image != nullptr) add_heads(hasher, *heads.image);
+  hasher.add_array(std::span(heads.levels)).add(heads.mirror_images != nullptr);
+  if (heads.mirror_images != nullptr) add_heads(hasher, *heads.mirror_images);
 }
 
 Digest face_space_digest(const SampledHeads& heads, const std::vector<double>& weights,
@@ -54,7 +54,9 @@ FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
   if (heads.alpha.cols() > 1) room.metrics.resize(static_cast<std::size_t>(heads.alpha.cols()));
   auto tables = find_cached(
       cache, key, kFaceSpaceArrays,
-      [&](const FaceSpaceTables& found, const CacheEntry&) { return FaceSpace::fit(found, heads); },
+      [&](const FaceSpaceTables& found, const CacheEntry&) {
+        return FaceSpace::tables_fit(found, heads);
+      },
       std::move(room));
   if (tables) return FaceSpace(std::move(heads), weights, *std::move(tables));
   FaceSpace made(std::move(heads), weights, bands);

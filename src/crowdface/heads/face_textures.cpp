@@ -60,8 +60,8 @@ void FaceTextures::blend_textures(const Config& config) {
         1, iterations_of_size(OperatorKind::kLazy, size_mm, inputs.edge_length_mm));
   };
   options.scale = {iterations(kDetailMm), iterations(kStrengthMm)};
-  options.areas = face_areas(topology, inputs.skin, mean_head(inputs.faces), FaceArea::kFront,
-                             config.faces.front);
+  options.areas = face_vertex_areas(topology, inputs.skin, mean_head(inputs.faces),
+                                    FaceArea::kFront, config.faces.front);
   options.is_target_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices) options.is_target_only[vertex] = true;

@@ -101,7 +101,8 @@ MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, doubl
   DetailLevel level =
       std::move(detail_levels(typical, inputs.materials.material_of_face, {&share, 1}, borders)[0]);
   require_ring(inputs, level);
-  const LevelMap map = map_to_level(inputs.faces.topology, inputs.adjacency, level, inputs.mean);
+  const LevelMap map =
+      find_level_triangles(inputs.faces.topology, inputs.adjacency, level, inputs.mean);
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
   const LevelError of_heads = in_mm(level_error(level, map, heads), mm);

@@ -45,8 +45,8 @@ struct AttachmentLook {
   const Attachment* item;
   std::optional<HairColour> colour = {};  ///< if the attachment has a tint
 
-  /// Text from label_of, or empty.
-  std::string label() const { return colour ? label_of(*colour) : std::string(); }
+  /// Text from colour_label, or empty.
+  std::string label() const { return colour ? colour_label(*colour) : std::string(); }
   /// The attachment's name; with a colour, "NAME+LABEL".
   std::string name() const;
   /// Factors on the linear RGB values of the attachment's textures.

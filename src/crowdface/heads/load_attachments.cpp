@@ -89,7 +89,7 @@ AttachmentLook AttachmentSet::look(const std::string& name,
                                    const std::optional<HairColour>& hair) const {
   const Attachment& item = at(name);
   if (item.tint == Tint::kNone || !hair) return {&item};
-  return {&item, tinted(*hair, item.tint)};
+  return {&item, hair_colour_for(*hair, item.tint)};
 }
 
 std::vector<AttachmentLook> AttachmentSet::looks(const FacePlan& face) const {

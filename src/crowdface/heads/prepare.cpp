@@ -104,8 +104,8 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   if (inputs.mirror == nullptr) {
     prepared.traced_samples = prepared.samples = chosen(kSampleCount);
   } else {
-    prepared.samples = with_partners(chosen(kSampleCount / 2), *inputs.mirror);
-    prepared.traced_samples = with_corners(prepared.samples, *inputs.mirror);
+    prepared.samples = samples_and_partners(chosen(kSampleCount / 2), *inputs.mirror);
+    prepared.traced_samples = samples_and_mirror_corners(prepared.samples, *inputs.mirror);
   }
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
                                                       inputs.max_level, missed_by_nodes(config));

@@ -89,7 +89,7 @@ SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
     if (distances.distance(v) > 0) vertices_.push_back(v);
   }
   const std::vector<double> areas =
-      face_areas(heads.topology, inputs.skin, inputs.mean, FaceArea::kSkin, {2, 1});
+      face_vertex_areas(heads.topology, inputs.skin, inputs.mean, FaceArea::kSkin, {2, 1});
   double total = 0;
   for (const std::uint32_t v : vertices_) total += areas[v];
   for (const std::uint32_t v : vertices_) areas_.push_back(areas[v] / total);

@@ -193,12 +193,12 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   return read_or_make(
       cache_of(inputs), {"cells", key.digest()},
       [&] { return find_sample_cells(inputs.adjacency, unplaced_mean(inputs), samples); },
-      [](auto& arrays, auto& cells) { arrays("samples", cells.of_vertex); },
+      [](auto& arrays, auto& cells) { arrays("samples", cells.sample_of_vertex); },
       [&](const SampleCells& found, const CacheEntry&) {
         static_assert(SampleCells::kNone == kNoIndex);
-        return found.of_vertex.size() ==
+        return found.sample_of_vertex.size() ==
                    static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
-               are_indices(found.of_vertex, samples.size());
+               are_indices(found.sample_of_vertex, samples.size());
       });
 }
 

@@ -34,9 +34,9 @@ std::vector<double> skin_tones(const Inputs& inputs) {
 
 ColourShares::ColourShares(const Config& config, const Inputs& inputs)
     : heads_(inputs.faces.heads.size()),
-      region_shares_(
-          region_shares(inputs.regions, face_areas(inputs.faces.topology, inputs.skin, inputs.mean,
-                                                   FaceArea::kFront, config.faces.front))) {}
+      region_shares_(region_shares(
+          inputs.regions, face_vertex_areas(inputs.faces.topology, inputs.skin, inputs.mean,
+                                            FaceArea::kFront, config.faces.front))) {}
 
 std::vector<double> ColourShares::shares_of(const Recipe& recipe) const {
   return face_colour_weights(recipe, heads_, region_shares_).face;

@@ -14,7 +14,7 @@ namespace crowdface {
 namespace {
 
 DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
-                     const HeadSet& faces) {
+                     const HeadSet& heads) {
   triangles = grouped_by_material(std::move(triangles), split);
   DetailLevel level;
   std::vector<std::uint32_t> vertices, uvs;
@@ -25,18 +25,18 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
     }
     level.faces.push_back(split.face_of_material[split.corners[triangle[0]].material]);
   }
-  level.vertices = renumber(vertices, faces.topology.vertex_count);
+  level.vertices = renumber(vertices, heads.topology.vertex_count);
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());
   level.topology.corner_vertices = std::move(vertices);
   for (std::uint32_t t = 1; t <= triangles.size(); ++t) {
     level.topology.face_offsets.push_back(3 * t);  // face_offsets already holds the leading 0
   }
-  if (faces.topology.corner_uvs.empty()) return level;
+  if (heads.topology.corner_uvs.empty()) return level;
   std::vector<std::uint32_t> used;
   std::copy_if(uvs.begin(), uvs.end(), std::back_inserter(used),
                [](std::uint32_t uv) { return uv != kNoIndex; });
-  const std::vector<std::uint32_t> rows = renumber(used, faces.uvs.rows());
-  level.uvs = faces.uvs(rows, kAllColumns);
+  const std::vector<std::uint32_t> rows = renumber(used, heads.uvs.rows());
+  level.uvs = heads.uvs(rows, kAllColumns);
   for (std::size_t c = 0, next = 0; c < uvs.size(); ++c) {
     if (uvs[c] != kNoIndex) uvs[c] = used[next++];
   }
@@ -65,18 +65,18 @@ Displacements DetailLevel::restrict_rows(const Displacements& whole) const {
   return some;
 }
 
-std::vector<DetailLevel> detail_levels(const HeadSet& faces,
+std::vector<DetailLevel> detail_levels(const HeadSet& heads,
                                        std::span<const std::uint32_t> materials,
                                        std::span<const double> shares, Borders borders) {
-  const SplitMesh split = split_mesh(faces.topology, faces.uvs, materials);
-  const Positions positions = split.corner_positions(mean_head(faces));
+  const SplitMesh split = split_mesh(heads.topology, heads.uvs, materials);
+  const Positions positions = split.corner_positions(mean_head(heads));
   std::vector<DetailLevel> levels(shares.size());
   parallel_for_each(shares.size(), [&](std::size_t l) {
     const double most = shares[l] * static_cast<double>(split.triangles.size());
     levels[l] = level_of(split,
                          reduce_triangles(split.triangles, positions,
                                           static_cast<std::size_t>(std::round(most)), borders),
-                         faces);
+                         heads);
     levels[l].share = shares[l];
   });
   return levels;

@@ -35,15 +35,15 @@ struct LevelError {
 
 /// Makes levels by edge collapse on the mean head, each level directly from the whole mesh (quadric
 /// error metrics, Garland & Heckbert 1997, with meshoptimizer). Open borders, texture seams and
-/// borders between materials are preserved. A material is a material label. Faces with the same label in
-/// different texture tiles count as different materials.
+/// borders between materials are preserved. Here, a material is a pair of a material label and a
+/// texture tile.
 /// \param materials  #F: the material label of each face; kNoIndex omits the face. Triangles of one
-///                material are contiguous.
-/// \param shares  fractions of the triangles, each in (0, 1). A level has more triangles if its
-///                borders need them.
-/// \param borders how edge collapse treats the vertices of open borders.
-/// \return        #shares levels.
-std::vector<DetailLevel> detail_levels(const HeadSet& faces,
+///                   material are contiguous.
+/// \param shares     fractions of the triangles, each in (0, 1). A level has more triangles if its
+///                   borders need them.
+/// \param borders    how edge collapse treats the vertices of open borders.
+/// \return           #shares levels.
+std::vector<DetailLevel> detail_levels(const HeadSet& heads,
                                        std::span<const std::uint32_t> materials,
                                        std::span<const double> shares,
                                        Borders borders = Borders::kCollapse);

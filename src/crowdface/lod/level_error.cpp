@@ -42,8 +42,8 @@ double walk(const DetailLevel& level, const VertexFaces& around, const Positions
 
 }  // namespace
 
-LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const DetailLevel& level,
-                      const Positions& typical) {
+LevelMap find_level_triangles(const Topology& whole, const Adjacency& adjacency,
+                              const DetailLevel& level, const Positions& typical) {
   std::vector<bool> dropped(static_cast<std::size_t>(whole.vertex_count), false);
   for (const std::uint32_t vertex : whole.corner_vertices) dropped[vertex] = true;
   for (const std::uint32_t vertex : level.vertices) dropped[vertex] = false;

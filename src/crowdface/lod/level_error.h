@@ -20,8 +20,8 @@ struct LevelMap {
 };
 /// Finds the triangles of a LevelMap.
 /// \param typical  #V by 3: the head on which distances are measured.
-LevelMap map_to_level(const Topology& whole, const Adjacency& adjacency, const DetailLevel& level,
-                      const Positions& typical);
+LevelMap find_level_triangles(const Topology& whole, const Adjacency& adjacency,
+                              const DetailLevel& level, const Positions& typical);
 
 /// Returns the error over all meshes together, in their unit. The error is an upper bound, because
 /// on some mesh a triangle other than the mapped one may be nearer. If a vertex is far from its

@@ -63,7 +63,7 @@ std::vector<std::size_t> ranks(const Likeness& likeness, std::size_t faces) {
 
 Json near_to_json(const std::vector<Neighbour>& near) {
   Json others = Json::array();
-  for (const Neighbour& other : near) others.push_back({other.face, other.mm});
+  for (const Neighbour& other : near) others.push_back({other.face, other.distance_mm});
   return others;
 }
 
@@ -112,11 +112,11 @@ std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
   add("attempt", [&](std::size_t i) { return crowd[i].notes.attempt; });
   add("near_mm", [&](std::size_t i) {
     const auto& near = likeness.neighbours[i];
-    return near.empty() ? std::string("null") : concat(near.front().mm);
+    return near.empty() ? std::string("null") : concat(near.front().distance_mm);
   });
   add("head_mm", [&](std::size_t i) {
     const auto& nearest = crowd[i].notes.nearest;
-    return nearest ? concat(rounded(nearest->head_mm)) : std::string("null");
+    return nearest ? concat(rounded(nearest->head_distance_mm)) : std::string("null");
   });
   const auto add_if_any = [&](const char* name, std::optional<std::string> FacePlan::*kin) {
     if (std::ranges::none_of(crowd,

@@ -31,11 +31,12 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
 std::vector<std::string> given_by(std::string_view parent, const FacePlan& face,
                                   const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});
-  require(face.inherits.size() == names.regions.size() * bands, "a child of ", face.inherits.size(),
-          " parts where there are ", names.regions.size(), " regions of ", bands);
+  require(face.inherited_from.size() == names.regions.size() * bands, "a child of ",
+          face.inherited_from.size(), " parts where there are ", names.regions.size(),
+          " regions of ", bands);
   std::vector<std::string> given;
   for (std::size_t k = 0; k < names.regions.size(); ++k) {
-    const std::span own = std::span(face.inherits).subspan(k * bands, bands);
+    const std::span own = std::span(face.inherited_from).subspan(k * bands, bands);
     if (std::ranges::all_of(own, [&](const auto& by) { return by == parent; })) {
       given.push_back(names.regions[k]);
       continue;
@@ -82,12 +83,13 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
       case SheetLabel::kNearest: {
         if (likeness.neighbours[face].empty()) return {};
         const Neighbour& near = likeness.neighbours[face].front();
-        return concat("near ", crowd[near.face].id, ", ", format_fixed(rounded(near.mm), 2), " mm");
+        return concat("near ", crowd[near.face].id, ", ",
+                      format_fixed(rounded(near.distance_mm), 2), " mm");
       }
       case SheetLabel::kNearestHead:
         if (!labelled.notes.nearest) return {};
         return concat("near ", heads[static_cast<std::size_t>(labelled.notes.nearest->head)], ", ",
-                      format_fixed(rounded(labelled.notes.nearest->head_mm), 2), " mm");
+                      format_fixed(rounded(labelled.notes.nearest->head_distance_mm), 2), " mm");
       case SheetLabel::kTags:
         return join(tags[static_cast<std::size_t>(typical_head(labelled.recipe, tags))]);
       case SheetLabel::kAttachments:
@@ -105,7 +107,7 @@ std::string inheritance_label(const FacePlan& face, const PlanNames& names) {
   if (face.mother_share > 0) {
     label += concat("\nform ", std::lround(100 * face.mother_share), " % mother");
   }
-  if (face.inherits.empty()) return label;
+  if (face.inherited_from.empty()) return label;
   for (const std::string_view parent : {"mother", "father"}) {
     const std::vector<std::string> given = given_by(parent, face, names);
     if (!given.empty()) label += concat("\n", parent, ": ", join(given));

@@ -105,8 +105,7 @@ std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points) {
   return hull;
 }
 
-PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick, double a,
-                            double b) {
+PlanePoint sample_polygon(const std::vector<PlanePoint>& polygon, double pick, double a, double b) {
   require(!polygon.empty(), "a point in a polygon without corners");
   if (polygon.size() == 1) return polygon[0];
   if (polygon.size() == 2) return polygon[0] + a * (polygon[1] - polygon[0]);

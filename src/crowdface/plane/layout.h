@@ -35,7 +35,6 @@ std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points);
 /// (by length on a segment).
 /// \param pick  in [0, 1): selects the triangle of the polygon's fan.
 /// \param a, b  in [0, 1): select the point in that triangle.
-PlanePoint point_in_polygon(const std::vector<PlanePoint>& polygon, double pick, double a,
-                            double b);
+PlanePoint sample_polygon(const std::vector<PlanePoint>& polygon, double pick, double a, double b);
 
 }  // namespace crowdface

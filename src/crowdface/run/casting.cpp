@@ -64,14 +64,15 @@ CrowdDistances measure_distances(const FaceSpace& space, const Eigen::MatrixXd& 
   if (distances.heads.median > 0) {
     distances.ratio = distances.crowd.median / distances.heads.median;
   }
-  const Index regions = space.sampled().alpha.cols();
+  const Index regions = space.sampled_heads().alpha.cols();
   for (Index k = 0; regions > 1 && k < regions; ++k) {
     distances.regions.push_back(quartiles(pair_distances(space, k, crowd_plan.points)));
   }
   std::vector<double> to_head, to_face;
   for (const FacePlan& face : crowd_plan.crowd) {
-    to_head.push_back(face.notes.nearest->head_mm);
-    if (face.notes.nearest->crowd) to_face.push_back(face.notes.nearest->crowd_mm);
+    to_head.push_back(face.notes.nearest->head_distance_mm);
+    if (face.notes.nearest->earlier_face)
+      to_face.push_back(face.notes.nearest->earlier_face_distance_mm);
   }
   distances.to_nearest_head = quartiles(std::move(to_head));
   distances.to_nearest_face = quartiles(std::move(to_face));
@@ -80,7 +81,7 @@ CrowdDistances measure_distances(const FaceSpace& space, const Eigen::MatrixXd& 
 
 std::vector<FamilyReport> report_families(const Config& config, const CastingResult& crowd_plan) {
   std::vector<FamilyReport> reports;
-  FacePointIndex index(crowd_plan.points.empty() ? 1 : crowd_plan.points[0].as_built.size());
+  NearestFaceSearch index(crowd_plan.points.empty() ? 1 : crowd_plan.points[0].as_built.size());
   for (const FaceSpace::Point& point : crowd_plan.points) index.add(point);
   for (std::size_t f = 0; f < crowd_plan.families.size(); ++f) {
     const FamilyPlan& family = crowd_plan.families[f];
@@ -94,12 +95,14 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
     double nearest = HUGE_VAL;
     for (const FaceSpace::Point& member : members) {
       to_founder.push_back(FaceSpace::distance(member, family.founder_point));
-      nearest = std::min(nearest, index.nearest(member, nearest, 0, family.begin).mm);
-      nearest = std::min(nearest, index.nearest(member, nearest, family.end, index.size()).mm);
+      nearest = std::min(nearest, index.nearest(member, nearest, 0, family.begin).distance_mm);
+      nearest =
+          std::min(nearest, index.nearest(member, nearest, family.end, index.size()).distance_mm);
     }
     report.to_founder = quartiles(std::move(to_founder));
     report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
-    if (!config.families[f].parents.empty()) report.strangers_nearer = family.strangers_nearer;
+    if (!config.families[f].parents.empty())
+      report.nearer_strangers_fraction = family.nearer_strangers_fraction;
     report.silhouette = silhouette(crowd_plan.families, f, crowd_plan.points);
     reports.push_back(std::move(report));
   }
@@ -125,7 +128,7 @@ void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePla
   std::vector<double> tones = skin_tones(inputs);
   if (tones.empty()) return;
   const ColourShares colour_fractions(config, inputs);
-  choose_skin_of_children(
+  choose_skin_colours_of_children(
       {config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
        [&](const Recipe& recipe) { return colour_fractions.shares_of(recipe); },
        twin_families(config)},
@@ -141,17 +144,17 @@ ColourOptions colour_options(const Config& config) {
 void round_as_planned(std::vector<FacePlan>& crowd) {
   for (FacePlan& face : crowd) {
     face.mother_share = rounded(face.mother_share);
-    Nearest& nearest = *face.notes.nearest;
-    nearest.head_mm = rounded(nearest.head_mm);
-    nearest.crowd_mm = rounded(nearest.crowd_mm);
+    NearestNeighbours& nearest = *face.notes.nearest;
+    nearest.head_distance_mm = rounded(nearest.head_distance_mm);
+    nearest.earlier_face_distance_mm = rounded(nearest.earlier_face_distance_mm);
   }
 }
 
 /// Returns options for trials with other minimum distances: the faces that exist in the folder keep
 /// their own minimum distance.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
-  if (config.crowd.existing) {
-    casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing,
+  if (config.crowd.existing_count) {
+    casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing_count,
                                                            casting.diversity.min_distance_mm);
   }
   return casting;
@@ -162,21 +165,21 @@ CastingOptions with_existing_faces(const Config& config, CastingOptions casting)
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache) {
   const std::vector<double> areas =
-      face_areas(inputs.faces.topology, inputs.skin, unplaced_mean(inputs), config.distance.area,
-                 config.faces.front, inputs.distance_mask);
+      face_vertex_areas(inputs.faces.topology, inputs.skin, unplaced_mean(inputs),
+                        config.distance.area, config.faces.front, inputs.distance_mask);
   const SampleCells cells = find_cells(inputs, prepared.samples);
   SampledHeads heads =
       sample_heads(inputs.faces, inputs.regions, prepared.samples, prepared.trajectories,
                    inputs.max_level, mm_per(config.faces.units));
   if (inputs.mirror != nullptr) {
-    heads.image = sample_images(inputs.faces, inputs.regions, *inputs.mirror, prepared.samples,
-                                prepared.traced_samples, heads);
+    heads.mirror_images = sample_mirror_images(inputs.faces, inputs.regions, *inputs.mirror,
+                                               prepared.samples, prepared.traced_samples, heads);
   }
   FaceSpace space =
       cached_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
                         band_count(config.sampling));
-  ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled().mean,
-                 space.sampled().heads);
+  ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled_heads().mean,
+                 space.sampled_heads().heads);
   return {std::move(space), std::move(skin)};
 }
 
@@ -214,7 +217,7 @@ AttachmentOptions attachment_options(const Config& config) {
 }
 
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                     const MeshDefects& defects, const std::filesystem::path& cache) {
+                     const FindMeshDefects& defects, const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
   const FaceSpace& space = judged_in.space;
   const Eigen::MatrixXd head_distances = space.head_distances();
@@ -226,11 +229,11 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
   const auto traits = named_face_traits(config, inputs, prepared);
   std::optional<TraitRules> rules;
-  if (traits) judge.limit_traits(&rules.emplace(traits->measurer(), casting));
+  if (traits) judge.set_trait_rules(&rules.emplace(traits->measurer(), casting));
   CastingResult crowd;
   crowd.shortfall = impossible_spread(casting, judge);
   if (!crowd.shortfall) {
-    Progress progress("casting", casting.count, kCastTogether);
+    Progress progress("casting", casting.count, kFacesCastInParallel);
     ScarcityWarning warning(casting);
     crowd = cast_crowd(casting, judge, [&](const Rejections& thrown) {
       progress.step();
@@ -244,7 +247,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
         with_existing_faces(config, casting), space, believability, &judged_in.skin,
         *crowd.shortfall, [&] { progress.step(); }, judge.traits(), defects);
     std::vector<std::string> about_traits;
-    if (remedy.binding == Reason::kTraits) {
+    if (remedy.binding_constraint == Reason::kTraits) {
       about_traits = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
     }
     tell_shortfall(config, remedy, *crowd.shortfall, about_traits);
@@ -265,7 +268,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   }
   if (!config.attachments.items.empty()) {
     choose_attachments(attachment_options(config), crowd.kinds, result.crowd, crowd.rejected,
-                       crowd.rejected_from);
+                       crowd.crowd_size_at_rejection);
   }
   choose_skin(config, inputs, result.crowd);
   replace_changed_faces(config, casting, attachment_options(config), colour_options(config),

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/attachment_draw.h"
+#include "crowdface/cast/attachment_sampling.h"
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_statistics.h"
 #include "crowdface/run/pipeline.h"
@@ -46,7 +46,7 @@ struct FamilyReport {
   double silhouette = 0;
   /// if the family has parents: the largest fraction, over all children, of strangers that are
   /// nearer to the child than one of its parents
-  std::optional<double> strangers_nearer;
+  std::optional<double> nearer_strangers_fraction;
 };
 
 /// A cast crowd: its faces, and the heads' positions on the plane.
@@ -73,6 +73,6 @@ AttachmentOptions attachment_options(const Config& config);
 /// \throws Unsatisfiable if the constraints cannot be met; the message names the binding
 ///     constraint, the number of faces that were cast, and a change that would help.
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                     const MeshDefects& defects, const std::filesystem::path& cache);
+                     const FindMeshDefects& defects, const std::filesystem::path& cache);
 
 }  // namespace crowdface

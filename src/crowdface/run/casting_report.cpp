@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "crowdface/cast/attachment_draw.h"
+#include "crowdface/cast/attachment_sampling.h"
 #include "crowdface/cast/typical_head.h"
 #include "crowdface/config/words.h"
 #include "crowdface/core/contains.h"
@@ -87,7 +87,7 @@ Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
 Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan& crowd_plan) {
   const auto wears = [&](const FacePlan& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {
-      return is_called(item, word) && contains(face.attachments, item.name);
+      return matches_word(item, word) && contains(face.attachments, item.name);
     });
   };
   const auto count = [&](const std::string& word) {
@@ -130,8 +130,8 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
                     {"to_founder_mm", nearest_to_json(family.to_founder)},
                     {"nearest_other_mm", rounded(family.nearest_other_mm)},
                     {"silhouette", rounded(family.silhouette)}});
-    if (family.strangers_nearer) {
-      json.back()["strangers_nearer_than_a_parent"] = rounded(*family.strangers_nearer);
+    if (family.nearer_strangers_fraction) {
+      json.back()["strangers_nearer_than_a_parent"] = rounded(*family.nearer_strangers_fraction);
     }
   }
   return json;
@@ -159,10 +159,10 @@ std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
   std::vector<std::string> near;
   for (const FacePlan& face : crowd_plan.crowd) {
     if (!face.index || !face.notes.nearest ||
-        face.notes.nearest->head_mm >= DiversityOptions::kSamePersonMm)
+        face.notes.nearest->head_distance_mm >= DiversityOptions::kSamePersonMm)
       continue;
     near.push_back(concat(face.id, " (", heads[static_cast<std::size_t>(face.notes.nearest->head)],
-                          ", ", format_fixed(face.notes.nearest->head_mm, 2), " mm)"));
+                          ", ", format_fixed(face.notes.nearest->head_distance_mm, 2), " mm)"));
   }
   if (near.empty()) return {};
   const std::size_t count = near.size();

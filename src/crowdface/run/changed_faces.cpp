@@ -77,7 +77,7 @@ class ChangedLooks {
     }
     for (const AppliedChange& applied : changed.changes) {
       const FaceChange& change = applied.change;
-      if (change.wears) put_on(config_, *change.wears, face);
+      if (change.attachments) put_on(config_, *change.attachments, face);
       take_off(config_, change.takes_off, face);
       if (!change.colours.empty()) face.recipe.colours = written_weights(change.colours);
       if (change.hair) face.hair = rounded_colour(*hair_colour_named(*change.hair));
@@ -97,7 +97,7 @@ class ChangedLooks {
       const auto group = std::ranges::find(casting_.groups, face.group.value_or(""), &Group::name);
       const SamplingOptions& sampling =
           group == casting_.groups.end() ? casting_.sampling : group->sampling;
-      take_back_age(other, {casting_.anchors, casting_.tags}, sampling);
+      undo_age(other, {casting_.anchors, casting_.tags}, sampling);
       apply_age(other, face.age.value_or(0), {casting_.anchors, casting_.tags}, sampling);
     }
     const auto weights = colour_weights(other.recipe, config_.faces.names.size());
@@ -119,7 +119,7 @@ class ChangedLooks {
 
   FacePlan with_attachments(FacePlan face) const {
     if (!config_.attachments.items.empty())
-      choose_attachments_alone(attachments_, kinds_, crowd_, face);
+      choose_attachments_independently(attachments_, kinds_, crowd_, face);
     return face;
   }
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "crowdface/cast/attachment_draw.h"
+#include "crowdface/cast/attachment_sampling.h"
 #include "crowdface/cast/casting_result.h"
 #include "crowdface/cast/colour_draw.h"
 #include "crowdface/cast/draw_recipe.h"
@@ -17,8 +17,8 @@ namespace crowdface {
 /// changes.
 ///
 /// - A face that is the same person keeps its colours and attachments. Its hair greys with its age.
-/// - A face that was sampled again gets new colours and attachments, see choose_attachments_alone.
-///   A variant keeps the colours of its original.
+/// - A face that was sampled again gets new colours and attachments, see
+///   choose_attachments_independently. A variant keeps the colours of its original.
 ///
 /// \param casting, attachments, colours  the options with which the crowd was sampled.
 /// \param kinds  group of each sampled face, or −1.

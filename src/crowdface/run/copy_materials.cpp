@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// Copies each file once: heads in one folder mostly share their files.
 class MaterialCopies {
-  /// A neutral texture tinted with a hair colour, and the files that hold the result.
+  /// A neutral texture hair_colour_for with a hair colour, and the files that hold the result.
   struct Dyed {
     fs::path neutral;
     HairColour colour;

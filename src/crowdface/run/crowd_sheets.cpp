@@ -147,7 +147,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   // another run might otherwise replace the files while they are read
   const CrowdLock lock(directory, {});
   ConfigOverrides overrides;
-  overrides.set = set;
+  overrides.assignments = set;
   const Job job = load_job(directory.config(), overrides, cache);
   directory.faces_per_folder = directory_of(job.config).faces_per_folder;
   if (!job.config.output.contact_sheet) {

@@ -32,8 +32,8 @@ std::string padded(const std::string& text, std::size_t width) {
 std::string format_csv(const std::vector<EstimateRow>& rows) {
   std::string csv = "faces,spread_mm,first_fit_mm\r\n";
   for (const EstimateRow& row : rows) {
-    csv += concat(row.faces, ',', format_fixed(row.spread_mm, 3), ',',
-                  format_fixed(row.first_fit_mm, 3), "\r\n");
+    csv += concat(row.faces, ',', format_fixed(row.spread_distance_mm, 3), ',',
+                  format_fixed(row.first_fit_distance_mm, 3), "\r\n");
   }
   return csv;
 }
@@ -45,7 +45,7 @@ class Frame {
     double most = 1, high = asked_mm;
     for (const EstimateRow& row : rows) {
       most = std::max(most, static_cast<double>(row.faces));
-      high = std::max({high, row.spread_mm, row.first_fit_mm});
+      high = std::max({high, row.spread_distance_mm, row.first_fit_distance_mm});
     }
     most = std::max(most, static_cast<double>(asked_count));
     decades_ = std::max(1.0, std::ceil(std::log10(most) - 1));
@@ -88,9 +88,10 @@ std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t 
                             double asked_mm) {
   std::string table = "   faces   spread, mm   first fit, mm\n";
   for (const EstimateRow& row : rows) {
-    table += concat(padded(concat(row.faces), 8), padded(format_fixed(row.spread_mm, 2), 13),
-                    padded(format_fixed(row.first_fit_mm, 2), 16),
-                    row.faces == asked_count ? "   <- asked for" : "", '\n');
+    table +=
+        concat(padded(concat(row.faces), 8), padded(format_fixed(row.spread_distance_mm, 2), 13),
+               padded(format_fixed(row.first_fit_distance_mm, 2), 16),
+               row.faces == asked_count ? "   <- asked for" : "", '\n');
   }
   if (asked_mm > 0) table += concat("asked for: min_distance ", asked_mm, " mm\n");
   return table;
@@ -119,8 +120,8 @@ std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t as
                   px(bottom), "\" stroke=\"#ddd\"/>\n");
     svg += text_at(x, bottom + 18, "middle", concat(faces));
   }
-  svg += line_of(frame, rows, &EstimateRow::spread_mm, "#1f6fb4");
-  svg += line_of(frame, rows, &EstimateRow::first_fit_mm, "#d0632a");
+  svg += line_of(frame, rows, &EstimateRow::spread_distance_mm, "#1f6fb4");
+  svg += line_of(frame, rows, &EstimateRow::first_fit_distance_mm, "#d0632a");
   if (asked_mm > 0 && asked_count > 0) {
     const double x = frame.x(static_cast<double>(asked_count)), y = frame.y(asked_mm);
     svg += concat("<path d=\"M", px(x - 6), ' ', px(y - 6), 'L', px(x + 6), ' ', px(y + 6), 'M',

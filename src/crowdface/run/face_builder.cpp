@@ -164,7 +164,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   if (turn) move_rows(inverse(*turn), judged);
   SkinDefects defects =
       mixed ? check.compare(judged, *mixed) : check.compare(judged, recipe.target);
-  defects.wider_mm = contacts_->max_excess(judged) * mm_per_unit_;
+  defects.gap_excess_mm = contacts_->max_excess(judged) * mm_per_unit_;
   return defects;
 }
 
@@ -216,7 +216,7 @@ void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) con
   }
 }
 
-double FaceBuilder::wider_mm(const Recipe& recipe, const Positions& face) const {
+double FaceBuilder::gap_excess_mm(const Recipe& recipe, const Positions& face) const {
   const double units = recipe.mirrored ? contacts_->max_excess(mirrored(mirror(), face))
                                        : contacts_->max_excess(face);
   return units * mm_per_unit_;

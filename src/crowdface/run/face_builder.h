@@ -63,7 +63,7 @@ class FaceBuilder {
 
   /// How much wider the gap between lips, or other skin surfaces that almost touch, is in the face
   /// than in any head, in mm.
-  double wider_mm(const Recipe& recipe, const Positions& face) const;
+  double gap_excess_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory for building the given number of faces at once, including their positions, in bytes.
   std::uint64_t bytes(std::size_t faces) const;

@@ -51,7 +51,7 @@ std::string item_of(const FacePlan& face) {
 Json to_json(const SkinDefects& skin) {
   return {{"compared", skin.local.compared}, {"flipped", skin.local.flipped},
           {"stretch", skin.local.stretch},   {"intersecting", skin.intersecting},
-          {"wider_mm", skin.wider_mm},       {"exposed_mm2", skin.exposed_mm2}};
+          {"wider_mm", skin.gap_excess_mm},  {"exposed_mm2", skin.exposed_mm2}};
 }
 
 /// Parses what `to_json` wrote: the line's checksum has been verified. Throws if another version of
@@ -62,7 +62,7 @@ SkinDefects noted_skin(const Json& json) {
   skin.local.flipped = json.at("flipped").get<Index>();
   skin.local.stretch = json.at("stretch").get<double>();
   skin.intersecting = json.at("intersecting").get<Index>();
-  skin.wider_mm = json.at("wider_mm").get<double>();
+  skin.gap_excess_mm = json.at("wider_mm").get<double>();
   skin.exposed_mm2 = json.at("exposed_mm2").get<double>();
   return skin;
 }

@@ -51,15 +51,15 @@ std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inpu
 SampledHeads heads_at(const Config& config, const Inputs& inputs, const Prepared& prepared,
                       const FaceSamples& samples) {
   const FaceSamples traced =
-      inputs.mirror == nullptr ? samples : with_corners(samples, *inputs.mirror);
+      inputs.mirror == nullptr ? samples : samples_and_mirror_corners(samples, *inputs.mirror);
   std::vector<Trajectory> trajectories = trajectories_at(config, inputs, prepared, traced);
   SampledHeads heads = sample_heads(inputs.faces, inputs.regions, samples, trajectories,
                                     inputs.max_level, mm_per(config.faces.units));
   heads.owned_trajectories = std::move(trajectories);
   heads.trajectories = heads.owned_trajectories;
   if (inputs.mirror != nullptr) {
-    heads.image =
-        sample_images(inputs.faces, inputs.regions, *inputs.mirror, samples, traced, heads);
+    heads.mirror_images =
+        sample_mirror_images(inputs.faces, inputs.regions, *inputs.mirror, samples, traced, heads);
   }
   return heads;
 }

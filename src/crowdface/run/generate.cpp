@@ -155,7 +155,7 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
                                      StageSeconds& stages) {
   auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
   crowd->crowd_plan = timed(stages, "cast", [&] {
-    MeshDefects defects;
+    FindMeshDefects defects;
     if (candidates_are_built(job.config))
       defects = mesh_defects(job.config, job.inputs, crowd->builder.get());
     return plan_crowd(job.config, job.inputs, crowd->prepared, defects, options.cache);
@@ -375,7 +375,7 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
 
 /// A run that replaces another config's crowd applies the reviews of that crowd.
 ConfigOverrides with_reviews(ConfigOverrides overrides, const GenerateOptions& options) {
-  overrides.with_reviews_of_others = options.replace == Replace::kForce;
+  overrides.keep_reviews_of_other_configs = options.replace == Replace::kForce;
   return overrides;
 }
 

@@ -89,9 +89,9 @@ std::vector<std::vector<std::optional<double>>> measure_each(const Config& confi
 
 }  // namespace
 
-TraitSpread measure_heads(const Config& config, const Inputs& inputs,
-                          const HeadLandmarks& landmarks) {
-  return TraitSpread(measure_each(config, inputs, landmarks), config.quantiles_of.targets);
+TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
+                                 const HeadLandmarks& landmarks) {
+  return TraitDistributions(measure_each(config, inputs, landmarks), config.quantiles_of.targets);
 }
 
 std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs) {
@@ -132,7 +132,7 @@ std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
 std::string format_head_traits(const Config& config, const Inputs& inputs,
                                const HeadLandmarks& landmarks) {
   const auto heads = measure_each(config, inputs, landmarks);
-  const TraitSpread spread(heads);
+  const TraitDistributions spread(heads);
   constexpr std::size_t kNumberWidth = 9;
   const auto right_aligned = [](const std::string& text, std::size_t width) {
     return text.size() < width ? std::string(width - text.size(), ' ') + text : text;

@@ -37,8 +37,8 @@ std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
                                                 const Positions& mesh, double mm_per_unit);
 
 /// The measurements of all heads.
-TraitSpread measure_heads(const Config& config, const Inputs& inputs,
-                          const HeadLandmarks& landmarks);
+TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
+                                 const HeadLandmarks& landmarks);
 
 /// The values of the measurements that the config names: #heads by #named.
 std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs);

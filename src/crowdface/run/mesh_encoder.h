@@ -42,7 +42,7 @@ struct FaceMesh {
   std::span<const std::string_view> images = {};
   std::span<const std::string> image_names = {};  ///< #images: their paths relative to the mesh
   std::string material_file = {};  ///< the face's own material file; empty: the target's
-  std::string colour = {};         ///< of an attachment with a tint: text from label_of
+  std::string colour = {};         ///< of an attachment with a tint: text from colour_label
 };
 
 /// The data from which encoders are made. It must outlive the encoders and everything that they

@@ -64,7 +64,8 @@ bool candidates_are_built(const Config& config) {
          config.believability.meshes == BelievabilityOptions::Meshes::kJudge;
 }
 
-MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceBuilder& builder) {
+FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
+                             const FaceBuilder& builder) {
   std::set<Index> targets;
   for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
   const auto check = std::make_shared<SkinCheck>(skin_check(config, inputs, targets));
@@ -79,7 +80,7 @@ std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
   std::vector<std::string> beyond;
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (!files[i].skin) continue;
-    if (limit_passed(limits, *files[i].skin)) beyond.push_back(crowd[i].id);
+    if (exceeded_limit(limits, *files[i].skin)) beyond.push_back(crowd[i].id);
   }
   if (beyond.empty()) return {};
   constexpr std::size_t kNamed = 8;

@@ -28,7 +28,8 @@ bool candidates_are_built(const Config& config);
 
 /// A function that builds candidates and judges their meshes. \param builder  must outlive the
 /// result.
-MeshDefects mesh_defects(const Config& config, const Inputs& inputs, const FaceBuilder& builder);
+FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
+                             const FaceBuilder& builder);
 
 /// Warns about faces whose whole mesh exceeds a limit although their samples did not. \return the
 /// warning.

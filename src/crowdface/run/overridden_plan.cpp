@@ -38,7 +38,7 @@ class NamedFaces {
 
 bool may_wear(const Attachment& item, const std::vector<std::string>& tags) {
   const auto has = [&](const std::string& tag) { return contains(tags, tag); };
-  return std::ranges::all_of(item.tags, has) && std::ranges::none_of(item.without, has);
+  return std::ranges::all_of(item.tags, has) && std::ranges::none_of(item.excluded_tags, has);
 }
 
 class OverriddenPlan {
@@ -88,7 +88,7 @@ class OverriddenPlan {
         ++sizes[face.group.value_or("")];
         const bool wears = std::ranges::any_of(
             worn_by(face),
-            [&, &called = word](const Attachment* item) { return is_called(*item, called); });
+            [&, &called = word](const Attachment* item) { return matches_word(*item, called); });
         reached += wears ? 1 : 0;
         served += wears || !face.notes.changes.empty() ? 1 : 0;
       }
@@ -152,7 +152,7 @@ class OverriddenPlan {
     const auto worn = worn_by(face);
     const auto head = static_cast<std::size_t>(typical_head(face.recipe, config_.faces.tags));
     for (const Attachment* item : worn) {
-      if (!change.wears || !contains(*change.wears, item->name)) continue;
+      if (!change.attachments || !contains(*change.attachments, item->name)) continue;
       if (may_wear(*item, config_.faces.tags[head])) continue;
       not_for_head_.add(face.id, concat(item->name, ", ", config_.faces.names[head]));
     }
@@ -182,7 +182,7 @@ class OverriddenPlan {
       if (steps && later.age && later.age != change.age) replaced_.add(change.id, "age");
       check("variant_of", change.variant_of, later.variant_of);
       check("group", change.group, later.group);
-      check("wears", change.wears, later.wears);
+      check("wears", change.attachments, later.attachments);
       check("takes_off", change.takes_off, later.takes_off);
       check("hair", change.hair, later.hair);
       check("colours", change.colours, later.colours);

@@ -130,9 +130,9 @@ Config with_kept_distances(Config config, const std::string& before) {
   const auto kept = distances_in_config(before);
   const auto count = number_in_config(before, "crowd.count");
   const bool is_own = !diversity.min_distance_of_first_mm.empty() && kept &&
-                      diversity.min_distance_of_first_mm != kept->of_first_mm;
+                      diversity.min_distance_of_first_mm != kept->min_distance_of_first_mm;
   if (!kept || !count || is_own || diversity.min_distance_mm > kept->min_distance_mm) return config;
-  diversity.min_distance_of_first_mm = kept->of_first_mm;
+  diversity.min_distance_of_first_mm = kept->min_distance_of_first_mm;
   if (diversity.min_distance_mm < kept->min_distance_mm) {
     diversity.min_distance_of_first_mm[*count] = kept->min_distance_mm;
   }
@@ -153,7 +153,7 @@ void continue_crowd(Config& config, bool replaced) {
       config_differences(before, effective_config(continued, directory.root)).empty();
   if (is_same) {
     config = std::move(continued);
-    if (!replaced) config.crowd.existing = number_in_config(before, "crowd.count");
+    if (!replaced) config.crowd.existing_count = number_in_config(before, "crowd.count");
   }
   if (config.output.faces_per_folder) return;
   if (is_same) {
@@ -170,39 +170,41 @@ using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&
 ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
                                      Problems& problems) {
   ConfigReading reading = read(overrides, problems);
-  if (reading.complete) continue_crowd(reading.config, overrides.with_reviews_of_others);
+  if (reading.is_complete) continue_crowd(reading.config, overrides.keep_reviews_of_other_configs);
   const CrowdDirectory directory{reading.config.output.directory};
   const std::vector<std::filesystem::path> kept = directory.kept_reviews();
-  if (!reading.complete || kept.empty()) return reading;
+  if (!reading.is_complete || kept.empty()) return reading;
   const auto read_again = [&] {
     reading = read(overrides, problems);
-    if (reading.complete) continue_crowd(reading.config, overrides.with_reviews_of_others);
+    if (reading.is_complete)
+      continue_crowd(reading.config, overrides.keep_reviews_of_other_configs);
   };
   if (overrides.without_reviews) {
     overrides.ignored_reviews = directory.reviews();
     read_again();
-    reading.config.review.without_kept = true;
+    reading.config.review.ignores_kept_reviews = true;
     return reading;
   }
   std::vector<std::string> differences;
   if (path_exists(directory.config())) {
     const std::string before = read_file(directory.config());
     differences = config_differences(before, effective_config(reading.config, directory.root));
-    overrides.kept_count = number_in_config(before, "crowd.count");
+    overrides.kept_face_count = number_in_config(before, "crowd.count");
     const auto distances = distances_in_config(before);
     const double now = reading.config.diversity.min_distance_mm;
-    if (distances && distances->min_distance_mm != now && !overrides.with_reviews_of_others) {
+    if (distances && distances->min_distance_mm != now &&
+        !overrides.keep_reviews_of_other_configs) {
       overrides.kept_min_distance_mm = distances->min_distance_mm;
     }
   }
-  if (!differences.empty() && !overrides.with_reviews_of_others) {
+  if (!differences.empty() && !overrides.keep_reviews_of_other_configs) {
     log_warning(concat(directory.root.string(), ": keeps reviews of another config's crowd (it ",
                        "differs in ", join(differences), "), which are not applied"));
     return reading;
   }
   overrides.kept_reviews = kept;
   read_again();
-  if (!differences.empty() && !reading.complete) {
+  if (!differences.empty() && !reading.is_complete) {
     problems.add(ExitCode::kUsage,
                  concat(directory.reviews().string(), ": --force applies the reviews of the crowd ",
                         "that it replaces; to start without them, use --without-reviews"));
@@ -216,7 +218,7 @@ void check_reviews(const Config& config, Problems& problems) {
   const Config::Reviews& reviews = config.review;
   const auto kept = CrowdDirectory{config.output.directory}.kept_reviews();
   for (std::size_t i = kept.size(); i < reviews.reviews.size(); ++i) {
-    const std::uint64_t after = reviews.reviews[i].after.value_or(0);
+    const std::uint64_t after = reviews.reviews[i].seen_reviews.value_or(0);
     if (after <= i) continue;
     problems.add(ExitCode::kUsage, concat(reviews.files[i].string(), ": after: expected at most ",
                                           i, ", the number of earlier reviews, found ", after));
@@ -226,7 +228,7 @@ void check_reviews(const Config& config, Problems& problems) {
 std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& overrides,
                                  const CacheFolder& cache, Problems& problems) {
   ConfigReading reading = read_with_kept_reviews(read, overrides, problems);
-  if (!reading.complete) {
+  if (!reading.is_complete) {
     check_inputs(reading, cache, problems);
     return std::nullopt;
   }
@@ -305,7 +307,7 @@ CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) 
   std::string text = config_in_folder(config, directory);
   return {text, config.review.texts,
           [text](const std::string& other) { return config_differences(other, text); },
-          config.review.originals, config.review.without_kept};
+          config.review.original_texts, config.review.ignores_kept_reviews};
 }
 
 LevelScale level_scale(const Config& config, const Inputs& inputs) {

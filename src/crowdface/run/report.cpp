@@ -142,9 +142,9 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   if (result.skin) {
     const SkinDefects& skin = *result.skin;
     face["skin"] = {
-        {"triangles", skin.local.compared},       {"flipped", skin.local.flipped},
-        {"stretch", rounded(skin.local.stretch)}, {"intersecting", skin.intersecting},
-        {"wider_mm", rounded(skin.wider_mm)},     {"exposed_mm2", rounded(skin.exposed_mm2)}};
+        {"triangles", skin.local.compared},        {"flipped", skin.local.flipped},
+        {"stretch", rounded(skin.local.stretch)},  {"intersecting", skin.intersecting},
+        {"wider_mm", rounded(skin.gap_excess_mm)}, {"exposed_mm2", rounded(skin.exposed_mm2)}};
   }
   if (neck_colour != nullptr) {
     const Eigen::Array3d& light = *neck_colour;

@@ -25,25 +25,26 @@ std::string asked_of(const Config& config, Reason reason) {
 std::vector<std::string> advice_for_existing(const Config& config, const Remedy& remedy,
                                              const Shortfall& shortfall) {
   std::vector<std::string> advice;
-  const bool grows = config.crowd.count > *config.crowd.existing;
+  const bool grows = config.crowd.count > *config.crowd.existing_count;
   const bool is_first_fit = config.diversity.mode == DiversityOptions::Mode::kFirstFit;
-  if (remedy.binding == Reason::kMinDistance && is_first_fit) {
-    const std::string smaller = remedy.largest_mm
-                                    ? concat("diversity.min_distance: ", *remedy.largest_mm, " mm",
-                                             remedy.tried == config.crowd.count ? "" : " or less")
-                                    : std::string("a smaller diversity.min_distance");
+  if (remedy.binding_constraint == Reason::kMinDistance && is_first_fit) {
+    const std::string smaller =
+        remedy.largest_distance_mm
+            ? concat("diversity.min_distance: ", *remedy.largest_distance_mm, " mm",
+                     remedy.trial_faces == config.crowd.count ? "" : " or less")
+            : std::string("a smaller diversity.min_distance");
     advice.push_back(
-        concat(smaller, shortfall.changed.empty() ? "" : ", and the change in a review", "; the ",
-               *config.crowd.existing, " faces that exist stay as they are, ",
+        concat(smaller, shortfall.changed_face.empty() ? "" : ", and the change in a review",
+               "; the ", *config.crowd.existing_count, " faces that exist stay as they are, ",
                "only new, redrawn and changed faces come nearer"));
-  } else if (remedy.binding == Reason::kRejected) {
+  } else if (remedy.binding_constraint == Reason::kRejected) {
     advice.emplace_back(
         "a change of the face in place of the mark (group, lock, traits or variant_of): changes do "
         "not keep this distance");
   }
   if (grows) {
     advice.push_back(
-        concat("a crowd.count of ", std::max(shortfall.reached, *config.crowd.existing)));
+        concat("a crowd.count of ", std::max(shortfall.reached, *config.crowd.existing_count)));
   }
   advice.emplace_back(
       "other keys decide who the existing faces are; to change these keys, cast another crowd with "
@@ -54,23 +55,23 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
 /// Changes that may help the user, most promising first.
 std::vector<std::string> advice(const Config& config, const Remedy& remedy,
                                 const Shortfall& shortfall) {
-  if (config.crowd.existing) return advice_for_existing(config, remedy, shortfall);
+  if (config.crowd.existing_count) return advice_for_existing(config, remedy, shortfall);
   std::vector<std::string> advice;
-  if (remedy.largest_mm) {
-    const bool all = remedy.tried == config.crowd.count;
-    advice.push_back(concat("the largest ", name_of(remedy.binding), " with which ",
-                            all ? "all " : "the first ", remedy.tried,
-                            " faces were cast in a trial: ", *remedy.largest_mm, " mm",
+  if (remedy.largest_distance_mm) {
+    const bool all = remedy.trial_faces == config.crowd.count;
+    advice.push_back(concat("the largest ", name_of(remedy.binding_constraint), " with which ",
+                            all ? "all " : "the first ", remedy.trial_faces,
+                            " faces were cast in a trial: ", *remedy.largest_distance_mm, " mm",
                             all ? "" : "; more faces need a smaller value"));
   }
-  if (remedy.binding == Reason::kMinDistance &&
+  if (remedy.binding_constraint == Reason::kMinDistance &&
       config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
     advice.emplace_back("mode: spread fits more faces at the same distance");
   }
-  for (const std::string_view line : constraint_of(remedy.binding).advice) {
+  for (const std::string_view line : constraint_of(remedy.binding_constraint).advice) {
     advice.emplace_back(line);
   }
-  if (remedy.binding == Reason::kFamily &&
+  if (remedy.binding_constraint == Reason::kFamily &&
       std::ranges::any_of(config.families, [](const auto& family) {
         return family.age != Range{0, 0};
       })) {
@@ -98,8 +99,8 @@ void ScarcityWarning::face_joined(const Rejections& rejected) {
   ++cast_;
   if (has_warned_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
   forecast_.add(rejected.of(Reason::kMinDistance),
-                static_cast<std::uint64_t>(casting_.diversity.candidates_for(cast_)));
-  const auto faces = forecast_.faces();
+                static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_)));
+  const auto faces = forecast_.estimated_faces();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
   if (faces && *faces < static_cast<double>(casting_.count)) {
     has_warned_ = true;
@@ -119,25 +120,27 @@ void ScarcityWarning::face_joined(const Rejections& rejected) {
 void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall,
                     const std::vector<std::string>& about_traits) {
   const std::uint64_t rejected = shortfall.rejections.total();
-  const std::uint64_t by_main = shortfall.rejections.of(remedy.binding);
+  const std::uint64_t by_main = shortfall.rejections.of(remedy.binding_constraint);
   std::string message = concat(config.file.string(), ": ");
   if (!shortfall.family.empty()) {
     message += concat("the family ", shortfall.family, " cannot be cast: its members cannot be ",
                       "within max_distance of a founder, min_distance apart and nearer to each ",
                       "other than to all other faces (most candidates violate ",
-                      asked_of(config, remedy.binding), ")");
+                      asked_of(config, remedy.binding_constraint), ")");
   } else if (!shortfall.recipe.empty()) {
     message += concat("the recipe ", shortfall.recipe,
-                      " cannot be drawn: ", asked_of(config, remedy.binding), ", cannot be met");
-  } else if (!shortfall.changed.empty()) {
-    message += concat(shortfall.changed, " cannot be changed: ", asked_of(config, remedy.binding),
+                      " cannot be drawn: ", asked_of(config, remedy.binding_constraint),
                       ", cannot be met");
-  } else if (!shortfall.reviewed.empty()) {
-    message += concat(shortfall.reviewed, ", which the review rejects, cannot be redrawn: ",
-                      asked_of(config, remedy.binding), ", cannot be met");
+  } else if (!shortfall.changed_face.empty()) {
+    message += concat(shortfall.changed_face,
+                      " cannot be changed: ", asked_of(config, remedy.binding_constraint),
+                      ", cannot be met");
+  } else if (!shortfall.reviewed_face.empty()) {
+    message += concat(shortfall.reviewed_face, ", which the review rejects, cannot be redrawn: ",
+                      asked_of(config, remedy.binding_constraint), ", cannot be met");
   } else {
     message += concat(
-        config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding),
+        config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding_constraint),
         ", cannot be met; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
   }
   if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&

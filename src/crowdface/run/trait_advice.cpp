@@ -36,7 +36,7 @@ FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& sho
                              std::uint32_t attempt) {
   const auto hand = std::ranges::find(casting.recipes, shortfall.recipe, &ManualRecipe::id);
   if (!shortfall.recipe.empty() && hand != casting.recipes.end()) {
-    return complete_recipe(casting, *hand, attempt);
+    return completed_face_plan(casting, *hand, attempt);
   }
   const auto family = std::ranges::find(casting.families, shortfall.family, &FamilyOptions::name);
   const bool of_family = !shortfall.family.empty() && family != casting.families.end();
@@ -76,18 +76,18 @@ std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs
       high = std::max(high, value);
       if (measurer.spread().meets(limit, value)) continue;
       const bool is_low =
-          limit.at_least && value < measurer.spread().value_of(limit.trait, *limit.at_least);
+          limit.at_least && value < measurer.spread().bound_value(limit.trait, *limit.at_least);
       ++(is_low ? below : above);
     }
     std::string ends;
     if (limit.at_least) {
-      ends += concat(" at least ", format_trait(measurement, measurer.spread().value_of(
+      ends += concat(" at least ", format_trait(measurement, measurer.spread().bound_value(
                                                                  limit.trait, *limit.at_least)));
     }
     if (limit.at_most) {
       ends += concat(
           ends.empty() ? "" : ",", " at most ",
-          format_trait(measurement, measurer.spread().value_of(limit.trait, *limit.at_most)));
+          format_trait(measurement, measurer.spread().bound_value(limit.trait, *limit.at_most)));
     }
     std::vector<double> of_heads;
     for (const Head& head : inputs.faces.heads) {

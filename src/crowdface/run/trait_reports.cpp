@@ -35,7 +35,7 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
   if (!casting.population.empty()) drawn = sampled_landmarks(casting, traits.measurer());
   for (std::size_t t = 0; t < traits.traits().size(); ++t) {
     const std::size_t trait = traits.traits()[t];
-    TraitReport report{trait, quartiles(traits.measurer().spread().ascending(trait)), {}, {}};
+    TraitReport report{trait, quartiles(traits.measurer().spread().sorted_values(trait)), {}, {}};
     std::vector<double> all, sampled;
     for (const FacePlan& face : crowd) {
       all.push_back(face.traits[t]);
@@ -56,9 +56,9 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
       report.asked = {*target,
                       mean,
                       std::sqrt(squares / std::max(count - 1, 1.0)),
-                      largest_difference(*target, sampled),
-                      normal_share(*target, low),
-                      1 - normal_share(*target, high)};
+                      kolmogorov_smirnov_distance(*target, sampled),
+                      normal_fraction_below(*target, low),
+                      1 - normal_fraction_below(*target, high)};
     }
     reports.push_back(report);
   }
@@ -96,7 +96,7 @@ std::string format_trait_ranges(const Config& config, const Inputs& inputs,
                              "   faces: least      1 %     50 %     99 %  greatest\n");
   for (const std::size_t trait : traits->traits()) {
     const Measurement& of = measurements()[trait];
-    const std::vector<double>& heads = traits->measurer().spread().ascending(trait);
+    const std::vector<double>& heads = traits->measurer().spread().sorted_values(trait);
     std::vector<double> faces;
     for (const Positions& points : drawn) faces.push_back(measure(of, points));
     std::ranges::sort(faces);

@@ -76,7 +76,7 @@ class Rings {
 double mean_leaf_size(const TriangleTree& tree, const SingleRows& points) {
   double sum = 0;
   for (const LeafCorners& corners : tree.corners) {
-    const Box box = LeafBoxes(corners, points, 0).whole();
+    const Box box = LeafBoxes(corners, points, 0).bounding_box();
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const double side = static_cast<double>(box.high[c]) - static_cast<double>(box.low[c]);
@@ -156,7 +156,7 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
 
 void CrossingSearch::measure_leaf(std::size_t l, Boxes& boxes) const {
   boxes.triangle_boxes[l] = LeafBoxes(tree_.corners[l], boxes.points, 0);
-  boxes.leaf_boxes[l] = boxes.triangle_boxes[l].whole();
+  boxes.leaf_boxes[l] = boxes.triangle_boxes[l].bounding_box();
   boxes.leaf_normals[l] = LeafNormals(tree_.corners[l], boxes.points);
 }
 
@@ -187,13 +187,13 @@ void CrossingSearch::update(const Positions& mesh, const std::vector<bool>& chan
   }
 }
 
-std::vector<CrossingSearch::Pair> CrossingSearch::crossing_pairs(
+std::vector<CrossingSearch::Pair> CrossingSearch::intersecting_pairs(
     const Positions& mesh, const Boxes& boxes,
     const std::function<bool(std::uint32_t)>& is_excused) const {
   std::vector<Pair> pairs;
   for (const LeafPair& pair : leaf_pairs_) {
     if ((boxes.is_changed[pair.first] | boxes.is_changed[pair.second]) == 0) continue;
-    if (!overlap(boxes.leaf_boxes[pair.first], boxes.leaf_boxes[pair.second])) continue;
+    if (!boxes_overlap(boxes.leaf_boxes[pair.first], boxes.leaf_boxes[pair.second])) continue;
     std::uint64_t left =
         (pair.always_tested | pair.tested_if_folded) &
         overlap_mask(boxes.triangle_boxes[pair.first], boxes.triangle_boxes[pair.second]);

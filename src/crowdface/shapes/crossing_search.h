@@ -50,8 +50,8 @@ class CrossingSearch {
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
   /// \param is_excused  A pair is ignored if this function returns true for both of its triangles.
-  std::vector<Pair> crossing_pairs(const Positions& mesh, const Boxes& boxes,
-                                   const std::function<bool(std::uint32_t)>& is_excused) const;
+  std::vector<Pair> intersecting_pairs(const Positions& mesh, const Boxes& boxes,
+                                       const std::function<bool(std::uint32_t)>& is_excused) const;
 
  private:
   /// Bit masks of the candidates in a pair of leaves, or in one leaf that is paired with itself.

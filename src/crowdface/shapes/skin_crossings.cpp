@@ -141,8 +141,8 @@ class SkinCrossings::Repair {
            face_.crosses_at_rest[c];
   }
   void look() {
-    pairs_ = watched_.search.crossing_pairs(mesh_, boxes_,
-                                            [&](std::uint32_t t) { return is_excused(t); });
+    pairs_ = watched_.search.intersecting_pairs(mesh_, boxes_,
+                                                [&](std::uint32_t t) { return is_excused(t); });
   }
   /// Searches for intersections again after vertices have moved.
   ///
@@ -339,7 +339,7 @@ void SkinCrossings::mark_excused(const Positions& mesh, Watched& watched) const 
   std::vector<bool> there(is_skin_.size(), false);
   const auto known = [&](std::uint32_t t) { return watched.is_excused[t]; };
   for (const std::uint32_t v :
-       vertices_of(search.crossing_pairs(mesh, search.make_boxes(mesh), known), search)) {
+       vertices_of(search.intersecting_pairs(mesh, search.make_boxes(mesh), known), search)) {
     there[v] = true;
   }
   for (std::size_t i = 0; i < watched.is_excused.size(); ++i) {
@@ -364,7 +364,7 @@ std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
   std::vector<bool> at(is_skin_.size(), false);
   const auto none = [](std::uint32_t) { return false; };
   for (const std::uint32_t v :
-       vertices_of(all.crossing_pairs(rest, all.make_boxes(rest), none), all)) {
+       vertices_of(all.intersecting_pairs(rest, all.make_boxes(rest), none), all)) {
     at[v] = true;
   }
   return at;

@@ -50,8 +50,8 @@ std::string_view unit_of(const Measurement& measurement);
 /// The landmarks that a measurement needs: ascending indices into trait_landmarks().
 std::vector<std::size_t> landmarks_of(const Measurement& measurement);
 
-/// The value of a measurement on a face, in millimetres, degrees or as a ratio. Angles are rounded
-/// to 10⁻⁶ degrees, because arc functions differ between versions of the C library.
+/// Returns the value of a measurement of a face: in millimetres, in degrees, or a ratio. Angles are
+/// rounded to 10⁻⁶ degrees, because arc functions differ between versions of the C library.
 /// \param landmarks  #landmarks by 3, positions in millimetres in the order of trait_landmarks();
 ///                   rows that the measurement does not need may hold anything.
 double measure(const Measurement& measurement, const Positions& landmarks);

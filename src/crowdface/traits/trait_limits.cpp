@@ -19,21 +19,21 @@ TraitLimits merge_limits(const TraitLimits& common, const TraitLimits& own) {
   return all;
 }
 
-TraitSpread::TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads,
-                         std::vector<TraitTarget> table)
-    : ascending_(measurements().size()), table_(std::move(table)) {
+TraitDistributions::TraitDistributions(const std::vector<std::vector<std::optional<double>>>& heads,
+                                       std::vector<TraitTarget> table)
+    : sorted_values_(measurements().size()), table_(std::move(table)) {
   for (const auto& head : heads) {
     for (std::size_t m = 0; m < head.size(); ++m) {
-      if (head[m]) ascending_[m].push_back(*head[m]);
+      if (head[m]) sorted_values_[m].push_back(*head[m]);
     }
   }
-  for (std::vector<double>& values : ascending_) std::ranges::sort(values);
+  for (std::vector<double>& values : sorted_values_) std::ranges::sort(values);
 }
 
-double TraitSpread::quantile(std::size_t trait, double share) const {
+double TraitDistributions::quantile(std::size_t trait, double share) const {
   const auto row = std::ranges::find(table_, trait, &TraitTarget::trait);
   if (row != table_.end()) return normal_quantile(*row, share);
-  const std::vector<double>& values = ascending_[trait];
+  const std::vector<double>& values = sorted_values_[trait];
   const double at = share * static_cast<double>(values.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(at), values.size() - 1);
   const auto above = std::min(below + 1, values.size() - 1);
@@ -41,22 +41,22 @@ double TraitSpread::quantile(std::size_t trait, double share) const {
   return (1 - t) * values[below] + t * values[above];
 }
 
-double TraitSpread::mean(std::size_t trait) const {
+double TraitDistributions::mean(std::size_t trait) const {
   double sum = 0;
-  for (const double value : ascending_[trait]) sum += value;
-  return sum / static_cast<double>(ascending_[trait].size());
+  for (const double value : sorted_values_[trait]) sum += value;
+  return sum / static_cast<double>(sorted_values_[trait].size());
 }
 
-double TraitSpread::deviation(std::size_t trait) const {
-  const double middle = mean(trait), count = static_cast<double>(ascending_[trait].size());
+double TraitDistributions::deviation(std::size_t trait) const {
+  const double middle = mean(trait), count = static_cast<double>(sorted_values_[trait].size());
   double squares = 0;
-  for (const double value : ascending_[trait]) squares += (value - middle) * (value - middle);
+  for (const double value : sorted_values_[trait]) squares += (value - middle) * (value - middle);
   return count > 1 ? std::sqrt(squares / (count - 1)) : 0;
 }
 
-bool TraitSpread::meets(const TraitLimit& limit, double value) const {
-  return !(limit.at_least && value < value_of(limit.trait, *limit.at_least)) &&
-         !(limit.at_most && value > value_of(limit.trait, *limit.at_most));
+bool TraitDistributions::meets(const TraitLimit& limit, double value) const {
+  return !(limit.at_least && value < bound_value(limit.trait, *limit.at_least)) &&
+         !(limit.at_most && value > bound_value(limit.trait, *limit.at_most));
 }
 
 std::string format_trait(const Measurement& measurement, double value) {
@@ -64,7 +64,7 @@ std::string format_trait(const Measurement& measurement, double value) {
   return concat(format_fixed(value, unit.empty() ? 3 : 1), unit);
 }
 
-double normal_share(const TraitTarget& target, double value) {
+double normal_fraction_below(const TraitTarget& target, double value) {
   constexpr double kSteps = 1e9;
   const double z = (value - target.mean) / target.deviation;
   return std::round(0.5 * std::erfc(-z / std::numbers::sqrt2) * kSteps) / kSteps;
@@ -76,17 +76,17 @@ double normal_quantile(const TraitTarget& target, double share) {
   double low = -kFarthest, high = kFarthest;
   while (high - low > 0.1 / kSteps) {
     const double middle = (low + high) / 2;
-    (normal_share(standard, middle) < share ? low : high) = middle;
+    (normal_fraction_below(standard, middle) < share ? low : high) = middle;
   }
   return target.mean + target.deviation * std::round(high * kSteps) / kSteps;
 }
 
-double largest_difference(const TraitTarget& target, std::vector<double> values) {
+double kolmogorov_smirnov_distance(const TraitTarget& target, std::vector<double> values) {
   std::ranges::sort(values);
   const auto count = static_cast<double>(values.size());
   double most = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double asked = normal_share(target, values[i]);
+    const double asked = normal_fraction_below(target, values[i]);
     most = std::max({most, std::abs(asked - static_cast<double>(i) / count),
                      std::abs(asked - static_cast<double>(i + 1) / count)});
   }

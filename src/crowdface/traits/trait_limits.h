@@ -11,19 +11,19 @@
 
 namespace crowdface {
 
-/// The lower or upper end of a limit.
-struct TraitEnd {
+/// The lower or upper bound of a limit.
+struct TraitBound {
   double value = 0;  ///< in the measurement's unit, or a quantile from 0 to 1
-  /// whether `value` is a quantile of the heads or of a table, see TraitSpread
+  /// whether `value` is a quantile of the heads or of a table, see TraitDistributions
   bool is_quantile = false;
-  bool operator==(const TraitEnd&) const = default;
+  bool operator==(const TraitBound&) const = default;
 };
 
-/// The allowed range of a measurement of a face. A limit without ends does not restrict faces; it
+/// The allowed range of a measurement of a face. A limit without bounds does not restrict faces; it
 /// only adds the measurement to reports.
 struct TraitLimit {
   std::size_t trait = 0;  ///< index into measurements()
-  std::optional<TraitEnd> at_least = {}, at_most = {};
+  std::optional<TraitBound> at_least = {}, at_most = {};
   bool operator==(const TraitLimit&) const = default;
 };
 /// Limits, ascending by trait, at most one for each trait.
@@ -40,23 +40,25 @@ struct TraitTarget {
 TraitLimits merge_limits(const TraitLimits& common, const TraitLimits& own);
 
 /// The distributions of the measurements over the heads, which give the quantiles for limits.
-class TraitSpread {
+class TraitDistributions {
  public:
   /// \param heads  for each head, the values of all measurements in the table's order; nothing if a
   /// measurement is not available.
   /// \param table  distributions that replace the heads for the quantiles of their measurements
-  explicit TraitSpread(const std::vector<std::vector<std::optional<double>>>& heads,
-                       std::vector<TraitTarget> table = {});
+  explicit TraitDistributions(const std::vector<std::vector<std::optional<double>>>& heads,
+                              std::vector<TraitTarget> table = {});
 
-  bool is_available(std::size_t trait) const { return !ascending_[trait].empty(); }
+  bool is_available(std::size_t trait) const { return !sorted_values_[trait].empty(); }
   /// The values of the heads, ascending. \pre the trait is available, as for all functions below.
-  const std::vector<double>& ascending(std::size_t trait) const { return ascending_[trait]; }
+  const std::vector<double>& sorted_values(std::size_t trait) const {
+    return sorted_values_[trait];
+  }
   /// A quantile of the trait: of the table's distribution if the table has the trait
   /// (normal_quantile), otherwise interpolated linearly between the values of the heads. 0 gives
   /// the smallest value, 1 the largest value.
   double quantile(std::size_t trait, double share) const;
-  double value_of(std::size_t trait, const TraitEnd& end) const {
-    return end.is_quantile ? quantile(trait, end.value) : end.value;
+  double bound_value(std::size_t trait, const TraitBound& bound) const {
+    return bound.is_quantile ? quantile(trait, bound.value) : bound.value;
   }
   double mean(std::size_t trait) const;
   /// Standard deviation of the trait; 0 for a single head.
@@ -65,24 +67,24 @@ class TraitSpread {
 
  private:
   /// #measurements: the values of the heads, ascending
-  std::vector<std::vector<double>> ascending_;
+  std::vector<std::vector<double>> sorted_values_;
   std::vector<TraitTarget> table_;
 };
 
-/// A value with its unit: "38.2 mm", "104.1 degrees", "0.672".
+/// Returns a value with its unit: "38.2 mm", "104.1 degrees", "0.672".
 std::string format_trait(const Measurement& measurement, double value);
 
-/// The fraction of a normal distribution that lies below a value, rounded to 10⁻⁹, because error
+/// Returns the fraction of a normal distribution below a value, rounded to 10⁻⁹, because error
 /// functions differ between C libraries.
-double normal_share(const TraitTarget& target, double value);
+double normal_fraction_below(const TraitTarget& target, double value);
 
-/// The value below which the given fraction of a normal distribution lies, rounded to 10⁻⁶ standard
-/// deviations. The fractions 0 and 1 give the values six standard deviations below and above the
-/// mean.
+/// Returns the value below which the given fraction of a normal distribution lies, rounded to 10⁻⁶
+/// standard deviations. The fractions 0 and 1 give the values six standard deviations below and
+/// above the mean.
 double normal_quantile(const TraitTarget& target, double share);
 
-/// The largest difference, from 0 to 1, between the cumulative distributions of the values and of
-/// the target (the statistic of Kolmogorov and Smirnov).
-double largest_difference(const TraitTarget& target, std::vector<double> values);
+/// Returns the Kolmogorov-Smirnov statistic: the largest difference, from 0 to 1, between the
+/// cumulative distributions of the values and of the target.
+double kolmogorov_smirnov_distance(const TraitTarget& target, std::vector<double> values);
 
 }  // namespace crowdface

@@ -11,9 +11,9 @@ std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
       .near_pairs();
 }
 
-std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
-                                       const Positions& positions,
-                                       const std::vector<TrianglePair>& pairs) {
+std::vector<TrianglePair> intersecting_pairs(const std::vector<Triangle>& triangles,
+                                             const Positions& positions,
+                                             const std::vector<TrianglePair>& pairs) {
   std::vector<TrianglePair> found;
   std::copy_if(
       pairs.begin(), pairs.end(), std::back_inserter(found), [&](const TrianglePair& pair) {

@@ -13,10 +13,10 @@ namespace crowdface {
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin);
 
-/// The given pairs that intersect, see triangles_intersect.
-std::vector<TrianglePair> intersecting(const std::vector<Triangle>& triangles,
-                                       const Positions& positions,
-                                       const std::vector<TrianglePair>& pairs);
+/// Returns the given pairs whose triangles intersect; see triangles_intersect.
+std::vector<TrianglePair> intersecting_pairs(const std::vector<Triangle>& triangles,
+                                             const Positions& positions,
+                                             const std::vector<TrianglePair>& pairs);
 
 /// Counts the triangles of a face that take part in intersections that the target does not have.
 /// Where the target already intersects itself, for example at the corner of the mouth, triangles
@@ -27,7 +27,7 @@ class NewIntersections {
   /// \param target_pairs  the intersecting pairs of the target itself.
   NewIntersections(const std::vector<Triangle>& triangles, Index vertex_count,
                    const std::vector<TrianglePair>& target_pairs);
-  /// The number of triangles in new intersections.
+  /// Returns the number of triangles in new intersections.
   /// \param face_pairs  all intersecting pairs of the face.
   Index count(const std::vector<TrianglePair>& face_pairs) const;
 

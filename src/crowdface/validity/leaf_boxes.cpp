@@ -22,7 +22,7 @@ struct Lanes3 {
   Lanes x[3];
 };
 
-/// Corner `k` of the triangles from `begin` on.
+/// Returns corner `k` of consecutive triangles, starting at triangle `begin`.
 Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
                  const float* points) {
   const hn::RebindToSigned<decltype(kLanes)> integers;
@@ -71,7 +71,7 @@ void measure_normals(const LeafCorners& corners, const float* points, LeafNormal
     }
     const auto length = hn::Sqrt(square);
     for (std::size_t c = 0; c < 3; ++c) {
-      hn::StoreU(hn::Div(n[c], length), kLanes, &normals.along[c][begin]);
+      hn::StoreU(hn::Div(n[c], length), kLanes, &normals.components[c][begin]);
     }
   }
 }
@@ -153,10 +153,10 @@ std::uint64_t common_vertices(const LeafCorners& a, const LeafCorners& b) {
 std::uint64_t alike_normals(const LeafNormals& a, const LeafNormals& b, float min_cosine) {
   return compared([&](std::size_t begin) {
     Lanes3 n;
-    for (std::size_t c = 0; c < 3; ++c) n.x[c] = hn::LoadU(kLanes, &b.along[c][begin]);
+    for (std::size_t c = 0; c < 3; ++c) n.x[c] = hn::LoadU(kLanes, &b.components[c][begin]);
     return [&a, n, min_cosine](std::size_t i) {
       const auto part = [&](std::size_t c) {
-        return hn::Mul(hn::Set(kLanes, a.along[c][i]), n.x[c]);
+        return hn::Mul(hn::Set(kLanes, a.components[c][i]), n.x[c]);
       };
       return hn::Gt(hn::Add(hn::Add(part(0), part(1)), part(2)), hn::Set(kLanes, min_cosine));
     };
@@ -186,7 +186,7 @@ BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   }
 }
 
-bool meets(const BoxRay& ray, const Box& box) {
+bool ray_hits_box(const BoxRay& ray, const Box& box) {
   double near = 0, far = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
     const double a = (box.low[c] - ray.origin[c]) * ray.inverse[c];
@@ -214,7 +214,7 @@ std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, fl
 }
 
 /// Without branches, because the processor could not predict them.
-bool overlap(const Box& a, const Box& b) {
+bool boxes_overlap(const Box& a, const Box& b) {
   unsigned apart = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     apart |= static_cast<unsigned>(a.low[c] > b.high[c]);
@@ -248,7 +248,7 @@ LeafNormals::LeafNormals(const LeafCorners& corners, const SingleRows& points) {
   HWY_DYNAMIC_DISPATCH(measure_normals)(corners, points.data(), *this);
 }
 
-Box LeafBoxes::whole() const {
+Box LeafBoxes::bounding_box() const {
   Box box;
   for (std::size_t c = 0; c < 3; ++c) {
     std::array<float, kCount> least = low[c], most = high[c];

@@ -17,7 +17,7 @@ struct Box {
 };
 
 /// Whether two boxes overlap.
-bool overlap(const Box& a, const Box& b);
+bool boxes_overlap(const Box& a, const Box& b);
 
 /// Corners of up to eight neighbouring triangles (a leaf) in a layout for SIMD instructions. If the
 /// leaf has fewer triangles, copies of the first triangle fill the rest.
@@ -40,13 +40,13 @@ struct LeafBoxes {
   /// \param points  #V by 3
   /// \param margin  distance by which the boxes grow on all sides
   LeafBoxes(const LeafCorners& corners, const SingleRows& points, double margin);
-  /// The box around all triangles of the leaf.
-  Box whole() const;
+  /// Returns the box around all triangles of the leaf.
+  Box bounding_box() const;
 };
 
 /// Unit normals of the triangles in a leaf.
 struct LeafNormals {
-  std::array<std::array<float, LeafCorners::kCount>, 3> along;  ///< [axis][triangle]
+  std::array<std::array<float, LeafCorners::kCount>, 3> components;  ///< [axis][triangle]
 
   LeafNormals() = default;
   LeafNormals(const LeafCorners& corners, const SingleRows& points);
@@ -63,7 +63,7 @@ struct BoxRay {
 };
 
 /// Whether a ray hits a box (slab method, Kay & Kajiya 1986). Rounding never causes a missed hit.
-bool meets(const BoxRay& ray, const Box& box);
+bool ray_hits_box(const BoxRay& ray, const Box& box);
 /// Tests a ray against all boxes of a leaf: bit i is set if the ray hits box i. Bits beyond the
 /// leaf's triangles are undefined.
 unsigned hit_mask(const BoxRay& ray, const LeafBoxes& boxes);

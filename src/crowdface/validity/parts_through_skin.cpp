@@ -26,7 +26,7 @@ double PartsThroughSkin::exposed_mm2(const Positions& positions) const {
   if (triangles_.size() == skin_count_) return 0;
   const TriangleScene scene(triangles_, tree_, positions, ray_margin(positions));
   std::set<std::uint32_t> through;  // triangles of parts
-  for (const auto& [a, b] : scene.crossing_pairs()) {
+  for (const auto& [a, b] : scene.intersecting_pairs()) {
     if (a < skin_count_ && b >= skin_count_) through.insert(b);
   }
   std::vector<std::size_t> viewers(view_setup_.directions.size());

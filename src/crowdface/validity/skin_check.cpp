@@ -28,7 +28,7 @@ constexpr double kFlattestCosine = 0.2;
 
 /// Orients the skin's triangles so that their normals point outwards: flips all if the enclosed
 /// volume is negative.
-std::vector<Triangle> outward(std::vector<Triangle> triangles, const Positions& head) {
+std::vector<Triangle> oriented_outwards(std::vector<Triangle> triangles, const Positions& head) {
   if (triangles.empty()) return triangles;
   const Eigen::Vector3d origin = row3(head, triangles.front()[0]);
   double volume = 0;
@@ -96,16 +96,16 @@ double visible_back_area(const TriangleScene& scene, const std::vector<Triangle>
 }
 
 /// The self-intersections of a skin, and the visible area of the skin's back side.
-struct Crossing {
+struct SelfIntersections {
   std::vector<TrianglePair> pairs;
   double exposed;
 };
 
-Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree& tree,
-                     const Positions& positions, const VertexFaces& around,
-                     const ViewSetup& view_setup) {
+SelfIntersections self_intersections_of(const std::vector<Triangle>& triangles,
+                                        const TriangleTree& tree, const Positions& positions,
+                                        const VertexFaces& around, const ViewSetup& view_setup) {
   const TriangleScene scene(triangles, tree, positions, ray_margin(positions));
-  std::vector<TrianglePair> pairs = scene.crossing_pairs();
+  std::vector<TrianglePair> pairs = scene.intersecting_pairs();
   const double exposed = visible_back_area(scene, triangles, positions, around, pairs, view_setup);
   return {std::move(pairs), exposed};
 }
@@ -115,21 +115,22 @@ Crossing crossing_of(const std::vector<Triangle>& triangles, const TriangleTree&
 SkinCheck::SkinCheck(const Topology& topology, const Components& components,
                      const std::vector<Head>& heads, const std::set<Index>& targets,
                      ViewSetup view_setup)
-    : triangles_(outward(triangles_of(topology, components, components.largest()),
-                         first_of(heads).positions)),
+    : triangles_(oriented_outwards(triangles_of(topology, components, components.largest()),
+                                   first_of(heads).positions)),
       tree_(triangles_, heads.front().positions),
-      around_(topology_of(triangles_, topology.vertex_count)),
+      triangles_at_vertex_(topology_of(triangles_, topology.vertex_count)),
       view_setup_(std::move(view_setup)) {
   const std::vector<Index> asked(targets.begin(), targets.end());
   std::vector<std::optional<Target>> ready(asked.size());
   parallel_for_each(asked.size(), [&](std::size_t t) {
-    ready[t] = prepared(heads[static_cast<std::size_t>(asked[t])].positions);
+    ready[t] = prepared_target(heads[static_cast<std::size_t>(asked[t])].positions);
   });
   for (std::size_t t = 0; t < asked.size(); ++t) targets_.emplace(asked[t], std::move(*ready[t]));
 }
 
-SkinCheck::Target SkinCheck::prepared(const Positions& positions) const {
-  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, view_setup_);
+SkinCheck::Target SkinCheck::prepared_target(const Positions& positions) const {
+  const SelfIntersections crossing =
+      self_intersections_of(triangles_, tree_, positions, triangles_at_vertex_, view_setup_);
   return {TargetTriangles(triangles_, positions),
           NewIntersections(triangles_, positions.rows(), crossing.pairs), crossing.exposed};
 }
@@ -139,13 +140,14 @@ SkinDefects SkinCheck::compare(const Positions& positions, Index target) const {
 }
 
 SkinDefects SkinCheck::compare(const Positions& positions, const Positions& target) const {
-  return compare(positions, prepared(target));
+  return compare(positions, prepared_target(target));
 }
 
 SkinDefects SkinCheck::compare(const Positions& positions, const Target& target) const {
   SkinDefects defects;
   defects.local = target.triangles.compare(positions);
-  const Crossing crossing = crossing_of(triangles_, tree_, positions, around_, view_setup_);
+  const SelfIntersections crossing =
+      self_intersections_of(triangles_, tree_, positions, triangles_at_vertex_, view_setup_);
   defects.intersecting = target.intersections.count(crossing.pairs);
   defects.exposed_mm2 = std::max(0.0, crossing.exposed - target.exposed) * view_setup_.mm_per_unit *
                         view_setup_.mm_per_unit;

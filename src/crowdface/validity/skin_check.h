@@ -24,7 +24,7 @@ struct SkinDefects {
   Index intersecting = 0;  ///< triangles in intersections that the target does not have
   /// How much a gap at a contact of the skin (such as between the lips) exceeds the widest gap of
   /// any head at the same contact. Not set by SkinCheck, but by callers that know the contacts.
-  double wider_mm = 0;
+  double gap_excess_mm = 0;
   double exposed_mm2 = 0;  ///< visible area of the skin's back side, in excess of the target's
 };
 
@@ -55,12 +55,12 @@ class SkinCheck {
     NewIntersections intersections;
     double exposed;
   };
-  Target prepared(const Positions& positions) const;
+  Target prepared_target(const Positions& positions) const;
   SkinDefects compare(const Positions& positions, const Target& target) const;
 
   std::vector<Triangle> triangles_;  ///< oriented with normals pointing outwards
   TriangleTree tree_;
-  VertexFaces around_;
+  VertexFaces triangles_at_vertex_;
   ViewSetup view_setup_;
   std::map<Index, Target> targets_;
 };

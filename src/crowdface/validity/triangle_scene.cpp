@@ -51,7 +51,7 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
     const TriangleTree::Node& node = tree.nodes[n];
     if (node.is_leaf()) {
-      boxes_[n] = leaves_[TriangleTree::leaf_number(node)].whole();
+      boxes_[n] = leaves_[TriangleTree::leaf_number(node)].bounding_box();
       continue;
     }
     const Box &left = boxes_[n + 1], &right = boxes_[node.second];
@@ -66,7 +66,7 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
 void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) const {
   const TriangleTree::Node &a = tree_.nodes[pair.a], &b = tree_.nodes[pair.b];
   const auto add = [&](std::uint32_t first, std::uint32_t second) {
-    if (overlap(boxes_[first], boxes_[second])) into.push_back({first, second});
+    if (boxes_overlap(boxes_[first], boxes_[second])) into.push_back({first, second});
   };
   if (pair.a == pair.b) {
     add(pair.a + 1, pair.a + 1);
@@ -98,7 +98,7 @@ void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const
   }
 }
 
-std::vector<TriangleScene::NodePair> TriangleScene::first_pairs() const {
+std::vector<TriangleScene::NodePair> TriangleScene::initial_node_pairs() const {
   constexpr std::size_t kTasks = 64;
   std::vector<NodePair> pairs;
   if (!tree_.nodes.empty()) pairs.push_back({0, 0});
@@ -134,8 +134,8 @@ void TriangleScene::visit_leaves(const NodePair& from, const Use& use) const {
 }
 
 template <class Keep>
-std::vector<TrianglePair> TriangleScene::pairs_with(const Keep& keep) const {
-  const std::vector<NodePair> tasks = first_pairs();
+std::vector<TrianglePair> TriangleScene::filtered_pairs(const Keep& keep) const {
+  const std::vector<NodePair> tasks = initial_node_pairs();
   std::vector<std::vector<TrianglePair>> found(tasks.size());
   parallel_for_each(tasks.size(), [&](std::size_t t) {
     visit_leaves(tasks[t], [&](std::uint32_t one, std::uint32_t other) {
@@ -149,23 +149,23 @@ std::vector<TrianglePair> TriangleScene::pairs_with(const Keep& keep) const {
 }
 
 std::vector<TrianglePair> TriangleScene::near_pairs() const {
-  return pairs_with([](const TrianglePair& /*pair*/) { return true; });
+  return filtered_pairs([](const TrianglePair& /*pair*/) { return true; });
 }
 
-std::vector<TrianglePair> TriangleScene::crossing_pairs() const {
-  return pairs_with([&](const TrianglePair& pair) {
+std::vector<TrianglePair> TriangleScene::intersecting_pairs() const {
+  return filtered_pairs([&](const TrianglePair& pair) {
     return triangles_intersect(positions_, triangles_[pair.first], triangles_[pair.second]);
   });
 }
 
 std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const {
-  const Box here = leaves_[leaf].whole();
+  const Box here = leaves_[leaf].bounding_box();
   std::vector<std::uint32_t> near, waiting = {0};
   while (!waiting.empty()) {
     const std::uint32_t n = waiting.back();
     waiting.pop_back();
     const TriangleTree::Node& node = tree_.nodes[n];
-    if (node.end <= leaf * kLeafSize || !overlap(boxes_[n], here)) continue;
+    if (node.end <= leaf * kLeafSize || !boxes_overlap(boxes_[n], here)) continue;
     if (node.is_leaf()) {
       near.push_back(TriangleTree::leaf_number(node));
     } else {
@@ -176,9 +176,9 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
   return near;
 }
 
-std::uint32_t TriangleScene::intersected_by(const Eigen::Vector3d& origin,
-                                            const Eigen::Vector3d& direction, std::uint32_t start,
-                                            std::uint32_t guess) const {
+std::uint32_t TriangleScene::find_any_hit(const Eigen::Vector3d& origin,
+                                          const Eigen::Vector3d& direction, std::uint32_t start,
+                                          std::uint32_t guess) const {
   const auto is_met = [&](std::uint32_t place) {
     const std::uint32_t triangle = tree_.order[place];
     return triangle != start && meets_triangle(origin, direction, positions_, triangles_[triangle]);
@@ -188,13 +188,13 @@ std::uint32_t TriangleScene::intersected_by(const Eigen::Vector3d& origin,
   const BoxRay box_ray(origin, direction);
   // Size of the stack: sufficient for 2³² triangles, because each level of the tree halves their
   // number.
-  constexpr std::size_t kDeepest = 40;
-  std::array<std::uint32_t, kDeepest> waiting;
+  constexpr std::size_t kMaxStackDepth = 40;
+  std::array<std::uint32_t, kMaxStackDepth> waiting;
   std::size_t count = 0;
   waiting[count++] = 0;
   while (count > 0) {
     const std::uint32_t n = waiting[--count];
-    if (!meets(box_ray, boxes_[n])) continue;
+    if (!ray_hits_box(box_ray, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
       // First visit the child that holds the guess: a triangle that blocked the previous ray often

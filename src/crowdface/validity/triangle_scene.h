@@ -29,11 +29,11 @@ class TriangleScene {
   /// them.
   std::vector<TrianglePair> near_pairs() const;
 
-  /// The pairs from near_pairs() whose triangles intersect, ascending.
-  std::vector<TrianglePair> crossing_pairs() const;
+  /// Returns the pairs from near_pairs() whose triangles intersect, ascending.
+  std::vector<TrianglePair> intersecting_pairs() const;
 
-  /// Returns the leaves i ≥ `leaf`, ascending, in which the box of a triangle may overlap the box of
-  /// a triangle in `leaf`.
+  /// Returns the leaves i ≥ `leaf`, ascending, in which the box of a triangle may overlap the box
+  /// of a triangle in `leaf`.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
   /// Finds any triangle that a ray hits, not necessarily the nearest; ignores triangle `start`.
@@ -42,8 +42,8 @@ class TriangleScene {
   /// \param start      index of the triangle from which the ray starts, or kNoIndex
   /// \param guess      position in the tree's order to test first, usually the previous ray's
   ///                   result, because neighbouring rays often hit the same triangle; or kNoIndex
-  std::uint32_t intersected_by(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                               std::uint32_t start, std::uint32_t guess) const;
+  std::uint32_t find_any_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                             std::uint32_t start, std::uint32_t guess) const;
 
  private:
   struct NodePair {
@@ -54,13 +54,13 @@ class TriangleScene {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
-  /// Pairs of nodes that together contain all pairs of leaves that may overlap. Each pair is one
-  /// parallel task.
-  std::vector<NodePair> first_pairs() const;
+  /// Returns pairs of nodes that together contain all pairs of leaves that may overlap. Each pair
+  /// is one parallel task.
+  std::vector<NodePair> initial_node_pairs() const;
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
   template <class Keep>
-  std::vector<TrianglePair> pairs_with(const Keep& keep) const;
+  std::vector<TrianglePair> filtered_pairs(const Keep& keep) const;
   /// \param one, other  leaf numbers, equal or in ascending order
   /// \param keep        keep(pair): whether to return the pair
   template <class Keep>

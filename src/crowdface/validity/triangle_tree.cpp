@@ -9,7 +9,7 @@ namespace {
 
 /// Marks triangles at vertices with more than kMaxAround triangles. The boxes of triangles at one
 /// vertex all overlap: with 60,000 such triangles, pair tests took 90 seconds per face.
-std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vertex_count) {
+std::vector<bool> is_at_hub(const std::vector<Triangle>& triangles, Index vertex_count) {
   constexpr std::uint32_t kMaxAround = 1000;
   std::vector<std::uint32_t> around(static_cast<std::size_t>(vertex_count), 0);
   for (const Triangle& triangle : triangles) {
@@ -24,17 +24,18 @@ std::vector<bool> around_hubs(const std::vector<Triangle>& triangles, Index vert
 }
 
 /// Builds the tree from the triangles' centroids, scaled by 3 and offset along the normals by
-/// `apart`.
+/// `normal_offset`.
 MedianSplitTree split_triangles(const std::vector<Triangle>& triangles, const Positions& positions,
-                                double apart) {
-  const std::vector<bool> left_out = around_hubs(triangles, positions.rows());
+                                double normal_offset) {
+  const std::vector<bool> left_out = is_at_hub(triangles, positions.rows());
   Positions middles(static_cast<Index>(triangles.size()), 3);
   std::vector<std::uint32_t> rows;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     middles.row(t) = positions.row(a) + positions.row(b) + positions.row(c);
-    if (apart > 0) {
-      middles.row(t) += 3 * apart * area_vector(positions, triangles[t]).normalized().transpose();
+    if (normal_offset > 0) {
+      middles.row(t) +=
+          3 * normal_offset * area_vector(positions, triangles[t]).normalized().transpose();
     }
     if (!left_out[t]) rows.push_back(t);
   }
@@ -44,8 +45,8 @@ MedianSplitTree split_triangles(const std::vector<Triangle>& triangles, const Po
 }  // namespace
 
 TriangleTree::TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
-                           double apart)
-    : MedianSplitTree(split_triangles(triangles, positions, apart)) {
+                           double normal_offset)
+    : MedianSplitTree(split_triangles(triangles, positions, normal_offset)) {
   corners.reserve((order.size() + kLeafSize - 1) / kLeafSize);
   for (std::size_t l = 0; kLeafSize * l < order.size(); ++l)
     corners.emplace_back(leaf(l), triangles);

@@ -21,11 +21,11 @@ struct TriangleTree : MedianSplitTree {
   std::vector<LeafCorners> corners;  ///< corners of each leaf's triangles
 
   TriangleTree() = default;
-  /// \param apart  distance by which triangles are shifted along their normals before the split, in
-  ///               the unit of the positions. The shift puts sheets that lie on each other into
-  ///               different leaves.
+  /// \param normal_offset  distance by which triangles are shifted along their normals before the
+  ///                       split, in the unit of the positions. The shift puts sheets that lie on
+  ///                       each other into different leaves.
   TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
-               double apart = 0);
+               double normal_offset = 0);
 
   std::size_t leaf_count() const { return corners.size(); }
   static std::uint32_t leaf_number(const Node& node) { return node.begin / kLeafSize; }

@@ -26,7 +26,8 @@ bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
 
 /// The interval in which triangle `t` meets the line common to both triangles' planes, as
 /// coordinates along `axis`.
-/// \param distance  signed distances of the corners of `t` from the other plane, with both signs.
+/// \param distance  signed distances of the corners of `t` from the other triangle's plane; at
+///                  least one is positive and one negative.
 std::pair<double, double> interval_on_line(const Corners& t, const std::array<double, 3>& distance,
                                            Index axis) {
   std::size_t alone = 0;  // the corner that is alone on its side of the plane

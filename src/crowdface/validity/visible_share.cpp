@@ -33,7 +33,7 @@ double visible_share(const TriangleScene& scene, const Corners& at, std::uint32_
     const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
     shown += std::ranges::any_of(viewers, [&](std::size_t viewer) {
       std::uint32_t& other = last_occluders[viewer];
-      other = scene.intersected_by(point, directions[viewer], triangle, other);
+      other = scene.find_any_hit(point, directions[viewer], triangle, other);
       return other == kNoIndex;
     });
   };

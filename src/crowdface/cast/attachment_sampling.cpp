@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/attachment_draw.h"
+#include "crowdface/cast/attachment_sampling.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "crowdface/cast/hair_draw.h"
+#include "crowdface/cast/hair_sampling.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/cast/shares.h"
 #include "crowdface/core/contains.h"
@@ -25,11 +25,11 @@ Items matching_items(const Items& items, const Wanted& wanted) {
   return found;
 }
 
-/// Removes all items but the wanted ones, unless no item is wanted.
+/// Removes all items that do not match, unless no item matches.
 ///
-/// \return  Whether any item is wanted.
+/// \return  Whether any item matches.
 template <class Wanted>
-bool narrow(Items& items, const Wanted& wanted) {
+bool keep_matching(Items& items, const Wanted& wanted) {
   Items found = matching_items(items, wanted);
   if (found.empty()) return false;
   items = std::move(found);
@@ -42,14 +42,14 @@ bool says_colour(const std::string& tag, const std::string& colour) {
 }
 
 /// Maps the name of each item to the number of faces that wear the item.
-using Turns = std::map<std::string, int>;
+using WearerCounts = std::map<std::string, int>;
 
 /// Keeps the items that would not exceed their share if one more face wore them.
-void keep_due(const Turns& turns, Items& items) {
+void keep_underused(const WearerCounts& counts, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
-    const auto found = turns.find(item->name);
-    return found == turns.end() ? 0 : found->second;
+    const auto found = counts.find(item->name);
+    return found == counts.end() ? 0 : found->second;
   };
   double shares = 0, faces = 1;
   for (const AttachmentItem* item : items) {
@@ -62,10 +62,10 @@ void keep_due(const Turns& turns, Items& items) {
 }
 
 /// Keeps the items that the fewest faces wear, relative to the items' shares.
-void keep_fewest(const Turns& turns, Items& items) {
+void keep_least_worn(const WearerCounts& counts, Items& items) {
   const auto level = [&](const AttachmentItem* item) {
-    const auto found = turns.find(item->name);
-    return found == turns.end() ? 0.0 : found->second / item->share;
+    const auto found = counts.find(item->name);
+    return found == counts.end() ? 0.0 : found->second / item->share;
   };
   double least = HUGE_VAL;
   for (const AttachmentItem* item : items) least = std::min(least, level(item));
@@ -88,21 +88,21 @@ struct KindQuotas {
   bool of_kind(const std::string& kind) const { return contains(words, kind); }
 };
 
-class AttachmentDrawing {
+class AttachmentChooser {
  public:
   /// \param crowd   all faces, in the order of the plan.
   /// \param sequence  faces, in order, that must not look like the face before or after them.
-  AttachmentDrawing(const AttachmentOptions& options, const std::vector<int>& groups,
+  AttachmentChooser(const AttachmentOptions& options, const std::vector<int>& groups,
                     const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& sequence)
       : options_(options) {
     for (const AttachmentItem& item : options.items) {
       if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
     }
-    for (const int group : groups) places_.emplace_back(group, sizes_[group]++);
+    for (const int group : groups) group_indices_.emplace_back(group, sizes_[group]++);
     for (const auto& quota : options.quotas) {
       const std::string& word = quota.first;
       const auto first = std::find_if(options.items.begin(), options.items.end(),
-                                      [&](const auto& item) { return is_called(item, word); });
+                                      [&](const auto& item) { return matches_word(item, word); });
       if (first == options.items.end()) continue;
       quotas_[first->kind].words.push_back(word);
       quotas_[first->kind].shares.push_back(quota.second);
@@ -136,8 +136,8 @@ class AttachmentDrawing {
       const AttachmentItem* one = draw_one(kind, face, placed);
       if (one == nullptr) continue;
       placed.push_back(one);
-      ++turns_[turn_set_of(face)][one->name];
-      if (face.index) ++all_turns_[one->name];
+      ++wearer_counts_[similar_faces_key(face)][one->name];
+      if (face.index) ++all_wearer_counts_[one->name];
     }
     std::vector<std::string> names = without_excluded(placed);
     placed_[face.id] =
@@ -168,7 +168,7 @@ class AttachmentDrawing {
         return contains(tags, tag) || (item.colour == colour && says_colour(tag, colour));
       });
       const bool must_not = std::ranges::any_of(
-          item.without, [&](const std::string& tag) { return contains(tags, tag); });
+          item.excluded_tags, [&](const std::string& tag) { return contains(tags, tag); });
       if (item.kind == kind && item.share > 0 && may && !must_not) items.push_back(&item);
     }
     return items;
@@ -183,19 +183,20 @@ class AttachmentDrawing {
     const auto drawn = random_pair({options_.seed, face.index.value_or(0), purpose});
     if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
     match_colours(kind, face, placed, items);
-    if (items[0]->tint == Tint::kNone) return next_of(items, face, drawn[1]);
+    if (items[0]->tint == Tint::kNone) return random_underused_item(items, face, drawn[1]);
     avoid_neighbours(face, items);
     if (face.index) {
-      keep_fewest(all_turns_, items);
-    } else if (const auto own = turns_.find(turn_set_of(face)); own != turns_.end()) {
-      keep_fewest(own->second, items);
+      keep_least_worn(all_wearer_counts_, items);
+    } else if (const auto own = wearer_counts_.find(similar_faces_key(face));
+               own != wearer_counts_.end()) {
+      keep_least_worn(own->second, items);
     }
     return weighted_choice(items, drawn[1], &AttachmentItem::share);
   }
 
   /// Returns whether the second of two successive faces must not look like the first. A sampled
-  /// face does not depend on faces that are not sampled: in a larger crowd, more faces are between
-  /// them.
+  /// face must differ only from sampled faces: in a larger crowd, more faces come between it and
+  /// the others.
   static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
@@ -205,7 +206,7 @@ class AttachmentDrawing {
   void avoid_neighbours(const FacePlan& face, Items& items) const {
     const auto neighbours = neighbours_.find(face.id);
     if (neighbours == neighbours_.end()) return;
-    narrow(items, [&](const AttachmentItem& item) {
+    keep_matching(items, [&](const AttachmentItem& item) {
       return std::ranges::none_of(neighbours->second, [&](const std::string& other) {
         const auto placed = placed_.find(other);
         return placed != placed_.end() && contains(placed->second, &item) &&
@@ -214,8 +215,8 @@ class AttachmentDrawing {
     });
   }
 
-  /// Returns the name of the set of similar faces among which items take turns.
-  std::string turn_set_of(const FacePlan& face) const {
+  /// Returns the key of a face's set of similar faces: the sampled faces on one head, or one family.
+  std::string similar_faces_key(const FacePlan& face) const {
     if (face.index) return concat("head/", heads_.at(face.id));
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
@@ -223,11 +224,12 @@ class AttachmentDrawing {
   /// Chooses at random one of the items that similar faces wear less often than the items' shares.
   /// If there are several, prefers items that all sampled faces wear less often, too. Probabilities
   /// are proportional to the items' shares.
-  const AttachmentItem* next_of(const Items& items, const FacePlan& face, double drawn) const {
+  const AttachmentItem* random_underused_item(const Items& items, const FacePlan& face,
+                                              double drawn) const {
     Items next = items;
-    if (const auto own = turns_.find(turn_set_of(face)); own != turns_.end())
-      keep_due(own->second, next);
-    if (face.index) keep_due(all_turns_, next);
+    if (const auto own = wearer_counts_.find(similar_faces_key(face)); own != wearer_counts_.end())
+      keep_underused(own->second, next);
+    if (face.index) keep_underused(all_wearer_counts_, next);
     return weighted_choice(next, drawn, &AttachmentItem::share);
   }
 
@@ -236,8 +238,8 @@ class AttachmentDrawing {
   /// \return  Whether the face wears an item of the kind.
   bool serve_quotas(const std::string& kind, const FacePlan& face, double drawn,
                     Items& items) const {
-    const auto none = options_.none.find(kind);
-    const bool bare = none != options_.none.end() && drawn < none->second;
+    const auto none = options_.fractions_without_item.find(kind);
+    const bool bare = none != options_.fractions_without_item.end() && drawn < none->second;
     const auto found = quotas_.find(kind);
     if (found == quotas_.end()) return !bare;
     const KindQuotas& quotas = found->second;
@@ -246,18 +248,19 @@ class AttachmentDrawing {
     if (quotas.of_kind(kind)) return asked >= 0;
     if (asked >= 0) {
       const std::string& word = quotas.words[static_cast<std::size_t>(asked)];
-      if (narrow(items, [&](const auto& item) { return is_called(item, word); })) return true;
+      if (keep_matching(items, [&](const auto& item) { return matches_word(item, word); }))
+        return true;
     }
-    narrow(items, [&](const AttachmentItem& item) {
+    keep_matching(items, [&](const AttachmentItem& item) {
       return std::none_of(quotas.words.begin(), quotas.words.end(),
-                          [&](const std::string& word) { return is_called(item, word); });
+                          [&](const std::string& word) { return matches_word(item, word); });
     });
     return !bare;
   }
 
   int asked_at(std::uint64_t index, const KindQuotas& quotas) const {
-    if (index > places_.size()) return -1;
-    const auto& [group, place] = places_[index - 1];
+    if (index > group_indices_.size()) return -1;
+    const auto& [group, place] = group_indices_[index - 1];
     return quotas.schedules.at(group)[place];
   }
 
@@ -266,8 +269,9 @@ class AttachmentDrawing {
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
-      return !colour.empty() &&
-             narrow(items, [&](const AttachmentItem& item) { return item.colour == colour; });
+      return !colour.empty() && keep_matching(items, [&](const AttachmentItem& item) {
+        return item.colour == colour;
+      });
     };
     if (std::any_of(placed.begin(), placed.end(),
                     [&](const auto* item) { return take(item->colour); }))
@@ -360,17 +364,17 @@ class AttachmentDrawing {
   std::vector<std::string> kinds_;  ///< in the order of their first items
   std::map<std::string, KindQuotas> quotas_;
   /// for each sampled face: its group, and its index within the group
-  std::vector<std::pair<int, std::uint64_t>> places_;
+  std::vector<std::pair<int, std::uint64_t>> group_indices_;
   std::map<int, std::uint64_t> sizes_;   ///< number of sampled faces in each group
   std::map<std::string, Items> placed_;  ///< attachments of the faces so far, by the face's id
   std::map<std::string, Index> heads_;   ///< by the face's id: the head whose tags the face has
   /// colour of a family's items, by (family, kind)
   std::map<std::pair<std::string, std::string>, std::string> family_colours_;
-  /// the Turns of each set of similar faces, by the set's name
-  std::map<std::string, Turns> turns_;
-  Turns all_turns_;                                             ///< the Turns of all sampled faces
-  std::optional<HairChooser> hair_;                             ///< if an item has a tint
-  std::map<std::string, HairColour> hairs_;                     ///< by the face's id
+  /// wearer counts in each set of similar faces, by similar_faces_key
+  std::map<std::string, WearerCounts> wearer_counts_;
+  WearerCounts all_wearer_counts_;           ///< the WearerCounts of all sampled faces
+  std::optional<HairChooser> hair_;          ///< if an item has a tint
+  std::map<std::string, HairColour> hairs_;  ///< by the face's id
   std::map<std::string, std::vector<std::string>> neighbours_;  ///< by the face's id
 };
 
@@ -378,8 +382,8 @@ class AttachmentDrawing {
 
 void choose_attachments(const AttachmentOptions& options, const std::vector<int>& groups,
                         std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected,
-                        const std::vector<std::size_t>& rejected_from) {
-  AttachmentDrawing drawing(options, groups, crowd, crowd);
+                        const std::vector<std::size_t>& crowd_size_at_rejection) {
+  AttachmentChooser drawing(options, groups, crowd, crowd);
   const auto dress = [](FacePlan& face, ChosenAttachments drawn) {
     face.attachments = std::move(drawn.names);
     face.hair = drawn.hair;
@@ -399,7 +403,7 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   std::size_t next = 0;
   const auto replace_up_to = [&](std::size_t size) {
     for (; next < rejected.size(); ++next) {
-      if (!rejected_from.empty() && rejected_from[next] > size) return;
+      if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;
       const std::string& id = rejected[next].id;
       if (!redrawn.contains(id)) continue;
       dress(*redrawn[id], drawing.choose(*before[id][++times[id]]));
@@ -408,7 +412,7 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   // First choose attachments for the original version of each face, so that a redraw does not
   // change the choices for other faces of the reviewed crowd.
   for (std::size_t i = 0; i < crowd.size(); ++i) {
-    if (!rejected_from.empty()) replace_up_to(i);
+    if (!crowd_size_at_rejection.empty()) replace_up_to(i);
     FacePlan& face = crowd[i];
     const auto found = before.find(face.id);
     if (found == before.end()) {
@@ -421,9 +425,10 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   replace_up_to(crowd.size());
 }
 
-void choose_attachments_alone(const AttachmentOptions& options, const std::vector<int>& groups,
-                              const std::vector<FacePlan>& crowd, FacePlan& face) {
-  AttachmentDrawing drawing(options, groups, crowd, {});
+void choose_attachments_independently(const AttachmentOptions& options,
+                                      const std::vector<int>& groups,
+                                      const std::vector<FacePlan>& crowd, FacePlan& face) {
+  AttachmentChooser drawing(options, groups, crowd, {});
   for (const FacePlan& earlier : crowd) {
     if (earlier.index || earlier.id == face.id) break;
     drawing.choose(earlier);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/hair_draw.h"
+#include "crowdface/cast/hair_sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ HairChooser::HairChooser(HairOptions options, const std::vector<FacePlan>& crowd
   std::set<std::string> families;
   for (const FacePlan& face : crowd) {
     if (!face.parents.empty() || (face.family && !families.insert(*face.family).second)) continue;
-    const std::string entry = entry_of(face);
-    places_[face.id] = {entry, sizes_[entry]++};
+    const std::string entry = hair_colours_key_of(face);
+    entry_indices_[face.id] = {entry, entry_sizes_[entry]++};
   }
 }
 
@@ -60,21 +60,21 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   HairColour own = *colour;
   own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
   own.pheomelanin += kScatter * (scatter[1] - 0.5);
-  known_[face.id] = own;
-  own.grey = std::max(own.grey, grey_of(face, head, key("hair/grey")));
+  base_colours_[face.id] = own;
+  own.grey = std::max(own.grey, grey_fraction(face, head, key("hair/grey")));
   return rounded_colour(own);
 }
 
 /// Returns the key of `hair_colours` that applies to a face.
-std::string HairChooser::entry_of(const FacePlan& face) const {
+std::string HairChooser::hair_colours_key_of(const FacePlan& face) const {
   const std::string group = face.group.value_or("");
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Among all faces in `places_`, each colour
-/// has the share that the config asks for.
+/// Returns the colour that `hair_colours` gives the face. Among all faces in `entry_indices_`, each
+/// colour has the share that the config asks for.
 std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
-  const std::string entry = entry_of(face);
+  const std::string entry = hair_colours_key_of(face);
   const auto shares = options_.hair_colours.find(entry);
   if (shares == options_.hair_colours.end() || shares->second.empty()) return std::nullopt;
   std::vector<double> parts;
@@ -84,12 +84,12 @@ std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
     colours.push_back(*hair_colour_named(name));
   }
   int chosen = -1;
-  const auto place = places_.find(face.id);
-  if (place != places_.end() && place->second.first == entry) {
+  const auto place = entry_indices_.find(face.id);
+  if (place != entry_indices_.end() && place->second.first == entry) {
     const auto [schedule, is_new] = schedules_.try_emplace(entry);
     if (is_new) {
       schedule->second =
-          scatter_shares(parts, sizes_[entry], options_.seed, concat("hair colours/", entry));
+          scatter_shares(parts, entry_sizes_[entry], options_.seed, concat("hair colours/", entry));
     }
     chosen = schedule->second[place->second.second];
   } else {
@@ -121,7 +121,8 @@ std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
 
 /// Returns a parent's hair colour without the grey of age; nothing if the parent is unknown.
 std::optional<HairColour> HairChooser::colour_of_parent(const std::string& parent) const {
-  if (const auto face = known_.find(parent); face != known_.end()) return face->second;
+  if (const auto face = base_colours_.find(parent); face != base_colours_.end())
+    return face->second;
   const auto head = std::ranges::find(options_.heads, parent);
   if (head == options_.heads.end()) return std::nullopt;
   return colour_of_tags(head - options_.heads.begin(), concat("hair/tone/", parent));
@@ -142,7 +143,8 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& purpose) c
 }
 
 /// Returns the fraction of grey hair at the face's age.
-double HairChooser::grey_of(const FacePlan& face, Index head, const std::string& purpose) const {
+double HairChooser::grey_fraction(const FacePlan& face, Index head,
+                                  const std::string& purpose) const {
   const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
   const double of_head = contains(tags, "old")     ? 0.85
                          : contains(tags, "adult") ? 0.45

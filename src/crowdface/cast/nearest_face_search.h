@@ -83,27 +83,28 @@ class PointTrees {
 };
 
 /// A set of faces with nearest-face queries.
-class FacePointIndex {
+class NearestFaceSearch {
  public:
-  explicit FacePointIndex(Index dimensions) : as_built_(dimensions), unit_(dimensions) {}
+  explicit NearestFaceSearch(Index dimensions)
+      : as_built_(dimensions), unextrapolated_(dimensions) {}
 
   void add(const FaceSpace::Point& point);
   Index size() const { return as_built_.size(); }
 
-  struct Nearest {
+  struct NearestFace {
     Index face = -1;  ///< −1: none within the limit
-    double mm = HUGE_VAL;
+    double distance_mm = HUGE_VAL;
   };
   /// Returns the nearest of the faces [begin, end) if it is nearer than `limit_mm`.
   ///
   /// \param end        If negative, the number of faces.
   /// \param enough_mm  The search ends at the first face nearer than this.
-  Nearest nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
-                  Index end = -1, double enough_mm = 0) const;
+  NearestFace nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
+                      Index end = -1, double enough_mm = 0) const;
 
  private:
-  PointTrees as_built_, unit_;  ///< see FaceSpace::Point
-  bool extrapolated_ = false;   ///< whether any face has an extrapolation factor other than 1
+  PointTrees as_built_, unextrapolated_;  ///< see FaceSpace::Point
+  bool extrapolated_ = false;  ///< whether any face has an extrapolation factor other than 1
 };
 
 }  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/attachment_draw.h"
+#include "crowdface/cast/attachment_sampling.h"
 
 #include <algorithm>
 #include <map>
@@ -110,7 +110,8 @@ TEST(AttachmentDraw, TakesAwayWhatIsExcluded) {
       << "of two that exclude each other the first stays";
 }
 
-/// Face 7 keeps its hair whatever else is drawn for it, how it was found and how many faces come after it.
+/// Face 7 keeps its hair whatever else is drawn for it, how it was found and how many faces come
+/// after it.
 TEST(AttachmentDraw, DependsOnIndexAndKindAlone) {
   const std::vector<AttachmentItem> hair = {{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}};
   std::vector<AttachmentItem> more = hair;
@@ -383,7 +384,7 @@ AttachmentItem tinted_item(const std::string& name, const std::string& kind = "h
 }
 
 /// Four heads: a brown-haired and a red-haired woman, and two old women.
-AttachmentOptions hair_draw() {
+AttachmentOptions crowd_with_hair() {
   AttachmentOptions draw{7, {tinted_item("bob"), tinted_item("bun"), tinted_item("long")}, {}, {}};
   draw.tags = {{"female", "young", "brown_hair"},
                {"female", "young", "red_hair"},
@@ -404,7 +405,7 @@ TEST(HairColour, IsOfFacesThatMayWearATint) {
   choose_attachments(draw_of({{"bob", "hair", {}, 1, {}}}), {}, crowd);
   EXPECT_FALSE(crowd[0].hair);
   crowd = hair_crowd(40);
-  choose_attachments(hair_draw(), {}, crowd);
+  choose_attachments(crowd_with_hair(), {}, crowd);
   double young = 0, old = 0;
   for (const FacePlan& face : crowd) {
     ASSERT_TRUE(face.hair);
@@ -415,7 +416,7 @@ TEST(HairColour, IsOfFacesThatMayWearATint) {
   EXPECT_EQ(young, 0);
   EXPECT_GT(old, 0.5);
   std::vector<FacePlan> larger = hair_crowd(90);
-  choose_attachments(hair_draw(), {}, larger);
+  choose_attachments(crowd_with_hair(), {}, larger);
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     EXPECT_EQ(larger[i].hair, crowd[i].hair);
     EXPECT_EQ(larger[i].attachments, crowd[i].attachments);
@@ -430,7 +431,7 @@ TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
       face.recipe.target = 0;  // young
       face.age = age;
     }
-    choose_attachments(hair_draw(), {}, crowd);
+    choose_attachments(crowd_with_hair(), {}, crowd);
     double sum = 0;
     for (const FacePlan& face : crowd) sum += face.hair->grey / 200;
     return sum;
@@ -441,7 +442,7 @@ TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
 }
 
 TEST(HairColour, FollowsSharesExactlyInEachGroup) {
-  AttachmentOptions draw = hair_draw();
+  AttachmentOptions draw = crowd_with_hair();
   draw.hair_colours = {{"", {{"blond", 0.3}}}, {"clan", {{"black", 1}}}};
   std::vector<FacePlan> crowd = hair_crowd(100);
   std::vector<int> groups;
@@ -468,7 +469,7 @@ TEST(HairColour, FollowsSharesExactlyInEachGroup) {
 
 // Each group rounded down its part: of forty faces, four were red-haired where eight were asked.
 TEST(HairColour, FollowsSharesOverAllGroupsAndAllWhoHaveNoParents) {
-  AttachmentOptions draw = hair_draw();
+  AttachmentOptions draw = crowd_with_hair();
   draw.tags = {{"young"}, {"young"}};
   draw.hair_colours = {{"", {{"red", 0.2}, {"brown", 0.4}, {"black", 0.4}}}};
   for (draw.seed = 1; draw.seed <= 20; ++draw.seed) {
@@ -498,7 +499,7 @@ TEST(HairColour, FollowsSharesOverAllGroupsAndAllWhoHaveNoParents) {
 
 // Two of thirteen old people were grey in a crowd with hair_colours.
 TEST(HairColour, ThatIsAskedForGreysWithAge) {
-  AttachmentOptions draw = hair_draw();
+  AttachmentOptions draw = crowd_with_hair();
   draw.hair_colours = {{"", {{"red", 1}}}};
   std::vector<FacePlan> crowd = hair_crowd(40);
   choose_attachments(draw, {}, crowd);
@@ -520,7 +521,7 @@ TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {
     child.parents = {"ann", "dot"};  // brown, and red that age has made grey
     child.recipe.target = 2;         // has the tag old, which makes the child's own hair grey
     std::vector<FacePlan> crowd = {child};
-    choose_attachments(hair_draw(), {}, crowd);
+    choose_attachments(crowd_with_hair(), {}, crowd);
     const HairColour hair = *crowd[0].hair;
     EXPECT_GE(hair.eumelanin, 0.2);
     EXPECT_LE(hair.eumelanin, 0.55);
@@ -531,7 +532,7 @@ TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {
 }
 
 TEST(HairColour, OfTwinsIsTheSame) {
-  AttachmentOptions draw = hair_draw();
+  AttachmentOptions draw = crowd_with_hair();
   draw.twins = {"clan"};
   std::vector<FacePlan> crowd(2);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -546,7 +547,7 @@ TEST(HairColour, OfTwinsIsTheSame) {
 
 TEST(AttachmentDraw, UsesAllThatFitBeforeItRepeatsOne) {
   std::vector<FacePlan> crowd = hair_crowd(30);
-  choose_attachments(hair_draw(), {}, crowd);
+  choose_attachments(crowd_with_hair(), {}, crowd);
   for (std::size_t i = 0; i + 3 <= crowd.size(); i += 3) {
     std::set<std::string> worn;
     for (std::size_t k = i; k < i + 3; ++k) worn.insert(crowd[k].attachments.at(0));
@@ -557,7 +558,7 @@ TEST(AttachmentDraw, UsesAllThatFitBeforeItRepeatsOne) {
 }
 
 TEST(AttachmentDraw, NeighboursDoNotShareCutAndColour) {
-  AttachmentOptions draw = hair_draw();
+  AttachmentOptions draw = crowd_with_hair();
   draw.items[0].share = 50;  // nearly everybody would wear it
   std::vector<FacePlan> crowd = hair_crowd(60);
   for (FacePlan& face : crowd) face.recipe.target = 0;
@@ -571,9 +572,9 @@ TEST(AttachmentDraw, NeighboursDoNotShareCutAndColour) {
 }
 
 TEST(AttachmentDraw, LeavesOutWhoseTagsAreExcluded) {
-  AttachmentOptions draw = hair_draw();
+  AttachmentOptions draw = crowd_with_hair();
   for (AttachmentItem& item : draw.items) {
-    if (item.name != "bun") item.without = {"old"};
+    if (item.name != "bun") item.excluded_tags = {"old"};
   }
   std::vector<FacePlan> crowd = hair_crowd(12);
   choose_attachments(draw, {}, crowd);

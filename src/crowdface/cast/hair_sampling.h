@@ -32,24 +32,24 @@ class HairChooser {
   ///               faces that do not inherit a parent's or the family's colour.
   HairChooser(HairOptions options, const std::vector<FacePlan>& crowd);
 
-  /// \param head  the head whose tags the face has.
+  /// \param head  the face's typical head.
   HairColour colour_of(const FacePlan& face, Index head);
 
  private:
-  std::string entry_of(const FacePlan& face) const;
+  std::string hair_colours_key_of(const FacePlan& face) const;
   std::optional<HairColour> scheduled_colour(const FacePlan& face);
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
   HairColour colour_of_tags(Index head, const std::string& purpose) const;
-  double grey_of(const FacePlan& face, Index head, const std::string& purpose) const;
+  double grey_fraction(const FacePlan& face, Index head, const std::string& purpose) const;
 
   HairOptions options_;
   /// by face: its entry in `hair_colours`, and its index among the faces of this entry
-  std::map<std::string, std::pair<std::string, std::uint64_t>> places_;
-  std::map<std::string, std::uint64_t> sizes_;  ///< by entry: its number of faces
-  /// by entry: for each of its faces, the index of the named colour, or −1
+  std::map<std::string, std::pair<std::string, std::uint64_t>> entry_indices_;
+  std::map<std::string, std::uint64_t> entry_sizes_;  ///< by entry: its number of faces
+  /// by entry: for each face of the entry, the index of the named colour, or −1
   std::map<std::string, std::vector<int>> schedules_;
-  std::map<std::string, HairColour> known_;           ///< colours without the grey of age, by face
+  std::map<std::string, HairColour> base_colours_;    ///< colours without the grey of age, by face
   std::map<std::string, HairColour> family_colours_;  ///< families' colours, by family
 };
 

@@ -18,7 +18,7 @@ struct AttachmentOptions {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
   /// by kind: fraction of the faces that wear no item of this kind
-  std::map<std::string, double> none;
+  std::map<std::string, double> fractions_without_item;
   HeadTags tags;  ///< #heads
   /// By kind, name or colour of items: fraction of each group's sampled faces that wear such an
   /// item. A kind has either a quota of its own or quotas for some of its names and colours.
@@ -43,9 +43,9 @@ struct AttachmentOptions {
 /// - Quotas: each quota determines in advance which of a group's sampled faces wear the item,
 ///   independently of all other choices. If such a face may not wear the item, its items are chosen
 ///   as if there were no quota.
-/// - Turns: among the sampled faces on one head, and among the members of one family, an item is
-/// skipped once it has reached its share of the earlier faces. If several items are left, sampled
-/// faces also skip items that have reached their share of all sampled faces.
+/// - Equal use: among the sampled faces on one head, and among the members of one family, an item
+///   is skipped once it has reached its share of the earlier faces. If several items are left,
+///   sampled faces also skip items that have reached their share of all sampled faces.
 ///
 /// Items with a tint follow other rules:
 ///
@@ -63,15 +63,17 @@ struct AttachmentOptions {
 /// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
 /// \param rejected  Faces that reviews rejected, in order. Their replacements are processed after
 ///                  all faces of the crowd that was reviewed, so that no other face changes.
-/// \param rejected_from  #rejected: size of the crowd that was reviewed. Empty: the whole crowd.
+/// \param crowd_size_at_rejection  #rejected: size of the crowd that was reviewed. Empty: the whole
+///                                 crowd.
 void choose_attachments(const AttachmentOptions& options, const std::vector<int>& groups,
                         std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
-                        const std::vector<std::size_t>& rejected_from = {});
+                        const std::vector<std::size_t>& crowd_size_at_rejection = {});
 
 /// Chooses the attachments of a face that was changed, as if it were the only sampled face, so that
 /// they do not depend on other sampled faces and do not change these.
 /// \param crowd  In the order of the plan; may contain the face as it was before.
-void choose_attachments_alone(const AttachmentOptions& options, const std::vector<int>& groups,
-                              const std::vector<FacePlan>& crowd, FacePlan& face);
+void choose_attachments_independently(const AttachmentOptions& options,
+                                      const std::vector<int>& groups,
+                                      const std::vector<FacePlan>& crowd, FacePlan& face);
 
 }  // namespace crowdface

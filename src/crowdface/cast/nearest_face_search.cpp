@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/face_point_index.h"
+#include "crowdface/cast/nearest_face_search.h"
 
 #include <algorithm>
 #include <numeric>
@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 /// up to this number of points, a linear search is as fast as a search of a tree
-constexpr Index kNewest = 2048;
+constexpr Index kMaxNewestPoints = 2048;
 constexpr std::uint32_t kLeafSize = 2 * PointBlocks::kLanes;
 
 }  // namespace
@@ -67,7 +67,7 @@ void PointTree::search(const std::vector<float>& query, Index begin, Index end, 
 
 void PointTrees::add(const Eigen::VectorXf& point) {
   newest_.add(size_++, newest_.padded_query(point).data());
-  if (newest_.size() < kNewest) return;
+  if (newest_.size() < kMaxNewestPoints) return;
   // Merge the newest points with all trees that are not larger.
   std::vector<const PointBlocks*> joined = {&newest_};
   Index count = newest_.size();
@@ -99,20 +99,22 @@ NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit, Ind
   return best;
 }
 
-void FacePointIndex::add(const FaceSpace::Point& point) {
+void NearestFaceSearch::add(const FaceSpace::Point& point) {
   as_built_.add(point.as_built);
-  unit_.add(point.unit);
-  extrapolated_ = extrapolated_ || point.as_built != point.unit;
+  unextrapolated_.add(point.unextrapolated);
+  extrapolated_ = extrapolated_ || point.as_built != point.unextrapolated;
 }
 
-FacePointIndex::Nearest FacePointIndex::nearest(const FaceSpace::Point& point, double limit_mm,
-                                                Index begin, Index end, double enough_mm) const {
+NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point& point,
+                                                          double limit_mm, Index begin, Index end,
+                                                          double enough_mm) const {
   if (end < 0) end = size();
   const double enough = enough_mm * enough_mm;
   NearestPoint hit = as_built_.nearest(point.as_built, limit_mm * limit_mm, begin, end, enough);
   const bool done = hit.point >= 0 && hit.squared_distance < enough;
-  if (!done && (extrapolated_ || point.as_built != point.unit)) {
-    const NearestPoint other = unit_.nearest(point.unit, hit.squared_distance, begin, end, enough);
+  if (!done && (extrapolated_ || point.as_built != point.unextrapolated)) {
+    const NearestPoint other =
+        unextrapolated_.nearest(point.unextrapolated, hit.squared_distance, begin, end, enough);
     if (other.point >= 0) hit = other;
   }
   if (hit.point < 0) return {};
