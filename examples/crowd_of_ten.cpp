@@ -21,7 +21,7 @@ int main(int argc, char** argv) try {
   generate(config, {.cache = cache_directory()});
 
   const CrowdCheck check = verify_crowd(argv[2]);
-  std::cout << argv[2] << ": " << check.files << " files, "
+  std::cout << argv[2] << ": " << check.file_count << " files, "
             << (check.is_intact() ? "all whole" : "some damaged") << '\n';
 } catch (const Error& error) {
   std::cerr << error.what() << '\n';

@@ -197,7 +197,7 @@ class Smoothing {
     PlanNames names;
     for (const Head& head : heads_.heads) names.heads.push_back(head.name);
     names.regions = regions;
-    const FacePlan face = parse_recipe(recipe, names, "recipe").face;
+    const FacePlan face = parse_plan_line(recipe, names, "recipe").face;
     RegionWeights weights = whole_head(heads_.topology);
     if (masks) weights.alpha = std::move(*masks);
     if (weights.alpha.rows() != filter_.vertex_count() ||

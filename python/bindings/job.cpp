@@ -109,7 +109,7 @@ class PythonJob {
 
  private:
   FacePlan face_of(const std::string& recipe) const {
-    return parse_recipe(recipe, job_.names, "recipe").face;
+    return parse_plan_line(recipe, job_.names, "recipe").face;
   }
   const Prepared& prepared() {
     if (!prepared_) prepared_ = prepare(job_.config, job_.inputs, job_.smoothing, cache_);
@@ -130,10 +130,10 @@ class PythonJob {
 
 py::dict dict_of(const CrowdCheck& check) {
   py::dict result;
-  result["files"] = check.files;
-  result["missing"] = check.missing;
-  result["altered"] = check.altered;
-  result["unfinished"] = check.unfinished;
+  result["files"] = check.file_count;
+  result["missing"] = check.missing_files;
+  result["altered"] = check.altered_files;
+  result["unfinished"] = check.unfinished_items;
   result["remarks"] = check.remarks;
   return result;
 }
@@ -141,7 +141,7 @@ py::dict dict_of(const CrowdCheck& check) {
 /// The options of a wrap from its arguments that are texts.
 WrapOptions wrap_options(const std::map<std::string, std::string>& texts) {
   static const std::map<std::string, std::string WrapOptions::*> fields = {
-      {"template", &WrapOptions::shape},
+      {"template", &WrapOptions::template_file},
       {"scan", &WrapOptions::scan},
       {"out", &WrapOptions::out},
       {"landmarks", &WrapOptions::landmarks},

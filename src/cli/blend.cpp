@@ -16,7 +16,7 @@
 namespace crowdface::cli {
 namespace {
 
-/// Reads the line of the face ID from the plan FILE, for a reference "FILE#ID".
+/// Reads the face with the id `ID` from the plan `FILE`. \param reference  "FILE#ID".
 PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
   const std::size_t hash = reference.rfind('#');
   if (hash == reference.npos || hash == 0 || hash + 1 == reference.size()) {

@@ -23,7 +23,7 @@ namespace crowdface::cli {
 namespace {
 
 /// Logs a warning if `generate` would refuse the output folder.
-void look_at_output(const Job& job) {
+void warn_about_output(const Job& job) {
   try {
     check_output(job, Replace::kRefuse);
   } catch (const RecoverableError& error) {
@@ -108,9 +108,9 @@ void write_landmarks(const Job& job, const HeadLandmarks& landmarks,
   sheet.views = {View::kFront, View::kThreeQuarter, View::kProfile};
   const CrowdRenders renders(job.config, sheet, job.inputs);
   std::vector<LabelledPoint> points;
-  for (std::size_t l = 0; l < landmarks.places.size(); ++l) {
-    if (landmarks.places[l]) {
-      points.push_back({std::string(trait_landmarks()[l].symbol), *landmarks.places[l]});
+  for (std::size_t l = 0; l < landmarks.surface_points.size(); ++l) {
+    if (landmarks.surface_points[l]) {
+      points.push_back({std::string(trait_landmarks()[l].symbol), *landmarks.surface_points[l]});
     }
   }
   refuse_to_write_over(input_files(job.config), {file});
@@ -141,7 +141,7 @@ Run add_check(CLI::App& program) {
       [](const Options& options) {
         const Job job =
             load_job(options.config.config, options.config.overrides, options.config.cache_path());
-        look_at_output(job);
+        warn_about_output(job);
         describe(job);
         if (!options.masks.empty()) write_masks(job, options.masks);
         const bool limited = !job.config.named_traits().empty();

@@ -16,14 +16,14 @@ class Option;
 namespace crowdface::cli {
 
 /// Sets further properties of an option, argument or flag that was added to a command.
-class AddedOption {
+class OptionHandle {
  public:
-  explicit AddedOption(CLI::Option& option) : option_(&option) {}
-  AddedOption required() const;
-  AddedOption one_of(const std::vector<std::string>& words) const;
-  AddedOption shown_default(const std::string& text) const;
-  AddedOption needs(const std::string& other) const;
-  AddedOption excludes(const std::vector<std::string>& others) const;
+  explicit OptionHandle(CLI::Option& option) : option_(&option) {}
+  OptionHandle required() const;
+  OptionHandle one_of(const std::vector<std::string>& words) const;
+  OptionHandle show_default(const std::string& text) const;
+  OptionHandle needs(const std::string& other) const;
+  OptionHandle excludes(const std::vector<std::string>& others) const;
 
  private:
   CLI::Option* option_;
@@ -31,27 +31,27 @@ class AddedOption {
 
 CLI::App& add_subcommand(CLI::App& program, const char* name, const char* description);
 
-AddedOption add_flag(CLI::App& command, const std::string& name, bool& value,
-                     const std::string& help);
+OptionHandle add_flag(CLI::App& command, const std::string& name, bool& value,
+                      const std::string& help);
 
 /// Adds an option with a value, "-o,--output", or an argument, "config". The help shows the initial
 /// content of `value` as the default. \param type  name of the value in the help, such as "DIR".
-AddedOption add_option(CLI::App& command, const std::string& name, std::string& value,
-                       const std::string& type, const std::string& help);
+OptionHandle add_option(CLI::App& command, const std::string& name, std::string& value,
+                        const std::string& type, const std::string& help);
 
 /// Adds an option; if the user gives the option, `take` receives its value.
-AddedOption add_option(CLI::App& command, const std::string& name,
-                       const std::function<void(const std::string&)>& take, const std::string& type,
-                       const std::string& help);
+OptionHandle add_option(CLI::App& command, const std::string& name,
+                        const std::function<void(const std::string&)>& take,
+                        const std::string& type, const std::string& help);
 
 /// Adds an option; if the user does not give the option, `value` stays empty.
-AddedOption add_optional(CLI::App& command, const std::string& name,
-                         std::optional<std::string>& value, const std::string& type,
-                         const std::string& help);
+OptionHandle add_optional(CLI::App& command, const std::string& name,
+                          std::optional<std::string>& value, const std::string& type,
+                          const std::string& help);
 
 /// Adds an option that may be repeated; `values` receives all values in order.
-AddedOption add_repeated(CLI::App& command, const std::string& name,
-                         std::vector<std::string>& values, const std::string& type,
-                         const std::string& help);
+OptionHandle add_repeated(CLI::App& command, const std::string& name,
+                          std::vector<std::string>& values, const std::string& type,
+                          const std::string& help);
 
 }  // namespace crowdface::cli

@@ -11,27 +11,27 @@ class App;
 namespace crowdface::cli {
 
 /// An option, flag or argument of a command, as the help shows it.
-struct OptionTable {
+struct OptionDescription {
   std::vector<std::string> names;  ///< "-o", "--output"; for an argument its name, "config"
   std::string type;                ///< name of the value, "DIR"; empty for a flag
-  std::vector<std::string> words;  ///< the accepted values; empty: any
-  std::string initial;             ///< default value; may be empty
+  std::vector<std::string> accepted_values;  ///< empty: any value
+  std::string default_value;                 ///< may be empty
   std::string help;
   bool argument = false, required = false, repeated = false;
 };
 
-struct CommandTable {
+struct CommandDescription {
   std::string name, help;
-  std::vector<OptionTable> options;
+  std::vector<OptionDescription> options;
 };
 
 /// The complete description of the program's command line.
-struct ProgramTable : CommandTable {
+struct ProgramDescription : CommandDescription {
   std::string footer;
-  std::vector<CommandTable> commands;
+  std::vector<CommandDescription> commands;
 };
 
 /// Reads from the CLI11 parser the description of all commands and options.
-ProgramTable tables_of(const CLI::App& program);
+ProgramDescription describe_program(const CLI::App& program);
 
 }  // namespace crowdface::cli

@@ -67,7 +67,7 @@ std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   limit_image_memory(usable_memory() / 8 * 3);
   for (const std::string& limit : limits) set_input_limit(limit);
   const std::uint64_t limit =
-      threads.empty() ? 0 : whole_number("--threads", threads, 1, kMaxThreads);
+      threads.empty() ? 0 : parse_whole_number("--threads", threads, 1, kMaxThreads);
   return std::make_unique<ThreadLimit>(static_cast<int>(limit));
 }
 
@@ -118,18 +118,18 @@ void WriteOptions::add_shard_to(CLI::App& command) {
       .needs("--shard");
 }
 
-GenerateOptions WriteOptions::with_cache(const std::filesystem::path& cache) const {
-  const std::uint64_t bytes = bytes_from("--memory", memory);
+GenerateOptions WriteOptions::generate_options(const std::filesystem::path& cache) const {
+  const std::uint64_t bytes = parse_byte_size("--memory", memory);
   if (bytes > 0) limit_image_memory(bytes / 2);
   return {cache,
           force ? Replace::kForce : Replace::kRefuse,
           dry_run,
           bytes,
-          shard_from(shard),
-          planned ? PlanFrom::kFolder : PlanFrom::kFolderOrCasting};
+          parse_shard_option(shard),
+          planned ? PlanSource::kFolder : PlanSource::kFolderOrCasting};
 }
 
-Shard shard_from(const std::string& text) {
+Shard parse_shard_option(const std::string& text) {
   if (text.empty()) return {};
   const auto given = parse_shard(text);
   if (!given) {
@@ -141,7 +141,7 @@ Shard shard_from(const std::string& text) {
   return *given;
 }
 
-std::uint64_t bytes_from(std::string_view option, const std::string& text) {
+std::uint64_t parse_byte_size(std::string_view option, const std::string& text) {
   if (text.empty()) return 0;
   const auto given = parse_bytes(text);
   if (!given || *given == 0) {
@@ -172,8 +172,8 @@ void show_page(const std::string& address, Browser browser) {
   ::posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ);
 }
 
-std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
-                           std::uint64_t most) {
+std::uint64_t parse_whole_number(std::string_view option, const std::string& text,
+                                 std::uint64_t least, std::uint64_t most) {
   const auto value = parse_unsigned(text);
   if (!value || *value < least || *value > most) {
     throw UsageError(concat(option, ": expected a whole number from ", least, " to ", most,

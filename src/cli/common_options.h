@@ -63,15 +63,15 @@ struct WriteOptions {
   void add_to(CLI::App& command);
   /// Adds `--shard` and `--planned`, for commands that build faces.
   void add_shard_to(CLI::App& command);
-  GenerateOptions with_cache(const std::filesystem::path& cache) const;
+  GenerateOptions generate_options(const std::filesystem::path& cache) const;
 };
 
 /// Parses the value `I/N` of `--shard`; an empty text gives the shard 1/1. \throws UsageError.
-Shard shard_from(const std::string& text);
+Shard parse_shard_option(const std::string& text);
 
 /// Parses a size with its unit, "4 GiB"; returns 0 if `text` is empty.
 /// \param option  for messages. \throws UsageError.
-std::uint64_t bytes_from(std::string_view option, const std::string& text);
+std::uint64_t parse_byte_size(std::string_view option, const std::string& text);
 
 /// \throws UsageError unless the name of `--output` ends in .obj.
 void require_obj_output(const std::string& out);
@@ -87,8 +87,8 @@ void show_page(const std::string& address, Browser browser);
 
 /// Parses a whole number in [least, most]. \param option  name of the option, for messages. \throws
 /// UsageError.
-std::uint64_t whole_number(std::string_view option, const std::string& text, std::uint64_t least,
-                           std::uint64_t most);
+std::uint64_t parse_whole_number(std::string_view option, const std::string& text,
+                                 std::uint64_t least, std::uint64_t most);
 
 /// Adds a command.
 /// \tparam Options  options of the command; derived from CommonOptions.

@@ -36,30 +36,30 @@ std::string short_help(const std::string& help) {
   return help.substr(0, help.find_first_of(";\n"));
 }
 
-bool is_folder_type(const OptionTable& option) {
+bool is_folder_type(const OptionDescription& option) {
   return option.type.ends_with("DIR");
 }
 
-std::vector<std::string> option_names(const CommandTable& command) {
+std::vector<std::string> option_names(const CommandDescription& command) {
   std::vector<std::string> names;
-  for (const OptionTable& option : command.options) {
+  for (const OptionDescription& option : command.options) {
     if (!option.argument) names.insert(names.end(), option.names.begin(), option.names.end());
   }
   return names;
 }
 
 /// Returns the case of bash's completion function that completes one command.
-std::string bash_case(const CommandTable& command) {
+std::string bash_case(const CommandDescription& command) {
   std::string values, words;
-  for (const OptionTable& option : command.options) {
+  for (const OptionDescription& option : command.options) {
     if (option.argument) {
-      for (const std::string& word : option.words) words += concat(' ', word);
+      for (const std::string& word : option.accepted_values) words += concat(' ', word);
       continue;
     }
     if (option.type.empty()) continue;
     std::string reply;  // empty: bash completes file names
-    if (!option.words.empty()) {
-      reply = concat("COMPREPLY=($(compgen -W ", in_quotes(join(option.words, " ")),
+    if (!option.accepted_values.empty()) {
+      reply = concat("COMPREPLY=($(compgen -W ", in_quotes(join(option.accepted_values, " ")),
                      " -- \"$current\")); ");
     } else if (is_folder_type(option)) {
       reply = "compopt -o dirnames; ";
@@ -71,14 +71,14 @@ std::string bash_case(const CommandTable& command) {
                 " words=", in_quotes(words), " ;;\n");
 }
 
-std::string bash_script(const ProgramTable& program) {
+std::string bash_script(const ProgramDescription& program) {
   std::vector<std::string> names;
   std::string cases;
-  for (const CommandTable& command : program.commands) {
+  for (const CommandDescription& command : program.commands) {
     names.push_back(command.name);
     cases += bash_case(command);
   }
-  CommandTable none = program;
+  CommandDescription none = program;
   none.name.clear();
   return concat(
       "# Completion of crowdface for bash; made by: crowdface completion bash\n"
@@ -102,15 +102,15 @@ std::string bash_script(const ProgramTable& program) {
 }
 
 /// Returns zsh's completion action for the value of an option.
-std::string zsh_action(const OptionTable& option) {
-  if (!option.words.empty()) return concat('(', join(option.words, " "), ')');
+std::string zsh_action(const OptionDescription& option) {
+  if (!option.accepted_values.empty()) return concat('(', join(option.accepted_values, " "), ')');
   return is_folder_type(option) ? "_files -/" : "_files";
 }
 
 /// The specifications of one command's options and arguments for zsh's _arguments.
-std::string zsh_arguments(const CommandTable& command) {
+std::string zsh_arguments(const CommandDescription& command) {
   std::string specifications;
-  for (const OptionTable& option : command.options) {
+  for (const OptionDescription& option : command.options) {
     const std::string type = escaped(option.type, ":[]");
     const std::string value = option.type.empty() ? "" : concat(':', type, ':', zsh_action(option));
     if (option.argument) {
@@ -126,9 +126,9 @@ std::string zsh_arguments(const CommandTable& command) {
   return specifications;
 }
 
-std::string zsh_script(const ProgramTable& program) {
+std::string zsh_script(const ProgramDescription& program) {
   std::string names, cases;
-  for (const CommandTable& command : program.commands) {
+  for (const CommandDescription& command : program.commands) {
     names += concat("    ", in_quotes(concat(command.name, ':', command.help)), "\n");
     cases += concat("    ", command.name, ")\n      _arguments", zsh_arguments(command), " ;;\n");
   }
@@ -160,9 +160,9 @@ std::string fish_line(const std::string& condition, const std::string& rest,
                 escaped(short_help(help), "'\\"), "'\n");
 }
 
-std::string fish_options(const CommandTable& command, const std::string& condition) {
+std::string fish_options(const CommandDescription& command, const std::string& condition) {
   std::string lines;
-  for (const OptionTable& option : command.options) {
+  for (const OptionDescription& option : command.options) {
     std::string rest;
     for (const std::string& name : option.names) {
       if (!option.argument) {
@@ -170,8 +170,8 @@ std::string fish_options(const CommandTable& command, const std::string& conditi
                                        : concat("-s ", name.substr(1), ' ');
       }
     }
-    if (!option.words.empty()) {
-      rest += concat(option.argument ? "" : "-x ", "-a '", join(option.words, " "), "'");
+    if (!option.accepted_values.empty()) {
+      rest += concat(option.argument ? "" : "-x ", "-a '", join(option.accepted_values, " "), "'");
     } else if (option.argument) {
       continue;  // fish completes file names
     } else if (is_folder_type(option)) {
@@ -184,10 +184,10 @@ std::string fish_options(const CommandTable& command, const std::string& conditi
   return lines;
 }
 
-std::string fish_script(const ProgramTable& program) {
+std::string fish_script(const ProgramDescription& program) {
   std::string lines = "# Completion of crowdface for fish; made by: crowdface completion fish\n";
   lines += fish_options(program, "__fish_use_subcommand");
-  for (const CommandTable& command : program.commands) {
+  for (const CommandDescription& command : program.commands) {
     lines += fish_line("__fish_use_subcommand", concat("-f -a ", command.name), command.help);
     lines += fish_options(command, concat("__fish_seen_subcommand_from ", command.name));
   }
@@ -217,26 +217,28 @@ std::string bold(const std::string& text) {
   return concat("\\fB", roff(text), "\\fR");
 }
 
-std::string roff_options(const CommandTable& command) {
+std::string roff_options(const CommandDescription& command) {
   std::string text;
-  for (const OptionTable& option : command.options) {
+  for (const OptionDescription& option : command.options) {
     std::vector<std::string> names;
     if (!option.argument) {
       for (const std::string& name : option.names) names.push_back(bold(name));
     }
-    const std::string words = option.words.empty() ? option.type : join(option.words, " | ");
+    const std::string words =
+        option.accepted_values.empty() ? option.type : join(option.accepted_values, " | ");
     const std::string value = option.type.empty() ? "" : concat("\\fI", roff(words), "\\fR");
-    text += concat(".TP\n", join(names), names.empty() || value.empty() ? "" : " ", value, '\n',
-                   roff(option.help),
-                   option.initial.empty() ? "" : concat(" (default: ", roff(option.initial), ')'),
-                   option.required && !option.argument ? " (required)" : "", ".\n");
+    text += concat(
+        ".TP\n", join(names), names.empty() || value.empty() ? "" : " ", value, '\n',
+        roff(option.help),
+        option.default_value.empty() ? "" : concat(" (default: ", roff(option.default_value), ')'),
+        option.required && !option.argument ? " (required)" : "", ".\n");
   }
   return text;
 }
 
-std::string synopsis(const CommandTable& command) {
+std::string synopsis(const CommandDescription& command) {
   std::string text = concat(".B crowdface ", command.name, "\n[\\fIoptions\\fR]");
-  for (const OptionTable& option : command.options) {
+  for (const OptionDescription& option : command.options) {
     if (!option.argument) continue;
     const std::string name = concat("\\fI", roff(option.type), "\\fR");
     text += option.required ? concat(' ', name) : concat(" [", name, ']');
@@ -244,22 +246,23 @@ std::string synopsis(const CommandTable& command) {
   return text + '\n';
 }
 
-Run add_printer(CLI::App& program, const char* name, const char* help,
-                const std::function<void(CLI::App&, std::string&)>& declare,
-                const std::function<std::string(const ProgramTable&, const std::string&)>& make) {
+Run add_printer(
+    CLI::App& program, const char* name, const char* help,
+    const std::function<void(CLI::App&, std::string&)>& declare,
+    const std::function<std::string(const ProgramDescription&, const std::string&)>& make) {
   const auto word = std::make_shared<std::string>();
   declare(add_subcommand(program, name, help), *word);
-  return [&program, word, make] { print(make(tables_of(program), *word)); };
+  return [&program, word, make] { print(make(describe_program(program), *word)); };
 }
 
 }  // namespace
 
-std::string completion_script(const ProgramTable& program, const std::string& shell) {
+std::string completion_script(const ProgramDescription& program, const std::string& shell) {
   if (shell == "bash") return bash_script(program);
   return shell == "zsh" ? zsh_script(program) : fish_script(program);
 }
 
-std::string manual_page(const ProgramTable& program) {
+std::string manual_page(const ProgramDescription& program) {
   std::string text =
       concat(".TH CROWDFACE 1 \"\" \"crowdface ", kVersion,
              "\" \"User Commands\"\n.SH NAME\ncrowdface \\- ",
@@ -267,7 +270,7 @@ std::string manual_page(const ProgramTable& program) {
              "\n.SH SYNOPSIS\n.B crowdface\n\\fIcommand\\fR [\\fIoptions\\fR]\n"
              ".SH DESCRIPTION\n.nf\n",
              roff(program.help), "\n.fi\n.SH OPTIONS\n", roff_options(program), ".SH COMMANDS\n");
-  for (const CommandTable& command : program.commands) {
+  for (const CommandDescription& command : program.commands) {
     text += concat(".SS ", command.name, '\n', synopsis(command), ".PP\n", roff(command.help),
                    ".\n", roff_options(command));
   }
@@ -288,7 +291,7 @@ Run add_completion(CLI::App& program) {
 Run add_manual(CLI::App& program) {
   return add_printer(
       program, "manual", "Print the manual page, for man", [](CLI::App&, std::string&) {},
-      [](const ProgramTable& tables, const std::string&) { return manual_page(tables); });
+      [](const ProgramDescription& tables, const std::string&) { return manual_page(tables); });
 }
 
 }  // namespace crowdface::cli

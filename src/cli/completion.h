@@ -9,9 +9,9 @@ namespace crowdface::cli {
 
 /// The script with which a shell completes commands, options and their values.
 /// \param shell  "bash", "zsh" or "fish".
-std::string completion_script(const ProgramTable& program, const std::string& shell);
+std::string completion_script(const ProgramDescription& program, const std::string& shell);
 
 /// The manual page of the program and all its commands, for `man` (groff's man macros).
-std::string manual_page(const ProgramTable& program);
+std::string manual_page(const ProgramDescription& program);
 
 }  // namespace crowdface::cli

@@ -85,7 +85,7 @@ void write_mesh(const FileMesh& mesh, MeshFormat format, const fs::path& out,
 
 /// Copies faces, texture coordinates and materials from the mesh file `like` to a mesh that has
 /// only positions.
-void take_faces(const std::string& like, FileMesh& mesh) {
+void copy_polygons(const std::string& like, FileMesh& mesh) {
   FileMesh other = read_joined_mesh(like);
   if (other.positions.rows() != mesh.positions.rows()) {
     refuse_file(like,
@@ -115,7 +115,7 @@ void convert(const ConvertOptions& options) {
   if (!mesh.textures.empty() && *format == MeshFormat::kObj) {
     refuse_to_replace(fs::path(out).replace_extension(".mtl"));
   }
-  if (!options.like.empty()) take_faces(options.like, mesh);
+  if (!options.like.empty()) copy_polygons(options.like, mesh);
   if (mesh.topology.face_count() == 0 && format != MeshFormat::kPoints) {
     refuse_file(options.in,
                 concat("expected a mesh, found ", mesh.positions.rows(),

@@ -36,9 +36,9 @@ void edit(const EditorOptions& options) {
     edited.generate_arguments.insert(edited.generate_arguments.end(),
                                      {"--threads", options.threads});
   }
-  edited.port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
+  edited.port = static_cast<int>(parse_whole_number("--port", options.port, 0, kLargestPort));
   edited.preview_vertices =
-      whole_number("--preview-vertices", options.preview_vertices, 100, kMaxVertices);
+      parse_whole_number("--preview-vertices", options.preview_vertices, 100, kMaxVertices);
   if (options.benchmark) {
     print(benchmark_edit(options.config.config, options.config.overrides, edited));
     return;

@@ -22,7 +22,7 @@ Run add_generate(CLI::App& program) {
       },
       [](const Options& options) {
         generate(options.config.config, options.config.overrides,
-                 options.write.with_cache(options.config.cache_path()));
+                 options.write.generate_options(options.config.cache_path()));
       });
 }
 

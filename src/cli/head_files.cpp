@@ -62,8 +62,8 @@ std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view t
              "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
   for (const TaggedHead& head : heads) {
     out += concat("    ", head.name, ": [", head.male ? "male" : "female", ", ",
-                  age_class(head.years), head.more.empty() ? "" : ", ", head.more, "]  # ",
-                  format_fixed(head.years, 0), " years\n");
+                  age_class(head.years), head.extra_tags.empty() ? "" : ", ", head.extra_tags,
+                  "]  # ", format_fixed(head.years, 0), " years\n");
   }
   return out;
 }

@@ -12,10 +12,11 @@
 
 namespace crowdface::cli {
 
-inline constexpr std::uint64_t kMaxMade = 1000;  ///< largest number of heads that one command makes
-inline constexpr int kMaskSize = 1024;           ///< width and height of masks in pixels
-inline constexpr std::uint64_t kMinTexture = 64,
-                               kMaxTexture = 8192;  ///< width and height of textures in pixels
+inline constexpr std::uint64_t kMaxGeneratedHeads =
+    1000;                               ///< largest number of heads that one command makes
+inline constexpr int kMaskSize = 1024;  ///< width and height of masks in pixels
+inline constexpr std::uint64_t kMinTexturePx = 64,
+                               kMaxTexturePx = 8192;  ///< width and height of textures in pixels
 
 /// A file in a folder of heads. Its content depends only on the command line.
 struct HeadFile {
@@ -38,7 +39,7 @@ struct TaggedHead {
   std::string name;
   bool male = false;
   double years = 0;
-  std::string more = {};  ///< further tags, separated by ", "; may be empty
+  std::string extra_tags = {};  ///< further tags, separated by ", "; may be empty
 };
 
 /// Returns "young" below 35 years, "adult" from 35 to below 55 years, and "old" from 55 years on.

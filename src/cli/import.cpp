@@ -32,7 +32,7 @@ struct ImportOptions : CommonOptions {
   bool dress = false, body = false, force = false;
 };
 
-struct Wanted {
+struct HeadRequest {
   fs::path directory;
   std::uint64_t count, seed;
 };
@@ -40,24 +40,24 @@ struct Wanted {
 /// Adds the files of all heads, and a file of their tags if the model defines sex and age.
 /// \param encode       encodes a head with the given positions and name.
 /// \param further_tag  returns an additional tag for a head's number, or an empty text.
-void add_heads(const HeadModel& model, const std::string& kind, const Wanted& wanted,
+void add_heads(const HeadModel& model, const std::string& kind, const HeadRequest& request,
                const std::function<EncodedFile(const Positions&, const std::string& name)>& encode,
                const std::function<std::string(std::uint64_t)>& further_tag,
                std::vector<HeadFile>& files) {
   std::vector<TaggedHead> tagged;
-  for (std::uint64_t i = 1; i <= wanted.count; ++i) {
+  for (std::uint64_t i = 1; i <= request.count; ++i) {
     const std::string name = head_name(kind, i);
     files.push_back(
-        {wanted.directory / concat(name, ".obj"), [&model, seed = wanted.seed, i, encode, name] {
+        {request.directory / concat(name, ".obj"), [&model, seed = request.seed, i, encode, name] {
            return encode(model.positions(seed, i), name);
          }});
-    if (const auto person = model.person(wanted.seed, i)) {
+    if (const auto person = model.person(request.seed, i)) {
       tagged.push_back({name, person->is_male, person->age_years, further_tag(i)});
     }
   }
   if (tagged.empty()) return;
-  const std::string title = concat("Heads of the ", kind, " model, seed ", wanted.seed);
-  files.push_back(text_file(wanted.directory / "tags.yaml", format_tags(tagged, title)));
+  const std::string title = concat("Heads of the ", kind, " model, seed ", request.seed);
+  files.push_back(text_file(request.directory / "tags.yaml", format_tags(tagged, title)));
 }
 
 /// Paints the region masks. Call this function before writing files, because it fails for a model
@@ -77,9 +77,9 @@ PaintedMasks masks_of(const Model& model, const ImportOptions& options,
   }
 }
 
-void add_masks(const PaintedMasks& masks, const std::string& kind, const Wanted& wanted,
+void add_masks(const PaintedMasks& masks, const std::string& kind, const HeadRequest& request,
                std::vector<HeadFile>& files) {
-  const fs::path path = wanted.directory / concat(kind, "_bands.png");
+  const fs::path path = request.directory / concat(kind, "_bands.png");
   for (auto& [file, bytes] : encode_masks(masks, path).files) {
     files.push_back(text_file(file, std::move(bytes)));
   }
@@ -96,7 +96,7 @@ std::vector<bool> skin_of(const MakeHumanHeads& model) {
   return skin;
 }
 
-void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
+void import_makehuman(const ImportOptions& options, const HeadRequest& request) {
   if (!options.dress && !options.textures.empty()) {
     throw UsageError("--textures: heads without --dress have no textures; add --dress");
   }
@@ -104,21 +104,22 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
   std::optional<MakeHumanDress> dress;
   if (options.dress) {
     const std::string& most = options.textures.empty() ? "1024" : options.textures;
-    dress.emplace(options.data, model,
-                  static_cast<int>(whole_number("--textures", most, kMinTexture, kMaxTexture)));
+    dress.emplace(
+        options.data, model,
+        static_cast<int>(parse_whole_number("--textures", most, kMinTexturePx, kMaxTexturePx)));
   }
   const Topology& topology = model.neutral().topology;
   const int rounds =
       options.vertices.empty()
           ? 0
           : subdivision_rounds(topology,
-                               static_cast<Index>(whole_number("--vertices", options.vertices,
-                                                               kMinVertices, kMaxVertices)));
+                               static_cast<Index>(parse_whole_number("--vertices", options.vertices,
+                                                                     kMinVertices, kMaxVertices)));
   const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
   const auto refined = [&](Mesh mesh, std::vector<MaterialRange>& materials) {
     for (int round = 0; round < rounds; ++round) {
-      // Subdivision makes one quad per corner. The first face of a material range is then the quad
-      // of the first corner of the range's previous first face.
+      // Subdivision replaces a face by one quad per corner. The first face of a material range
+      // becomes the quad at the first corner of the old first face.
       for (MaterialRange& range : materials) {
         range.first_face = mesh.topology.face_offsets[static_cast<std::size_t>(range.first_face)];
       }
@@ -136,23 +137,23 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
   };
   const auto ancestry = [&](std::uint64_t index) {
     if (!dress) return std::string();
-    const MakeHumanPerson person = random_makehuman_person(wanted.seed, index);
+    const MakeHumanPerson person = random_makehuman_person(request.seed, index);
     const std::string prevailing = prevailing_ancestry(person);
     return concat(prevailing, prevailing.empty() ? "" : ", ",
-                  makehuman_hair_colour(person, wanted.seed, index), "_hair");
+                  makehuman_hair_colour(person, request.seed, index), "_hair");
   };
   std::vector<HeadFile> files;
-  add_heads(model, "makehuman", wanted, encode, ancestry, files);
-  add_masks(masks, "makehuman", wanted, files);
+  add_heads(model, "makehuman", request, encode, ancestry, files);
+  add_masks(masks, "makehuman", request, files);
   if (dress) {
-    for (std::uint64_t i = 1; i <= wanted.count; ++i) {
-      dress->add_person(wanted.directory, head_name("makehuman", i), wanted.seed, i, files);
+    for (std::uint64_t i = 1; i <= request.count; ++i) {
+      dress->add_person(request.directory, head_name("makehuman", i), request.seed, i, files);
     }
-    dress->add_common(wanted.directory, {{}, [&] { return encode(model.neutral().positions, {}); }},
-                      files);
+    dress->add_common(request.directory,
+                      {{}, [&] { return encode(model.neutral().positions, {}); }}, files);
   }
   if (options.body) {
-    const fs::path folder = wanted.directory / "body";
+    const fs::path folder = request.directory / "body";
     files.push_back({folder / "body.obj", [&] {
                        std::vector<MaterialRange> materials = {{"skin", 0}};
                        const Mesh body = refined(model.body(), materials);
@@ -163,16 +164,16 @@ void import_makehuman(const ImportOptions& options, const Wanted& wanted) {
     if (dress) dress->add_body(folder, files);
   }
   write_head_files("makehuman heads", files, options.force);
-  log_info(concat(wanted.count, " heads of ", vertices,
-                  " vertices, with region masks and tags, in ", wanted.directory.string()));
-  if (options.body) log_info(concat("body in ", (wanted.directory / "body").string()));
+  log_info(concat(request.count, " heads of ", vertices,
+                  " vertices, with region masks and tags, in ", request.directory.string()));
+  if (options.body) log_info(concat("body in ", (request.directory / "body").string()));
   if (dress) {
-    log_info(concat("hair, brows and beards in ", (wanted.directory / "attachments").string(),
-                    "; authors and licences in ", (wanted.directory / "licences.txt").string()));
+    log_info(concat("hair, brows and beards in ", (request.directory / "attachments").string(),
+                    "; authors and licences in ", (request.directory / "licences.txt").string()));
   }
 }
 
-void import_ict(const ImportOptions& options, const Wanted& wanted) {
+void import_ict(const ImportOptions& options, const HeadRequest& request) {
   if (options.dress || !options.textures.empty()) {
     throw UsageError("--dress and --textures: only makehuman heads have attachments and textures");
   }
@@ -191,29 +192,30 @@ void import_ict(const ImportOptions& options, const Wanted& wanted) {
   };
   std::vector<HeadFile> files;
   add_heads(
-      model, "ict", wanted, encode, [](std::uint64_t) { return std::string(); }, files);
+      model, "ict", request, encode, [](std::uint64_t) { return std::string(); }, files);
   const MaterialFiles materials =
       find_material_files(model.file().path, model.file().material_libraries);
   for (const std::string& warning : materials.warnings) log_warning(warning);
   for (const MaterialFile& material : materials.files) {
-    files.push_back({wanted.directory / material.destination,
+    files.push_back({request.directory / material.destination,
                      [source = material.source] { return read_file(source); }});
   }
-  add_masks(masks, "ict", wanted, files);
+  add_masks(masks, "ict", request, files);
   write_head_files("ict heads", files, options.force);
-  log_info(concat(wanted.count, " heads of ", model.neutral().topology.vertex_count,
+  log_info(concat(request.count, " heads of ", model.neutral().topology.vertex_count,
                   " vertices from ", model.mode_count(), " identity modes, with region masks, in ",
-                  wanted.directory.string(),
+                  request.directory.string(),
                   "; no tags, because the model does not define sex and age"));
 }
 
 void import_heads(const ImportOptions& options) {
-  const Wanted wanted{options.out, whole_number("--count", options.count, 0, kMaxMade),
-                      whole_number("--seed", options.seed, 0, UINT64_MAX)};
+  const HeadRequest request{options.out,
+                            parse_whole_number("--count", options.count, 0, kMaxGeneratedHeads),
+                            parse_whole_number("--seed", options.seed, 0, UINT64_MAX)};
   if (options.model == "makehuman") {
-    import_makehuman(options, wanted);
+    import_makehuman(options, request);
   } else {
-    import_ict(options, wanted);
+    import_ict(options, request);
   }
 }
 

@@ -42,7 +42,7 @@ bool has_three_bands(const fs::path& image) {
 
 /// Returns the name of the three-region mask that `synth` or `import` wrote to the folder of the
 /// heads; empty if there is none.
-std::string mask_beside(const fs::path& heads) {
+std::string find_mask(const fs::path& heads) {
   for (const char* name : {"regions.png", "makehuman_bands.png", "ict_bands.png"}) {
     if (is_file(heads / name) && has_three_bands(heads / name)) return name;
   }
@@ -59,8 +59,8 @@ void throw_if_any(const Complaints& complaints) {
 
 /// Reads the heads' tags from tags.yaml in their folder.
 /// \throws InvalidInput if the file is not valid.
-std::vector<std::vector<std::string>> tags_beside(const std::vector<fs::path>& files,
-                                                  const std::vector<std::string>& names) {
+std::vector<std::vector<std::string>> read_tags(const std::vector<fs::path>& files,
+                                                const std::vector<std::string>& names) {
   Complaints complaints;
   ConfigDraft draft(complaints);
   draft.heads_known = true;
@@ -78,7 +78,7 @@ constexpr const char* kAttachments = "attachments";
 
 /// Returns whether there is a folder of attachments beside the heads, and at least one head may
 /// wear at least one of the attachments.
-bool has_attachments_beside(const fs::path& heads, const StarterFacts& facts) {
+bool has_wearable_attachments(const fs::path& heads, const StarterFacts& facts) {
   if (!is_file(heads / kAttachments / "attachments.yaml")) return false;
   Complaints complaints;
   const bool any = has_attachments(heads / kAttachments, facts, complaints);
@@ -104,8 +104,8 @@ std::string format_number_of(double value) {
 
 constexpr std::size_t kHeadsLookedAt = 8;
 
-/// What the analysis of the heads' shapes has found.
-struct Seen {
+/// Properties of the heads, found from their shapes.
+struct ShapeAnalysis {
   Positions first;                         ///< vertices of the first head
   std::optional<Orientation> orientation;  ///< up and front axes
   std::optional<PaintedMasks> masks;
@@ -116,7 +116,7 @@ struct Seen {
 
 /// Leaves out heads that `check` refuses because of their pose, and logs warnings. With such heads,
 /// the mean head would not look like a face.
-void leave_out_odd_heads(HeadSet& set, const Components& components) {
+void remove_odd_heads(HeadSet& set, const Components& components) {
   const std::vector<HeadPose> poses = head_poses(set, components);
   std::vector<Head> kept;
   for (std::size_t h = 0; h < poses.size(); ++h) {
@@ -132,7 +132,7 @@ void leave_out_odd_heads(HeadSet& set, const Components& components) {
 
 /// Analyses a sample of the heads. If no regions can be proposed, logs a warning and does not fail,
 /// because a config without regions is valid.
-Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
+ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks) {
   Config::Faces faces;
   for (std::size_t i = 0; i < std::min(files.size(), kHeadsLookedAt); ++i) {
     faces.files.push_back(files[i * files.size() / std::min(files.size(), kHeadsLookedAt)]);
@@ -147,32 +147,33 @@ Seen look_at(const std::vector<fs::path>& files, bool with_masks) {
   }
   // Align the heads as the config will, because only the mean of aligned heads looks like a face.
   const Components components = find_components(build_adjacency(set->topology));
-  leave_out_odd_heads(*set, components);
+  remove_odd_heads(*set, components);
   const bool stands_apart = needs_rigid_alignment(*set, components);
   if (stands_apart) align_heads(*set, components, Align::kRigid);
   const HeadShape mean = shape_of_mean(*set);
-  Seen seen{set->heads[0].positions, find_orientation(set->topology, mean), {}};
-  if (const auto marks = find_face_marks(
-          set->topology, mean, axes_of(seen.orientation.value_or(Orientation{{1, 1}, {2, 1}})))) {
-    seen.face = marks->eye_to_mouth();
+  ShapeAnalysis analysis{set->heads[0].positions, find_orientation(set->topology, mean), {}};
+  if (const auto marks =
+          find_face_marks(set->topology, mean,
+                          axes_of(analysis.orientation.value_or(Orientation{{1, 1}, {2, 1}})))) {
+    analysis.face = marks->eye_to_mouth();
   }
-  seen.has_uvs = set->uvs.rows() > 0;
-  seen.stands_apart = stands_apart;
-  if (!with_masks) return seen;
+  analysis.has_uvs = set->uvs.rows() > 0;
+  analysis.stands_apart = stands_apart;
+  if (!with_masks) return analysis;
   try {
-    const Orientation orientation = seen.orientation.value_or(Orientation{{1, 1}, {2, 1}});
-    seen.masks = propose_masks(*set, mean, orientation, parse_bands("brow,nose,mouth"),
+    const Orientation orientation = analysis.orientation.value_or(Orientation{{1, 1}, {2, 1}});
+    analysis.masks = propose_masks(*set, mean, orientation, parse_bands("brow,nose,mouth"),
                                mask_texels(set->topology.vertex_count));
   } catch (const InvalidInput& error) {
     log_warning(concat("no regions: ", error.what()));
   }
-  return seen;
+  return analysis;
 }
 
 /// Guesses the unit of the meshes: the named unit in which the face has human size (or the head, if
 /// no face was found); tries inches last. If no named unit fits, uses the unit length that gives
 /// the face human size.
-void guess_units(const Seen& seen, StarterFacts& facts) {
+void guess_units(const ShapeAnalysis& analysis, StarterFacts& facts) {
   constexpr double kTypicalHeightMm = 280;  // heads with and without neck and shoulders
   constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;
   constexpr double kMaxTimes = 3;  // largest plausible ratio to kTypicalHeightMm
@@ -180,17 +181,17 @@ void guess_units(const Seen& seen, StarterFacts& facts) {
   const std::string height =
       concat("the first head is ", format_number_of(facts.head_height), " units tall");
   facts.units_reason = height;
-  const double face_mm = seen.face * mm_per(facts.units);
+  const double face_mm = analysis.face * mm_per(facts.units);
   const double times = facts.head_height * mm_per(facts.units) / kTypicalHeightMm;
   const auto is_human = [&](double mm) { return mm >= kMinFaceMm && mm <= kMaxFaceMm; };
-  if (seen.face > 0 && !is_human(face_mm)) {
-    facts.units = is_human(seen.face * mm_per(LengthUnit::kInch))
+  if (analysis.face > 0 && !is_human(face_mm)) {
+    facts.units = is_human(analysis.face * mm_per(LengthUnit::kInch))
                       ? LengthUnit::kInch
-                      : fitting_unit(seen.face, kTypicalFaceMm);
-    facts.units_reason =
-        concat(height, " and ", format_number_of(seen.face), " from the eyes to the mouth (about ",
-               kTypicalFaceMm, " mm in people), and mm, cm and m do not fit");
-  } else if (seen.face == 0 && (times > kMaxTimes || times < 1 / kMaxTimes)) {
+                      : fitting_unit(analysis.face, kTypicalFaceMm);
+    facts.units_reason = concat(height, " and ", format_number_of(analysis.face),
+                                " from the eyes to the mouth (about ", kTypicalFaceMm,
+                                " mm in people), and mm, cm and m do not fit");
+  } else if (analysis.face == 0 && (times > kMaxTimes || times < 1 / kMaxTimes)) {
     facts.units = fitting_unit(facts.head_height, kTypicalHeightMm);
     facts.units_reason = concat(height, ", and mm, cm and m do not fit");
   }
@@ -218,7 +219,7 @@ void init(const InitOptions& options) {
   // Refuse to overwrite inputs or an existing config.
   const fs::path file = checked_output_path(out);
   refuse_to_write_over(files, {file});
-  std::string mask = mask_beside(heads);
+  std::string mask = find_mask(heads);
   std::vector<fs::path> beside = find_tiles(heads / mask);
   beside.push_back(heads / mask);
   beside.push_back(heads / "tags.yaml");
@@ -230,39 +231,39 @@ void init(const InitOptions& options) {
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();
   facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
   require_storable_path(facts.heads);
-  const Seen seen = look_at(files, mask.empty());
-  if (!seen.has_uvs && !mask.empty()) {
+  const ShapeAnalysis analysis = analyse_shapes(files, mask.empty());
+  if (!analysis.has_uvs && !mask.empty()) {
     log_warning(concat("no regions: the heads have no texture coordinates, which the mask ", mask,
                        " needs"));
     mask.clear();
   }
-  if (seen.orientation) {
-    facts.up = seen.orientation->up;
-    facts.front = seen.orientation->front;
+  if (analysis.orientation) {
+    facts.up = analysis.orientation->up;
+    facts.front = analysis.orientation->front;
   }
-  facts.align_rigidly = seen.stands_apart;
+  facts.align_rigidly = analysis.stands_apart;
   for (const fs::path& head : files) {
     facts.names.push_back(head.stem().string());
     if (!is_name(facts.names.back())) {
       throw InvalidInput(invalid_head_name_message(facts.names.back(), head));
     }
   }
-  const auto up = seen.first.col(facts.up.index);
+  const auto up = analysis.first.col(facts.up.index);
   facts.head_height = up.maxCoeff() - up.minCoeff();
-  guess_units(seen, facts);
-  facts.vertices = seen.first.rows();
+  guess_units(analysis, facts);
+  facts.vertices = analysis.first.rows();
   facts.crowd_name = "crowd";
-  facts.tags = tags_beside(files, facts.names);
+  facts.tags = read_tags(files, facts.names);
   if (!mask.empty()) facts.mask = (facts.heads / mask).string();
   // Propose a mask if the heads have none.
   MaskFiles proposed;
-  if (seen.masks) {
-    proposed = encode_masks(*seen.masks, here / concat(file.stem().string(), "_bands.png"));
+  if (analysis.masks) {
+    proposed = encode_masks(*analysis.masks, here / concat(file.stem().string(), "_bands.png"));
     for (const auto& [path, bytes] : proposed.files) refuse_existing(path, options.force);
     facts.mask = proposed.masks[0].filename().string();
     facts.regions = {"brow", "nose", "mouth"};
   }
-  if (has_attachments_beside(heads, facts)) facts.attachments = facts.heads / kAttachments;
+  if (has_wearable_attachments(heads, facts)) facts.attachments = facts.heads / kAttachments;
   // Write the files and report the guesses for the user to check.
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
   write_file(file, starter_config(facts));

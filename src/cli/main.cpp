@@ -48,7 +48,7 @@ constexpr const char* kLack =
     "the system cannot provide more threads, memory or open files; use fewer threads (--threads): ";
 
 /// Returns whether an exception reports a lack of system resources. If TBB cannot start a thread,
-/// only the system's message text in its exception shows the cause.
+/// only the message text of its exception names the cause.
 bool is_lack_of_resources(const std::exception& error) {
   const std::string_view what = error.what();
   for (const std::errc lack : {std::errc::resource_unavailable_try_again,

@@ -61,7 +61,7 @@ std::uint8_t srgb8_of_light(double light) {
 
 /// Downsamples an image to at most `max_texels` in width and height by averaging square blocks, in
 /// linear light and weighted by alpha.
-Picture shrunk(Picture picture, int max_texels) {
+Picture downsampled(Picture picture, int max_texels) {
   const int block = (std::max(picture.width, picture.height) + max_texels - 1) / max_texels;
   if (block <= 1) return picture;
   Picture small{std::max(1, picture.width / block),
@@ -136,12 +136,13 @@ std::string encoded_alpha(const Picture& picture) {
 }
 
 HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels) {
-  return {path, [from, max_texels] { return encoded(shrunk(read_picture(from), max_texels)); }};
+  return {path,
+          [from, max_texels] { return encoded(downsampled(read_picture(from), max_texels)); }};
 }
 
 /// Blends skin textures in optical density, because the densities of mixed pigments add up.
 /// \param tone  factor on the densities.
-Picture mixed_skin(const std::vector<SkinShare>& shares, double tone) {
+Picture blended_skin(const std::vector<SkinShare>& shares, double tone) {
   std::vector<Picture> pictures;
   for (const SkinShare& share : shares) {
     pictures.push_back(read_picture(share.picture));
@@ -206,7 +207,7 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
              "newmtl tongue\nKd 1 1 1\nmap_Kd textures/tongue.png\n")));
   files.push_back({folder / skin, [shares = makehuman_skin(package_, person, seed, index),
                                    tone = makehuman_skin_tone(seed, index), most = max_texels_] {
-                     return encoded(shrunk(mixed_skin(shares, tone), most));
+                     return encoded(downsampled(blended_skin(shares, tone), most));
                    }});
   const auto of_colour = [&](const FittedMesh::Picture& picture) { return picture.name == colour; };
   if (eyes_.contains(colour)) return;
@@ -226,7 +227,7 @@ void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& fil
   }
   files.push_back(text_file(folder / "body.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd body.png\n"));
   files.push_back({folder / "body.png", [shares = std::move(shares), most = max_texels_] {
-                     return encoded(shrunk(mixed_skin(shares, 1), most));
+                     return encoded(downsampled(blended_skin(shares, 1), most));
                    }});
 }
 
@@ -234,7 +235,7 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
                                 std::vector<HeadFile>& files) {
   const fs::path textures = folder / "textures", attachments = folder / "attachments";
   files.push_back({textures / "eyelashes.png", [from = parts_.lashes, most = max_texels_] {
-                     return encoded_alpha(shrunk(read_picture(from), most));
+                     return encoded_alpha(downsampled(read_picture(from), most));
                    }});
   files.push_back(picture_file(textures / "teeth.png", parts_.teeth, max_texels_));
   files.push_back(picture_file(textures / "tongue.png", parts_.tongue, max_texels_));
@@ -295,7 +296,7 @@ void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttac
   files.push_back({folder / picture, [from = mesh.pictures[0].path, most = max_texels_] {
                      Picture shown = read_picture(from);
                      make_neutral(shown);
-                     return encoded(shrunk(std::move(shown), most));
+                     return encoded(downsampled(std::move(shown), most));
                    }});
 }
 

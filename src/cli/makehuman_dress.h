@@ -27,12 +27,12 @@ class MakeHumanDress {
   /// Adds a person's material file `NAME.mtl`, skin texture `NAME_skin.png`, and eye texture.
   void add_person(const std::filesystem::path& folder, const std::string& name, std::uint64_t seed,
                   std::uint64_t index, std::vector<HeadFile>& files);
-  /// Adds the body's material file `body.mtl` and its texture `body.png`: the mean of the skins of a
-  /// woman and a man of mixed ancestry.
+  /// Adds the body's material file `body.mtl` and its texture `body.png`: the mean of the skins of
+  /// a woman and a man of mixed ancestry.
   void add_body(const std::filesystem::path& folder, std::vector<HeadFile>& files) const;
-  /// Adds the files that all heads share: textures of lashes, teeth and tongue; the folder
-  /// `attachments`, which contains the hair, brows and beards that the persons added so far may
-  /// wear and the config section that lists these attachments; `licences.txt`.
+  /// Adds the files that all heads share: textures of lashes, teeth and tongue; `licences.txt`; the
+  /// folder `attachments` with hair, brows and beards for the added persons and with the config
+  /// section that lists these attachments.
   /// \param base  the average head, in the heads' topology.
   void add_common(const std::filesystem::path& folder, HeadFile base, std::vector<HeadFile>& files);
 

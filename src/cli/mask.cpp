@@ -29,13 +29,13 @@ struct MaskOptions : CommonOptions {
 };
 
 /// The heads, and their up and front axes if a config defines these.
-struct WantedMask {
+struct MaskInputs {
   Config::Faces faces;
   std::optional<Orientation> orientation;
 };
 
-WantedMask heads_of_folder(const fs::path& folder) {
-  WantedMask wanted;
+MaskInputs heads_of_folder(const fs::path& folder) {
+  MaskInputs wanted;
   wanted.faces.files = list_heads(folder);
   if (wanted.faces.files.empty()) {
     throw MissingInput(concat(
@@ -48,8 +48,8 @@ WantedMask heads_of_folder(const fs::path& folder) {
 }
 
 /// Reads the heads from a config. Ignores problems in other parts of the config, because the mask
-/// that it names may not exist yet.
-WantedMask heads_of_config(const fs::path& file) {
+/// file that the config names may not exist yet.
+MaskInputs heads_of_config(const fs::path& file) {
   Problems problems;
   const ConfigReading reading = read_config_parts(file, {}, problems);
   if (!reading.heads_known) problems.throw_if_any();
@@ -65,7 +65,7 @@ void read_axis(const std::string& option, const std::string& text, Axis& axis) {
   axis = *read;
 }
 
-Orientation bearing_of(const MaskOptions& options, const WantedMask& wanted,
+Orientation bearing_of(const MaskOptions& options, const MaskInputs& wanted,
                        const Topology& topology, const HeadShape& mean) {
   Orientation orientation = wanted.orientation.value_or(Orientation{{1, 1}, {2, 1}});
   if (options.up.empty() && options.front.empty() && !wanted.orientation) {
@@ -85,16 +85,17 @@ void mask(const MaskOptions& options) {
   if (out.extension() != ".png") {
     throw UsageError(concat("-o: expected a PNG file, found ", quoted(options.out)));
   }
-  const WantedMask wanted =
+  const MaskInputs wanted =
       is_folder(options.heads) ? heads_of_folder(options.heads) : heads_of_config(options.heads);
   Problems problems;
   const auto faces = load_head_set(wanted.faces, options.cache.cache_path(), problems);
   problems.throw_if_any();
   const HeadShape mean = shape_of_mean(*faces);
   const Orientation orientation = bearing_of(options, wanted, faces->topology, mean);
-  const int size = options.size.empty()
-                       ? mask_texels(faces->topology.vertex_count)
-                       : static_cast<int>(whole_number("--size", options.size, kMinSize, kMaxSize));
+  const int size =
+      options.size.empty()
+          ? mask_texels(faces->topology.vertex_count)
+          : static_cast<int>(parse_whole_number("--size", options.size, kMinSize, kMaxSize));
   MaskFiles masks = encode_masks(propose_masks(*faces, mean, orientation, bands, size), out);
   std::vector<HeadFile> files;
   for (auto& [file, bytes] : masks.files) files.push_back(text_file(file, std::move(bytes)));

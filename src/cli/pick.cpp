@@ -26,7 +26,7 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
         concat("--landmarks ", options.landmarks, ": expected a file name that ends in .yaml"));
   }
   std::filesystem::path file = checked_output_path(options.landmarks);
-  refuse_to_write_over({options.shape, options.scan}, {file});
+  refuse_to_write_over({options.template_file, options.scan}, {file});
   return file;
 }
 
@@ -35,7 +35,7 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
 std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
   if (options.batch.empty()) return {{options.scan, landmarks_file(options)}};
   std::vector<PickScans::Entry> entries;
-  for (const std::filesystem::path& scan : scans_in(options.batch)) {
+  for (const std::filesystem::path& scan : list_scans(options.batch)) {
     std::filesystem::path landmarks = scan;
     entries.push_back({scan, landmarks.replace_extension(".yaml")});
   }
@@ -46,7 +46,7 @@ std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
 
 void pick(const WrapCommand& options) {
   constexpr std::uint64_t kLargestPort = 65535;
-  const auto port = static_cast<int>(whole_number("--port", options.port, 0, kLargestPort));
+  const auto port = static_cast<int>(parse_whole_number("--port", options.port, 0, kLargestPort));
   WrapOptions without_landmarks = options;
   without_landmarks.landmarks.clear();  // PickScans reads them with the scan
   const std::vector<PickScans::Entry> entries = entries_of(options);
@@ -56,11 +56,11 @@ void pick(const WrapCommand& options) {
     Scan scan = scan_of(mesh, entry.scan);
     ColourRows colours = colours_at_vertices(scan, ScanColours(std::move(mesh), entry.scan));
     return PickInputs{inputs.shape,
-                      inputs.file.positions * inputs.mm,
+                      inputs.file.positions * inputs.mm_per_unit,
                       inputs.file.positions,
                       std::move(scan),
                       inputs.hint,
-                      options.shape,
+                      options.template_file,
                       entry.scan,
                       entry.landmarks,
                       options.batch.empty() ? std::string() : options.landmarks,

@@ -11,9 +11,9 @@ namespace crowdface::cli {
 
 /// The command line of `wrap`.
 struct WrapCommand : CommonOptions, WrapOptions {
-  std::string first;       ///< the template, without --batch
-  std::string shard_text;  ///< part of the batch, such as 2/7
-  std::string port = "0";  ///< TCP port of the page of --pick; 0: any free port
+  std::string template_argument;  ///< the template, without --batch
+  std::string shard_text;         ///< part of the batch, such as 2/7
+  std::string port = "0";         ///< TCP port of the page of --pick; 0: any free port
   bool pick = false, no_browser = false;
 };
 

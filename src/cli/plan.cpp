@@ -31,7 +31,7 @@ Run add_plan(CLI::App& program) {
         if (options.estimate) {
           print(estimate(job.config, job.overrides, cache));
         } else {
-          plan(job.config, job.overrides, options.write.with_cache(cache));
+          plan(job.config, job.overrides, options.write.generate_options(cache));
         }
       });
 }

@@ -17,7 +17,7 @@ namespace crowdface::cli {
 namespace {
 
 /// Logs for each head the measured error of the fitted smoothing levels.
-void tell_errors(const Job& job, const Prepared& prepared) {
+void log_level_errors(const Job& job, const Prepared& prepared) {
   const double mm = mm_per(job.config.faces.units);
   for (std::size_t h = 0; h < prepared.levels.size(); ++h) {
     const StoredLevels& levels = prepared.levels[h];
@@ -29,8 +29,8 @@ void tell_errors(const Job& job, const Prepared& prepared) {
 
 /// Throws if a prepared head is not in the cache. Other commands can continue without a cache, but
 /// filling the cache is the purpose of this command.
-void refuse_heads_not_kept(const Prepared& prepared, const std::vector<std::string>& names,
-                           const std::filesystem::path& cache) {
+void require_heads_in_cache(const Prepared& prepared, const std::vector<std::string>& names,
+                            const std::filesystem::path& cache) {
   for (std::size_t h = 0; h < names.size(); ++h) {
     if (prepared.levels[h].mapped_file) continue;
     throw IoError(
@@ -54,7 +54,7 @@ Run add_prepare(CLI::App& program) {
                    "Prepare only part I of N of the heads; other tasks prepare the other parts");
       },
       [](const Options& options) {
-        const Shard shard = shard_from(options.shard);
+        const Shard shard = parse_shard_option(options.shard);
         const Job job =
             load_job(options.config.config, options.config.overrides, options.config.cache_path());
         const std::filesystem::path cache = options.config.cache_path();
@@ -64,13 +64,13 @@ Run add_prepare(CLI::App& program) {
                                [&](std::size_t head) { return shard.owns(head); });
         }
         const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
-        refuse_heads_not_kept(prepared, job.names.heads, cache);
+        require_heads_in_cache(prepared, job.names.heads, cache);
         const double size = size_of_iterations(job.smoothing.kind(), job.inputs.max_level,
                                                job.inputs.edge_length_mm);
         log_info(concat("L_max is ", job.inputs.max_level, " iterations, a size of ",
                         format_fixed(size, 1), " mm on edges of ",
                         format_fixed(job.inputs.edge_length_mm, 2), " mm"));
-        if (job.config.smoothing.levels == Levels::kBasis) tell_errors(job, prepared);
+        if (job.config.smoothing.levels == Levels::kBasis) log_level_errors(job, prepared);
       });
 }
 

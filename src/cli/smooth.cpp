@@ -30,7 +30,7 @@ struct SmoothOptions : CommonOptions {
 std::vector<std::uint64_t> levels_of(const std::string& text) {
   std::vector<std::uint64_t> levels;
   for (const std::string_view level : split(text, ',')) {
-    levels.push_back(whole_number("--iterations", std::string(level), 0, kMaxIterations));
+    levels.push_back(parse_whole_number("--iterations", std::string(level), 0, kMaxIterations));
     if (std::ranges::count(levels, levels.back()) > 1) {
       throw UsageError(concat("--iterations: ", levels.back(), " is given twice"));
     }
@@ -83,7 +83,7 @@ void add_word_option(CLI::App& command, const char* name, Value& value, const ch
   };
   add_option(command, name, choose, "WORD", help)
       .one_of(words)
-      .shown_default(std::string(word_of(value)));
+      .show_default(std::string(word_of(value)));
 }
 
 void declare_smooth(CLI::App& command, SmoothOptions& options) {

@@ -43,14 +43,14 @@ void wait(std::uint64_t seconds) {
 
 void show(const StatusOptions& options) {
   constexpr std::uint64_t kMaxSeconds = 86'400;
-  const std::uint64_t every = whole_number("--every", options.every, 1, kMaxSeconds);
+  const std::uint64_t every = parse_whole_number("--every", options.every, 1, kMaxSeconds);
   const bool renew = options.watch && !options.json && ::isatty(STDOUT_FILENO) == 1;
   for (;;) {
     const CrowdStatus status = crowd_status(options.directory);
     if (renew) std::cout << "\033[H\033[2J";
     print(options.json ? format_status_json(status) : format_status_table(status));
     if (!std::cout.flush()) throw IoError("standard output: writing failed");
-    if (!options.watch || status.gathered) return;
+    if (!options.watch || status.is_gathered) return;
     wait(every);
   }
 }

@@ -51,7 +51,7 @@ void declare_submit(CLI::App& command, SubmitOptions& options) {
              "expands variables such as $TMPDIR");
   add_repeated(command, "--host", options.of_engine.hosts, "HOST",
                "With --engine parallel: a machine that runs tasks, reached by ssh");
-  add_repeated(command, "--engine-option", options.of_engine.more, "OPTION",
+  add_repeated(command, "--engine-option", options.of_engine.extra_arguments, "OPTION",
                "Pass this option to sbatch or parallel, such as --engine-option=--account=films");
   add_option(command, "--program", options.program, "FILE",
              "The path of crowdface on the machines (default: this program)");
@@ -62,8 +62,8 @@ fs::path full_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal();
 }
 
-/// Returns arguments that name this config in a way that does not depend on machine and working
-/// directory.
+/// Returns the command-line arguments for this config, with absolute paths, so that every machine
+/// can use them.
 std::vector<std::string> config_arguments(const ConfigOptions& options, const fs::path& out) {
   std::vector<std::string> arguments = {full_path(options.config).string(), "--out", out.string()};
   const auto add = [&](const char* name, const std::string& value) {
@@ -86,7 +86,7 @@ Engine engine_from(const std::string& name) {
 
 /// Checks the options.
 /// \throws UsageError if a given option does not apply to the engine.
-void refuse_strange_options(const SubmitOptions& options, Engine engine) {
+void refuse_inapplicable_options(const SubmitOptions& options, Engine engine) {
   const EngineOptions& of_engine = options.of_engine;
   const auto only_for = [&](const char* name, bool given, Engine wanted) {
     if (!given || engine == wanted) return;
@@ -105,7 +105,7 @@ void refuse_strange_options(const SubmitOptions& options, Engine engine) {
 
 std::uint64_t count_from(std::string_view option, const std::string& text, std::uint64_t fitting) {
   constexpr std::uint64_t kMax = 9999;
-  return text.empty() ? fitting : whole_number(option, text, 1, kMax);
+  return text.empty() ? fitting : parse_whole_number(option, text, 1, kMax);
 }
 
 TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
@@ -120,13 +120,13 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   tasks.cache = options.config.cache.empty() ? tasks.directory.task_folder() / "cache"
                                              : full_path(options.config.cache);
   tasks.scratch = options.scratch;
-  tasks.processors = whole_number("--processors", options.processors, 1, kMaxProcessors);
-  tasks.memory = bytes_from("--memory", options.memory);
+  tasks.processors = parse_whole_number("--processors", options.processors, 1, kMaxProcessors);
+  tasks.memory = parse_byte_size("--memory", options.memory);
   tasks.prepares = count_from("--prepare-tasks", options.prepares,
-                              fitting_prepares(job.inputs, tasks.processors));
-  tasks.shards =
-      count_from("--shards", options.shards,
-                 fitting_shards(job.config, job.inputs, face_count(job.config), tasks.processors));
+                              suitable_prepare_count(job.inputs, tasks.processors));
+  tasks.shards = count_from(
+      "--shards", options.shards,
+      suitable_shard_count(job.config, job.inputs, face_count(job.config), tasks.processors));
   return tasks;
 }
 
@@ -154,9 +154,9 @@ void run_script(const fs::path& script) {
 
 void submit(const SubmitOptions& options) {
   const Engine engine = engine_from(options.engine);
-  refuse_strange_options(options, engine);
+  refuse_inapplicable_options(options, engine);
   EngineOptions of_engine = options.of_engine;
-  of_engine.grace_seconds = whole_number("--grace", options.grace, 1, 65535);
+  of_engine.grace_seconds = parse_whole_number("--grace", options.grace, 1, 65535);
   const Job job =
       load_job(options.config.config, options.config.overrides, options.config.cache_path());
   const TaskJob tasks = tasks_of(options, job);

@@ -69,10 +69,10 @@ void add_body(const fs::path& folder, const SyntheticHeads& heads, const Synthet
 }
 
 void synth(const SynthOptions& options) {
-  const std::uint64_t count = whole_number("--count", options.count, 0, kMaxMade);
+  const std::uint64_t count = parse_whole_number("--count", options.count, 0, kMaxGeneratedHeads);
   const std::uint64_t vertices =
-      whole_number("--vertices", options.vertices, kMinSynthetic, kMaxSynthetic);
-  const std::uint64_t seed = whole_number("--seed", options.seed, 0, UINT64_MAX);
+      parse_whole_number("--vertices", options.vertices, kMinSynthetic, kMaxSynthetic);
+  const std::uint64_t seed = parse_whole_number("--seed", options.seed, 0, UINT64_MAX);
   const fs::path directory = options.out;
   fs::path mask = directory / "regions.png";
   if (!options.mask.empty()) {
@@ -94,9 +94,9 @@ void synth(const SynthOptions& options) {
   }
   std::optional<SyntheticSkins> skins;
   if (!options.textures.empty()) {
-    skins.emplace(
-        static_cast<int>(whole_number("--textures", options.textures, kMinTexture, kMaxTexture)),
-        painted);
+    skins.emplace(static_cast<int>(parse_whole_number("--textures", options.textures, kMinTexturePx,
+                                                      kMaxTexturePx)),
+                  painted);
     if (materials.empty()) materials.push_back({"skin", 0});
   }
   // List the files of each head: mesh, material file, textures.

@@ -75,18 +75,19 @@ Mesh average_skin(const SyntheticHeads& heads) {
 
 }  // namespace
 
-bool SynthHair::is_wished(const synth::HairCut& cut) const {
-  return std::ranges::any_of(
-      wishes_, [&](const Wish& wish) { return is_for(cut, wish.female, wish.curly, wish.bald); });
+bool SynthHair::is_used(const synth::HairCut& cut) const {
+  return std::ranges::any_of(used_hair_styles_, [&](const HairStyle& wish) {
+    return is_for(cut, wish.female, wish.curly, wish.bald);
+  });
 }
 
 std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
   const synth::Complexion look = synth::random_complexion(seed, index);
   const std::string skin = skin_tag(look.tone);
   const bool bald = look.receding > kBald;
-  const Wish wish{synth::random_person(seed, index).male < 0,
-                  !bald && synth::has_curls(seed, index), bald};
-  wishes_.insert(wish);
+  const HairStyle wish{synth::random_person(seed, index).male < 0,
+                       !bald && synth::has_curls(seed, index), bald};
+  used_hair_styles_.insert(wish);
   return concat(skin, ", ", synth::nearest_hair_colour(look.young_hair).name, "_hair, ",
                 form_tag(wish.curly, wish.bald));
 }
@@ -103,12 +104,12 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
   std::string section =
       "# For \"attachments: {from: THIS_FOLDER}\" in a config. The tags are those of tags.yaml.\n"
       "attachments:\n  fitted_to: base.obj\n  items:";
-  if (wishes_.empty()) section += " []";
+  if (used_hair_styles_.empty()) section += " []";
   section += '\n';
   const std::span<const synth::HairCut> cuts = synth::hair_cuts();
   std::vector<std::shared_ptr<const Mesh>> meshes(cuts.size());
   parallel_for_each(cuts.size(), [&](std::size_t c) {
-    if (is_wished(cuts[c])) meshes[c] = std::make_shared<const Mesh>(synth::head_of_hair(cuts[c]));
+    if (is_used(cuts[c])) meshes[c] = std::make_shared<const Mesh>(synth::head_of_hair(cuts[c]));
   });
   const auto add_mesh = [&](std::string_view name, std::shared_ptr<const Mesh> mesh,
                             const std::string& picture) {
@@ -141,8 +142,8 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
   const Mesh skin = average_skin(heads);
   bool any_beard = false;
   for (const synth::FacialHair& style : synth::facial_hairs()) {
-    const auto is_of_sex = [&](const Wish& wish) { return wish.female == style.female; };
-    if (std::ranges::none_of(wishes_, is_of_sex)) continue;
+    const auto is_of_sex = [&](const HairStyle& wish) { return wish.female == style.female; };
+    if (std::ranges::none_of(used_hair_styles_, is_of_sex)) continue;
     any_beard = any_beard || style.is_beard;
     const auto layer =
         std::make_shared<synth::FacialHairLayer>(synth::facial_hair_layer(style, skin));

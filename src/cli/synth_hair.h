@@ -32,12 +32,12 @@ class SynthHair {
                  const std::vector<MaterialRange>& materials, std::vector<HeadFile>& files) const;
 
  private:
-  struct Wish {
+  struct HairStyle {
     bool female, curly, bald;
-    auto operator<=>(const Wish&) const = default;  // NOLINT(modernize-use-nullptr)
+    auto operator<=>(const HairStyle&) const = default;  // NOLINT(modernize-use-nullptr)
   };
-  bool is_wished(const synth::HairCut& cut) const;
-  std::set<Wish> wishes_;
+  bool is_used(const synth::HairCut& cut) const;
+  std::set<HairStyle> used_hair_styles_;
 };
 
 }  // namespace crowdface::cli

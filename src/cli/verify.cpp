@@ -28,19 +28,19 @@ void declare_verify(CLI::App& command, VerifyOptions& options) {
 
 void verify(const VerifyOptions& options) {
   const CrowdCheck check = verify_crowd(options.directory);
-  tell("missing: ", check.missing);
-  tell("altered: ", check.altered);
-  tell("not finished: ", check.unfinished);
+  tell("missing: ", check.missing_files);
+  tell("altered: ", check.altered_files);
+  tell("not finished: ", check.unfinished_items);
   tell("", check.remarks);
   if (!check.is_intact()) {
-    throw InvalidInput(concat(options.directory, ": of ", check.files, " files ",
-                              count(check.missing.size(), "missing, "),
-                              count(check.altered.size(), "altered; "),
-                              count(check.unfinished.size(), "not finished"),
+    throw InvalidInput(concat(options.directory, ": of ", check.file_count, " files ",
+                              count(check.missing_files.size(), "missing, "),
+                              count(check.altered_files.size(), "altered; "),
+                              count(check.unfinished_items.size(), "not finished"),
                               check.remarks.empty() ? "" : "; " + join(check.remarks, "; "),
                               "; to repair the crowd, run crowdface generate with its config"));
   }
-  print(concat(options.directory, ": all ", check.files, " files are unchanged\n"));
+  print(concat(options.directory, ": all ", check.file_count, " files are unchanged\n"));
 }
 
 }  // namespace

@@ -8,28 +8,29 @@
 namespace crowdface::cli {
 namespace {
 
-/// Checks that the options fit together, with or without --batch, and stores the template in
-/// `shape`.
-WrapCommand sorted(WrapCommand options) {
+/// Checks that the options are compatible. Without --batch, moves the template's path from
+/// `template_argument` to `template_file`.
+WrapCommand checked_options(WrapCommand options) {
   if (options.pick && !options.out.empty()) {
     throw UsageError("--pick: expected no -o, --output, because --pick wraps nothing");
   }
   if (!options.pick && options.out.empty()) throw UsageError("-o, --output is required");
-  options.shard = shard_from(options.shard_text);
+  options.shard = parse_shard_option(options.shard_text);
   if (options.batch.empty()) {
-    if (options.first.empty() || options.scan.empty() || !options.shape.empty()) {
+    if (options.template_argument.empty() || options.scan.empty() ||
+        !options.template_file.empty()) {
       throw UsageError("expected TEMPLATE.obj and SCAN, or --batch with --template");
     }
-    options.shape = options.first;
+    options.template_file = options.template_argument;
     if (!options.pick) require_obj_output(options.out);
-  } else if (options.shape.empty() || !options.first.empty()) {
+  } else if (options.template_file.empty() || !options.template_argument.empty()) {
     throw UsageError("--batch: expected --template TEMPLATE.obj and no other file");
   }
   return options;
 }
 
 void declare_wrap(CLI::App& command, WrapCommand& options) {
-  add_option(command, "template_file", options.first, "TEMPLATE.obj",
+  add_option(command, "template_file", options.template_argument, "TEMPLATE.obj",
              "The template head, whose topology the result has");
   add_option(command, "scan_file", options.scan, "SCAN",
              "The scan, in any unit and pose: OBJ, PLY, STL, GLB, glTF, FBX or USD");
@@ -37,7 +38,7 @@ void declare_wrap(CLI::App& command, WrapCommand& options) {
              "The head to write, or the folder with --batch");
   add_option(command, "--batch", options.batch, "DIR",
              "A folder of scans, with the landmarks of each scan in NAME.yaml");
-  add_option(command, "--template", options.shape, "TEMPLATE.obj",
+  add_option(command, "--template", options.template_file, "TEMPLATE.obj",
              "With --batch: the template head");
   add_option(command, "--shard", options.shard_text, "I/N",
              "Wrap only part I of N of the batch; several machines may share one output folder")
@@ -95,7 +96,7 @@ Run add_wrap(CLI::App& program) {
   return add_command<WrapCommand>(
       program, "wrap", "Fit a template head to raw scans, so that all heads share one topology",
       declare_wrap, [](const WrapCommand& options) {
-        const WrapCommand known = sorted(options);
+        const WrapCommand known = checked_options(options);
         known.pick ? pick(known) : wrap_scans(known);
       });
 }

@@ -71,9 +71,9 @@ class FaceSpaceTest : public ::testing::Test {
     space_.emplace(space_of(faces_));
   }
 
-  FaceSpace space_of(const HeadSet& faces) const {
-    return FaceSpace(sample_heads(faces, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit),
-                     weights_);
+  FaceSpace space_of(const HeadSet& head_set) const {
+    return FaceSpace(
+        sample_heads(head_set, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit), weights_);
   }
 
   std::vector<Recipe> crowd(std::uint64_t count) const {

@@ -30,10 +30,10 @@ TEST(CrowdDirectory, AFaceLiesWhereTheNumberAtItsIdsEndSays) {
   EXPECT_EQ(numbered.mesh("mob_012345", MeshFormat::kObj), "/crowd/meshes/012/mob_012345.obj");
   EXPECT_EQ(numbered.render("mob_000999"), "/crowd/renders/000/mob_000999.png");
   EXPECT_EQ(numbered.gallery_face("mob_1000000"), "/crowd/gallery/data/faces/1000/mob_1000000.js");
-  EXPECT_EQ(numbered.folder_of("anna"), "000");
-  EXPECT_EQ(numbered.folder_of("4711"), "004");
-  EXPECT_EQ(numbered.folder_of("smith_2b"), "000");
-  EXPECT_EQ(numbered.folder_of("x99999999999999999999"), "999999999999");
+  EXPECT_EQ(numbered.numbered_subfolder("anna"), "000");
+  EXPECT_EQ(numbered.numbered_subfolder("4711"), "004");
+  EXPECT_EQ(numbered.numbered_subfolder("smith_2b"), "000");
+  EXPECT_EQ(numbered.numbered_subfolder("x99999999999999999999"), "999999999999");
   EXPECT_EQ(numbered.sheet(12'345), "/crowd/sheets/012/sheet_12345.png");
 }
 
@@ -83,7 +83,7 @@ TEST(CrowdDirectory, AReviewOfAnotherRunIsNotOverwritten) {
                           [&] { open_crowd_directory(directory, mine, replace); });
   }
   EXPECT_EQ(testing::read_text(directory.review(1)), "theirs");
-  mine.without_kept_reviews = true;
+  mine.rename_review_folder = true;
   for (int i = 0; i < 2; ++i) open_crowd_directory(directory, mine, Replace::kRefuse);
   EXPECT_EQ(testing::read_text(directory.review(1)), "mine");
   std::vector<std::string> aside;

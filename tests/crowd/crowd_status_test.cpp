@@ -46,16 +46,16 @@ TEST_F(Status, CountsEachShardsFacesInAllLedgers) {
   write_ledger("ledger.jsonl", {3, 5});  // a whole run's, before
   const CrowdStatus found = status();
   EXPECT_EQ(found.faces, 7U);
-  EXPECT_EQ(found.done, 5U);
+  EXPECT_EQ(found.finished_faces, 5U);
   ASSERT_EQ(found.shards.size(), 3U);
   EXPECT_EQ(found.shards[0].faces, 3U);
-  EXPECT_EQ(found.shards[0].done, 2U);
-  EXPECT_EQ(found.shards[1].done, 2U);
+  EXPECT_EQ(found.shards[0].finished_faces, 2U);
+  EXPECT_EQ(found.shards[1].finished_faces, 2U);
   EXPECT_EQ(found.shards[1].state, ShardState::kDone);
   EXPECT_EQ(found.shards[2].faces, 2U);
-  EXPECT_EQ(found.shards[2].done, 1U);
+  EXPECT_EQ(found.shards[2].finished_faces, 1U);
   EXPECT_EQ(found.shards[2].state, ShardState::kWaiting);
-  EXPECT_FALSE(found.gathered);
+  EXPECT_FALSE(found.is_gathered);
 }
 
 // A line that is being written has no end yet.
@@ -63,7 +63,7 @@ TEST_F(Status, AHalfLineIsNoFace) {
   write_ledger("ledger-1of2.jsonl", {1});
   const std::string text = testing::read_text(folder_ / "ledger-1of2.jsonl");
   folder_.write("ledger-1of2.jsonl", text.substr(0, text.size() - 1));
-  EXPECT_EQ(status().done, 0U);
+  EXPECT_EQ(status().finished_faces, 0U);
 }
 
 TEST_F(Status, PaceAndTimeLeftAreThoseOfShardsAtWork) {
@@ -76,7 +76,7 @@ TEST_F(Status, PaceAndTimeLeftAreThoseOfShardsAtWork) {
   EXPECT_DOUBLE_EQ(shard.faces_a_second.value(), 2);
   EXPECT_DOUBLE_EQ(shard.seconds_left.value(), 1);
   EXPECT_DOUBLE_EQ(found.seconds_left.value(), 1);
-  EXPECT_LT(shard.silent_seconds.value(), 60);
+  EXPECT_LT(shard.seconds_since_write.value(), 60);
   EXPECT_THAT(format_status_table(found), HasSubstr("node7"));
   EXPECT_THAT(format_status_table(found), Not(HasSubstr("nothing written")));
 }
@@ -86,7 +86,7 @@ TEST_F(Status, AKilledShardIsKnownByItsSilence) {
                 format_shard_notes({ShardState::kWorking, 4, 0, 0, 0, "node7", ""}));
   const auto now = std::filesystem::file_time_type::clock::now();
   std::filesystem::last_write_time(folder_ / "progress-1of2.json", now - std::chrono::hours(2));
-  EXPECT_NEAR(status().shards.front().silent_seconds.value(), 7200, 60);
+  EXPECT_NEAR(status().shards.front().seconds_since_write.value(), 7200, 60);
   EXPECT_THAT(format_status_table(status()), HasSubstr("nothing written for 2 h"));
 }
 
@@ -113,11 +113,11 @@ TEST_F(Status, TheReasonOfAFailureIsTold) {
 
 TEST_F(Status, ANewAttemptForgetsTheLastOnesEnd) {
   const std::string failed = "=== blend 1, attempt 1\nerror: full\n=== ended with code 74\n";
-  EXPECT_EQ(end_of_task(failed).code, 74U);
-  EXPECT_EQ(end_of_task(failed).reason, "full");
-  EXPECT_FALSE(end_of_task(failed + "=== blend 1, attempt 2\n").code.has_value());
-  EXPECT_TRUE(end_of_task(failed + "=== blend 1, attempt 2\n").reason.empty());
-  EXPECT_FALSE(end_of_task("").code.has_value());
+  EXPECT_EQ(parse_task_end(failed).code, 74U);
+  EXPECT_EQ(parse_task_end(failed).reason, "full");
+  EXPECT_FALSE(parse_task_end(failed + "=== blend 1, attempt 2\n").code.has_value());
+  EXPECT_TRUE(parse_task_end(failed + "=== blend 1, attempt 2\n").reason.empty());
+  EXPECT_FALSE(parse_task_end("").code.has_value());
 }
 
 TEST_F(Status, ATaskThatSlurmRunsAgainIsRequeued) {

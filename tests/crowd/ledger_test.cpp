@@ -72,20 +72,20 @@ TEST_F(LedgerOfAFolder, ProvesWhatWasRecordedAndIsAsItWas) {
   folder_.write("a.txt", "text");
   {
     Ledger ledger = open();
-    EXPECT_FALSE(ledger.proven("a", key_));
+    EXPECT_FALSE(ledger.find_proven("a", key_));
     ledger.record("a", key_, {"a.txt"});
-    EXPECT_TRUE(ledger.proven("a", key_));
+    EXPECT_TRUE(ledger.find_proven("a", key_));
   }
-  EXPECT_TRUE(open().proven("a", key_)) << "by another run";
-  EXPECT_FALSE(open().proven("a", hash_bytes("other key")));
+  EXPECT_TRUE(open().find_proven("a", key_)) << "by another run";
+  EXPECT_FALSE(open().find_proven("a", hash_bytes("other key")));
   folder_.write("a.txt", "Text");
-  EXPECT_FALSE(open().proven("a", key_)) << "other bytes";
+  EXPECT_FALSE(open().find_proven("a", key_)) << "other bytes";
   folder_.write("a.txt", "text and more");
-  EXPECT_FALSE(open().proven("a", key_));
+  EXPECT_FALSE(open().find_proven("a", key_));
   fs::remove(folder_ / "a.txt");
-  EXPECT_FALSE(open().proven("a", key_));
+  EXPECT_FALSE(open().find_proven("a", key_));
   fs::create_directory(folder_ / "a.txt");
-  EXPECT_FALSE(open().proven("a", key_));
+  EXPECT_FALSE(open().find_proven("a", key_));
 }
 
 TEST_F(LedgerOfAFolder, ALineWithoutItsEndProvesNothingAndSpoilsNoOther) {
@@ -100,8 +100,8 @@ TEST_F(LedgerOfAFolder, ALineWithoutItsEndProvesNothingAndSpoilsNoOther) {
   for (std::size_t size = whole.find('\n') + 1; size < whole.size(); ++size) {
     folder_.write("ledger.jsonl", whole.substr(0, size));
     Ledger ledger = open();
-    EXPECT_TRUE(ledger.proven("a", key_));
-    EXPECT_FALSE(ledger.proven("b", key_)) << size;
+    EXPECT_TRUE(ledger.find_proven("a", key_));
+    EXPECT_FALSE(ledger.find_proven("b", key_)) << size;
     ledger.record("b", key_, {"b.txt"});
     EXPECT_EQ(read_text(path()), whole);
   }
@@ -130,10 +130,10 @@ TEST_F(LedgerOfAFolder, SettledHoldsWhatThisRunUsedInOneOrder) {
     ledger.record("old", key_, {"a"});
   }
   Ledger ledger(folder_.path(), path(), {shard});
-  EXPECT_TRUE(ledger.proven("c", key_));
-  EXPECT_TRUE(ledger.proven("b", key_)) << "the shard's";
+  EXPECT_TRUE(ledger.find_proven("c", key_));
+  EXPECT_TRUE(ledger.find_proven("b", key_)) << "the shard's";
   ledger.record("a", key_, {"a"});
-  ledger.settle();
+  ledger.compact();
   EXPECT_FALSE(fs::exists(shard));
   std::vector<std::string> items;
   for (const LedgerEntry& entry : read_ledger(path()).entries) items.push_back(entry.item);
@@ -149,7 +149,7 @@ TEST_F(LedgerOfAFolder, FinishedKnowsHowManyFilesOfEachKindThereAre) {
   ledger.record("faces/a", {}, {"meshes/a.obj"});
   ledger.record("sheets", {}, {"sheets/s.png", "sheets/t.png"});
   ledger.write("plan.jsonl", "plan");
-  ledger.settle();
+  ledger.compact();
   EXPECT_TRUE(read_ledger(own).complete);
   const std::string text = testing::read_text(own);
   EXPECT_NE(text.find(R"("note":{".":1,"meshes":1,"sheets":2})"), text.npos) << text;
@@ -167,12 +167,12 @@ TEST_F(LedgerOfAFolder, NoLineOutdoesAnotherOfTheSameItem) {
   Ledger(folder_.path(), shard, {path()}).record("a", newer, {"a"});
   {
     Ledger ledger(folder_.path(), path(), {shard, path()});
-    EXPECT_FALSE(ledger.proven("a", key_)) << "its bytes are gone";
-    EXPECT_TRUE(ledger.proven("a", newer)) << "the shard's";
-    EXPECT_TRUE(ledger.proven("a", newer)) << "again";
+    EXPECT_FALSE(ledger.find_proven("a", key_)) << "its bytes are gone";
+    EXPECT_TRUE(ledger.find_proven("a", newer)) << "the shard's";
+    EXPECT_TRUE(ledger.find_proven("a", newer)) << "again";
   }
   folder_.write("a", "old bytes");
-  EXPECT_TRUE(Ledger(folder_.path(), shard, {path()}).proven("a", key_)) << "the whole run's";
+  EXPECT_TRUE(Ledger(folder_.path(), shard, {path()}).find_proven("a", key_)) << "the whole run's";
 }
 
 TEST(LedgerLine, DeepValuesAreLeftOut) {

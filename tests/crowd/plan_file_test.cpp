@@ -30,7 +30,7 @@ FacePlan example() {
 }
 
 TEST(PlanFile, LineHasTheFieldsOfTheContractInOrder) {
-  EXPECT_EQ(format_recipe(example(), kNames, kSettings),
+  EXPECT_EQ(format_plan_line(example(), kNames, kSettings),
             R"({"id":"mob_0007","index":7,"family":null,"target":"cyd","attempt":0,"regions":{)"
             R"("top":{"position":[0.1,-0.3333333333333333],"weights":{"ann":0.3333333333333333,)"
             R"("cyd":0.6666666666666666},"smoothness":0.45,"iterations":9000,"extrapolation":1.1},)"
@@ -41,7 +41,8 @@ TEST(PlanFile, LineHasTheFieldsOfTheContractInOrder) {
 
 TEST(PlanFile, ReadsBackToTheBit) {
   const FacePlan face = example();
-  const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
+  const PlanLine line =
+      parse_plan_line(format_plan_line(face, kNames, kSettings), kNames, "plan:1");
   EXPECT_EQ(line.settings, kSettings.hex());
   EXPECT_EQ(line.face.id, face.id);
   EXPECT_EQ(line.face.index, face.index);
@@ -59,15 +60,16 @@ TEST(PlanFile, ReadsBackToTheBit) {
   EXPECT_EQ(line.face.notes.nearest->head_distance_mm, 2.4124);
   EXPECT_EQ(line.face.notes.nearest->earlier_face, "mob_0003");
   EXPECT_EQ(line.face.notes.nearest->earlier_face_distance_mm, 1);
-  EXPECT_EQ(format_recipe(line.face, kNames, kSettings), format_recipe(face, kNames, kSettings));
+  EXPECT_EQ(format_plan_line(line.face, kNames, kSettings),
+            format_plan_line(face, kNames, kSettings));
 }
 
 TEST(PlanFile, ColoursOfAFacesOwnStandBesideItsTarget) {
   FacePlan face = example();
   face.recipe.colours = {{0, 0.25}, {2, 0.75}};
-  const std::string text = format_recipe(face, kNames, kSettings);
+  const std::string text = format_plan_line(face, kNames, kSettings);
   EXPECT_NE(text.find(R"("target":"cyd","colours":{"ann":0.25,"cyd":0.75},"attempt")"), text.npos);
-  const PlanLine line = parse_recipe(text, kNames, "plan:1");
+  const PlanLine line = parse_plan_line(text, kNames, "plan:1");
   EXPECT_EQ(line.face.recipe.colours, face.recipe.colours);
   std::string table;
   table_text({face, example()}, kNames)([&](std::string_view piece) { table += piece; });
@@ -77,7 +79,7 @@ TEST(PlanFile, ColoursOfAFacesOwnStandBesideItsTarget) {
     std::string line_of = text;
     const std::size_t begin = line_of.find("\"colours\":") + 10;
     line_of.replace(begin, line_of.find('}', begin) + 1 - begin, wrong);
-    EXPECT_THROW(parse_recipe(line_of, kNames, "plan:1"), InvalidInput) << wrong;
+    EXPECT_THROW(parse_plan_line(line_of, kNames, "plan:1"), InvalidInput) << wrong;
   }
 }
 
@@ -85,26 +87,27 @@ TEST(PlanFile, TheLongestIdsAreRead) {
   FacePlan face = example();
   face.family = std::string(64, 'f');
   face.id = concat(std::string(64, 'c'), '_', *face.family, "_1000");
-  const PlanLine line = parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1");
+  const PlanLine line =
+      parse_plan_line(format_plan_line(face, kNames, kSettings), kNames, "plan:1");
   EXPECT_EQ(line.face.id, face.id);
   EXPECT_EQ(line.face.family, face.family);
   face.id = concat(std::string(64, 'c'), "_18446744073709551615");
-  EXPECT_NO_THROW(parse_recipe(format_recipe(face, kNames, kSettings), kNames, "plan:1"));
+  EXPECT_NO_THROW(parse_plan_line(format_plan_line(face, kNames, kSettings), kNames, "plan:1"));
 }
 
 TEST(PlanFile, WhatIsWrongAboutNearestIsLeftOut) {
-  const std::string good = format_recipe(example(), kNames, kSettings);
+  const std::string good = format_plan_line(example(), kNames, kSettings);
   for (const char* nearest :
        {"7", "{}", "{\"face\":\"zed\",\"face_mm\":1}", "{\"face\":\"bob\"}"}) {
     std::string line = good;
     const std::size_t begin = line.find("\"nearest\":") + 10;
     line.replace(begin, line.find('}', begin) + 1 - begin, nearest);
-    EXPECT_FALSE(parse_recipe(line, kNames, "plan:1").face.notes.nearest) << nearest;
+    EXPECT_FALSE(parse_plan_line(line, kNames, "plan:1").face.notes.nearest) << nearest;
   }
 }
 
 TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
-  const std::string good = format_recipe(example(), kNames, kSettings);
+  const std::string good = format_plan_line(example(), kNames, kSettings);
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string line = good;
     return line.replace(line.find(from), from.size(), to);
@@ -146,7 +149,7 @@ TEST(PlanFile, BrokenLinesAreRefusedWithTheirPlace) {
   for (const auto& [line, field] : cases) {
     SCOPED_TRACE(line.substr(0, 1000));
     testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", field},
-                          [&, &text = line] { parse_recipe(text, kNames, "plan.jsonl:12"); });
+                          [&, &text = line] { parse_plan_line(text, kNames, "plan.jsonl:12"); });
   }
 }
 
@@ -162,7 +165,7 @@ FacePlan banded() {
 }
 
 TEST(PlanFile, BandsAreReadBackToTheBit) {
-  const std::string line = format_recipe(banded(), kBandNames, kSettings);
+  const std::string line = format_plan_line(banded(), kBandNames, kSettings);
   EXPECT_NE(line.find(R"("extrapolation":1.1,"bands":{"skin":{"position":[0.5,0.25],)"
                       R"("weights":{"bob":1.0},"smoothness":0.1,"iterations":2000,)"
                       R"("extrapolation":0.8}}},"low")"),
@@ -172,15 +175,15 @@ TEST(PlanFile, BandsAreReadBackToTheBit) {
                       R"("low":{"build":"father","skin":"mother"}})"),
             line.npos)
       << line;
-  const FacePlan back = parse_recipe(line, kBandNames, "plan:1").face;
-  EXPECT_EQ(format_recipe(back, kBandNames, kSettings), line);
+  const FacePlan back = parse_plan_line(line, kBandNames, "plan:1").face;
+  EXPECT_EQ(format_plan_line(back, kBandNames, kSettings), line);
   ASSERT_EQ(back.recipe.regions[0].finer_bands.size(), 1U);
   EXPECT_EQ(back.recipe.regions[0].finer_bands[0].iterations, 2000U);
   EXPECT_EQ(back.inherited_from, banded().inherited_from);
 }
 
 TEST(PlanFile, BandsThatCannotBeAreRefusedWithTheirPlace) {
-  const std::string good = format_recipe(banded(), kBandNames, kSettings);
+  const std::string good = format_plan_line(banded(), kBandNames, kSettings);
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string line = good;
     return line.replace(line.find(from), from.size(), to);
@@ -193,11 +196,12 @@ TEST(PlanFile, BandsThatCannotBeAreRefusedWithTheirPlace) {
       {with("\"bands\":{", "\"bands\":7,\"other\":{"), "bands: expected an object of 1 bands"},
   };
   for (const auto& [line, field] : cases) {
-    testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", field},
-                          [&, &text = line] { parse_recipe(text, kBandNames, "plan.jsonl:12"); });
+    testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", field}, [&, &text = line] {
+      parse_plan_line(text, kBandNames, "plan.jsonl:12");
+    });
   }
   testing::expect_error(ExitCode::kBadData, {"plan.jsonl:12", "bands: expected an object of 0"},
-                        [&] { parse_recipe(good, kNames, "plan.jsonl:12"); });
+                        [&] { parse_plan_line(good, kNames, "plan.jsonl:12"); });
 }
 
 TEST(PlanFile, TableHasTheFinerBandsLast) {
@@ -213,18 +217,19 @@ TEST(PlanFile, TableHasTheFinerBandsLast) {
 TEST(PlanFile, HairColoursReadBack) {
   FacePlan face = example();
   face.hair = HairColour{0.55, 0.1, 0.3};
-  const std::string line = format_recipe(face, kNames, kSettings);
-  EXPECT_EQ(parse_recipe(line, kNames, "plan").face.hair, face.hair);
-  EXPECT_FALSE(parse_recipe(format_recipe(example(), kNames, kSettings), kNames, "plan").face.hair);
+  const std::string line = format_plan_line(face, kNames, kSettings);
+  EXPECT_EQ(parse_plan_line(line, kNames, "plan").face.hair, face.hair);
+  EXPECT_FALSE(
+      parse_plan_line(format_plan_line(example(), kNames, kSettings), kNames, "plan").face.hair);
   std::string grey = line;
   grey.replace(grey.find("\"grey\":0.3"), 10, "\"grey\":1.3");
   testing::expect_error(ExitCode::kBadData, {"hair.grey"},
-                        [&] { parse_recipe(grey, kNames, "plan"); });
+                        [&] { parse_plan_line(grey, kNames, "plan"); });
 }
 
 TEST(PlanFile, FileErrorsNameTheLine) {
   const testing::TemporaryFolder folder;
-  const std::string good = format_recipe(example(), kNames, kSettings);
+  const std::string good = format_plan_line(example(), kNames, kSettings);
   EXPECT_EQ(read_plan(folder.write("good.jsonl", good + "\n\n" + good), kNames).size(), 2U);
   testing::expect_error(ExitCode::kBadData, {"bad.jsonl:3"}, [&] {
     read_plan(folder.write("bad.jsonl", good + "\n" + good + "\n{}\n"), kNames);

@@ -165,7 +165,7 @@ TEST(EditSession, AReducedPreviewConsistsOfTheMeshesOwnVertices) {
   const std::vector<float> normals = editor.session->normals(face);
   const Positions expected = vertex_normals(editor.session->job().inputs.faces.topology, face);
   for (std::size_t i = 0; i < preview.vertices.size(); ++i) {
-    EXPECT_EQ(preview.vertices[i], preview.vertices[preview.twins[i]]);
+    EXPECT_EQ(preview.vertices[i], preview.vertices[preview.first_copies[i]]);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(static_cast<double>(normals[3 * i + static_cast<std::size_t>(c)]),
                   expected(preview.vertices[i], c), 1e-6);
@@ -176,18 +176,18 @@ TEST(EditSession, AReducedPreviewConsistsOfTheMeshesOwnVertices) {
 TEST(EditSession, TextureCoordinatesAreThoseOfTheMesh) {
   const Editor editor("basis");
   const PreviewMesh& preview = editor.session->preview();
-  const HeadSet& faces = editor.session->job().inputs.faces;
+  const HeadSet& head_set = editor.session->job().inputs.faces;
   std::map<std::uint32_t, std::vector<std::array<float, 2>>> known;
-  for (std::size_t c = 0; c < faces.topology.corner_uvs.size(); ++c) {
-    const std::uint32_t row = faces.topology.corner_uvs[c];
-    known[faces.topology.corner_vertices[c]].push_back(
-        {static_cast<float>(faces.uvs(row, 0)), static_cast<float>(faces.uvs(row, 1))});
+  for (std::size_t c = 0; c < head_set.topology.corner_uvs.size(); ++c) {
+    const std::uint32_t row = head_set.topology.corner_uvs[c];
+    known[head_set.topology.corner_vertices[c]].push_back(
+        {static_cast<float>(head_set.uvs(row, 0)), static_cast<float>(head_set.uvs(row, 1))});
   }
   std::size_t split = 0;
   for (std::size_t i = 0; i < preview.vertices.size(); ++i) {
     const std::array<float, 2> uv = {preview.uvs[2 * i], preview.uvs[2 * i + 1]};
     EXPECT_THAT(known[preview.vertices[i]], ::testing::Contains(uv));
-    if (preview.twins[i] != i) ++split;
+    if (preview.first_copies[i] != i) ++split;
   }
   EXPECT_GT(split, 0U);  // the unwrapped head has a seam
 }
@@ -240,8 +240,8 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   }
   const FacePlan head = editor.face(json);
   const FaceMeasures measures = editor.session->measure(head, editor.session->build(head.recipe));
-  EXPECT_EQ(measures.head, 1);
-  EXPECT_LT(measures.head_mm, 0.01);
+  EXPECT_EQ(measures.nearest_head, 1);
+  EXPECT_LT(measures.nearest_head_mm, 0.01);
   EXPECT_THAT(measures.warnings, ::testing::IsEmpty());
   json["regions"]["top"] = {
       {"weights", {{"head_0", 1}}}, {"smoothness", 0.9}, {"extrapolation", 4}};
@@ -249,7 +249,7 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   const FaceMeasures whole = editor.session->measure(wild, editor.session->build(wild.recipe));
   EXPECT_THAT(whole.warnings, ::testing::Contains(::testing::HasSubstr("than the limit, ")));
   const FaceMeasures without_mesh = editor.session->measure(wild);
-  EXPECT_EQ(without_mesh.head_mm, whole.head_mm);
+  EXPECT_EQ(without_mesh.nearest_head_mm, whole.nearest_head_mm);
   EXPECT_THAT(without_mesh.warnings, ::testing::Contains(::testing::HasSubstr("than the limit, ")));
 }
 
@@ -291,8 +291,8 @@ TEST(EditSession, DrawsAnewButForWhatIsLocked) {
   for (const FacePlan& face : faces) {
     EXPECT_EQ(face.id, "edited");
     EXPECT_EQ(face.recipe.target, 1);
-    EXPECT_EQ(face.recipe.regions[1].weights, request.from.recipe.regions[1].weights);
-    EXPECT_NE(face.recipe.regions[0].weights, request.from.recipe.regions[0].weights);
+    EXPECT_EQ(face.recipe.regions[1].weights, request.start_face.recipe.regions[1].weights);
+    EXPECT_NE(face.recipe.regions[0].weights, request.start_face.recipe.regions[0].weights);
   }
   EXPECT_NE(faces[0].recipe.regions[0].position, faces[1].recipe.regions[0].position);
 }
@@ -312,27 +312,28 @@ TEST(EditSession, BandsBeginByRegionAndALockedOneHolds) {
   constexpr std::size_t kSkinOfTop = 1;
   SampleRequest request{editor.face(recipe), {kSkinOfTop}, std::nullopt};
   request.count = 3;
-  const BandRecipe& locked = request.from.recipe.regions[0].finer_bands[0];
+  const BandRecipe& locked = request.start_face.recipe.regions[0].finer_bands[0];
   for (const FacePlan& face : editor.session->sample_faces(request)) {
     const RegionRecipe& top = face.recipe.regions[0];
     EXPECT_EQ(top.finer_bands[0].iterations, locked.iterations);
     EXPECT_EQ(top.finer_bands[0].weights, locked.weights);
     EXPECT_EQ(top.iterations, locked.iterations) << "the build, drawn lower, gives way";
-    EXPECT_NE(top.weights, request.from.recipe.regions[0].weights);
+    EXPECT_NE(top.weights, request.start_face.recipe.regions[0].weights);
   }
 }
 
 TEST(EditSession, FacesLikeAnotherAreNearerToItTheSmallerTheAmount) {
   const Editor editor("basis");
   SampleRequest request{editor.face(some_recipe()), {}, editor.face(some_recipe())};
-  request.amount = 0;
+  request.variation = 0;
   const FacePlan same = editor.session->sample_faces(request).front();
-  EXPECT_EQ(same.recipe.regions[0].position, request.like->recipe.regions[0].position);
-  EXPECT_EQ(same.recipe.regions[2].iterations, request.like->recipe.regions[2].iterations);
+  EXPECT_EQ(same.recipe.regions[0].position, request.original->recipe.regions[0].position);
+  EXPECT_EQ(same.recipe.regions[2].iterations, request.original->recipe.regions[2].iterations);
   const auto far = [&](double amount) {
-    request.amount = amount;
+    request.variation = amount;
     const FacePlan face = editor.session->sample_faces(request).front();
-    return (*face.recipe.regions[0].position - *request.like->recipe.regions[0].position).norm();
+    return (*face.recipe.regions[0].position - *request.original->recipe.regions[0].position)
+        .norm();
   };
   EXPECT_GT(far(0.1), 0);
   EXPECT_LT(far(0.1), far(1));
@@ -382,9 +383,9 @@ TEST(RegionPainting, ImagesReadBackAsWhatIsPainted) {
   painting.stroke(stroke_on(session, "paint"));
   painting.apply();
   const auto files = painting.save(painting.regions({}), editor.folder / "masks.png");
-  const HeadSet& faces = session.job().inputs.faces;
+  const HeadSet& head_set = session.job().inputs.faces;
   const RegionWeights read =
-      region_weights(faces.topology, faces.uvs, {files.begin(), files.end()}, 3);
+      region_weights(head_set.topology, head_set.uvs, {files.begin(), files.end()}, 3);
   const RegionWeights::Alpha& alpha = session.masks().alpha;
   double sum = 0, most = 0;
   Index skin = 0;
@@ -434,7 +435,7 @@ TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
 
   RegionPainting painting(session, editor.strokes());
   painting.stroke(stroke_on(session, "paint"));
-  painting.forget();
+  painting.delete_stored_strokes();
   EXPECT_FALSE(RegionPainting(session, editor.strokes()).differs_from_config());
 }
 

@@ -23,17 +23,17 @@ const Light kRed(1, 0, 0), kGreen(0, 1, 0), kBlue(0, 0, 1);
 /// last two, the third none.
 Inputs three_tiles() {
   Inputs inputs;
-  HeadSet& faces = inputs.faces;
-  faces.uvs.resize(12, 2);
+  HeadSet& head_set = inputs.faces;
+  head_set.uvs.resize(12, 2);
   for (std::uint32_t tile = 0; tile < 3; ++tile) {
     const std::uint32_t first = 4 * tile;
     for (std::uint32_t c = 0; c < 4; ++c) {
-      faces.uvs.row(first + c) << tile + (c == 1 || c == 2 ? 1.0 : 0.0), c < 2 ? 0.0 : 1.0;
+      head_set.uvs.row(first + c) << tile + (c == 1 || c == 2 ? 1.0 : 0.0), c < 2 ? 0.0 : 1.0;
     }
     const std::array<std::uint32_t, 4> corners = {first, first + 1, first + 2, first + 3};
-    faces.topology.add_face(corners, corners);
+    head_set.topology.add_face(corners, corners);
   }
-  faces.topology.vertex_count = 12;
+  head_set.topology.vertex_count = 12;
   constexpr std::uint32_t kNone = TextureSet::kNone;
   inputs.textures.texture_sets = {{{{plain(kRed), plain(kGreen), plain(kBlue)}, {0, 1, 2}}},
                                   {{{plain(kGreen)}, {kNone, 0, 0}}},

@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(crowdface::fuzz::text_of(data, size));
   if (const auto notes = crowdface::parse_shard_notes(text)) crowdface::format_shard_notes(*notes);
   crowdface::parse_shard(text);
-  crowdface::shard_of_name(text);
+  crowdface::parse_shard_name(text);
   read_positions([&] { return crowdface::read_npy(file.path()); });
   read_positions([&] { return crowdface::read_ply_positions(file.path()); });
   for (const crowdface::Index vertices : {4, 8}) {

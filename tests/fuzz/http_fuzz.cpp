@@ -10,7 +10,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(crowdface::fuzz::text_of(data, size));
   try {
-    const auto body = crowdface::body_of({"POST", "api/face", text});
+    const auto body = crowdface::parse_json_body({"POST", "api/face", text});
     crowdface::text_in(body, "id");
     crowdface::number_in(body, "size", 0, 1);
   } catch (const crowdface::Error&) {

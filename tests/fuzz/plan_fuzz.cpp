@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const crowdface::fuzz::InputFile file(data, size);
     for (const auto& line : crowdface::read_plan(file.path(), names)) {
-      crowdface::format_recipe(line.face, names, {});
+      crowdface::format_plan_line(line.face, names, {});
     }
   } catch (const crowdface::Error&) {
   }

@@ -20,8 +20,8 @@ HeadSet synthetic_heads(std::uint64_t count) {
   return faces;
 }
 
-std::string warnings_of(const HeadSet& faces) {
-  return join(odd_expressions(faces, shape_of_mean(faces).skin, HeadAxes(), 10));
+std::string warnings_of(const HeadSet& head_set) {
+  return join(odd_expressions(head_set, shape_of_mean(head_set).skin, HeadAxes(), 10));
 }
 
 /// Lets the jaw drop by 2 cm.

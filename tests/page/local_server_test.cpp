@@ -110,7 +110,7 @@ TEST_F(LocalServerTest, RefusesOtherPages) {
 }
 
 TEST_F(LocalServerTest, BoundsWhatItReads) {
-  const std::string large(LocalServer::kMaxBytes + 1, 'x');
+  const std::string large(LocalServer::kMaxBodyBytes + 1, 'x');
   const auto got = client().Post(path_, ours(), large, "text/plain");
   if (got) {  // or the connection is cut
     EXPECT_EQ(got->status, 413);

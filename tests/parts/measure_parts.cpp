@@ -57,10 +57,10 @@ struct Reading {
 
 class Watch {
  public:
-  explicit Watch(const HeadSet& faces) : topology_(faces.topology), around_(topology_) {
+  explicit Watch(const HeadSet& head_set) : topology_(head_set.topology), around_(topology_) {
     mean_ = Positions::Zero(topology_.vertex_count, 3);
-    for (const Head& head : faces.heads) mean_ += head.positions;
-    mean_ /= static_cast<double>(faces.heads.size());
+    for (const Head& head : head_set.heads) mean_ += head.positions;
+    mean_ /= static_cast<double>(head_set.heads.size());
     const Adjacency adjacency = build_adjacency(topology_);
     const Components components = find_components(adjacency);
     parts_ = find_parts(topology_, adjacency, components, mean_);
@@ -384,7 +384,7 @@ struct Face {
   std::size_t target = 0;
 };
 
-std::vector<Face> read_plan(const std::filesystem::path& crowd, const HeadSet& faces) {
+std::vector<Face> read_plan(const std::filesystem::path& crowd, const HeadSet& head_set) {
   const auto value = [](const std::string& line, const std::string& key) {
     const std::string opening = concat('"', key, "\":\"");
     const std::size_t begin = line.find(opening) + opening.size();
@@ -394,7 +394,7 @@ std::vector<Face> read_plan(const std::filesystem::path& crowd, const HeadSet& f
   std::ifstream plan(crowd / "plan.jsonl");
   for (std::string line; std::getline(plan, line);) {
     Face face{crowd / "meshes" / concat(value(line, "id"), ".obj"), 0};
-    while (faces.heads[face.target].name != value(line, "target")) ++face.target;
+    while (head_set.heads[face.target].name != value(line, "target")) ++face.target;
     result.push_back(face);
   }
   return result;

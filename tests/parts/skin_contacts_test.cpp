@@ -34,8 +34,8 @@ HeadSet heads_with_gaps(const std::vector<double>& gaps, double step = 0.5) {
   return faces;
 }
 
-SkinContacts contacts_of(const HeadSet& faces) {
-  return {faces, build_adjacency(faces.topology), all_of(faces.topology)};
+SkinContacts contacts_of(const HeadSet& head_set) {
+  return {head_set, build_adjacency(head_set.topology), all_of(head_set.topology)};
 }
 
 std::vector<SkinContacts::Range> everywhere(const SkinContacts& contacts, double least,

@@ -77,9 +77,9 @@ TEST(PreviewMesh, TwinsAreOneRowAndOnlyTheyAre) {
   std::size_t twins = 0;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     const bool is_new = rows.insert(mesh.vertices[v]).second;
-    EXPECT_EQ(mesh.twins[v] == v, is_new);
-    EXPECT_LE(mesh.twins[v], v);
-    EXPECT_EQ(mesh.vertices[mesh.twins[v]], mesh.vertices[v]);
+    EXPECT_EQ(mesh.first_copies[v] == v, is_new);
+    EXPECT_LE(mesh.first_copies[v], v);
+    EXPECT_EQ(mesh.vertices[mesh.first_copies[v]], mesh.vertices[v]);
     if (is_new) continue;
     ++twins;
     EXPECT_EQ(sheet.positions(mesh.vertices[v], 0), kTear);
@@ -96,7 +96,7 @@ TEST(PreviewMesh, LooksFollowOneAnotherAndKeepTheirBorder) {
     looks.push_back(x >= 30 ? kNoIndex : x >= kMiddle ? 7 : 3);
   }
   const SplitMesh split = split_mesh(sheet.topology, {}, looks);
-  const PreviewMesh mesh = preview_of(split, split.triangles, {});
+  const PreviewMesh mesh = preview_from_split_mesh(split, split.triangles, {});
   EXPECT_TRUE(mesh.uvs.empty());
   EXPECT_EQ(mesh.material_starts, (std::vector<std::uint32_t>{0, 2 * kRows * 10}));
   EXPECT_EQ(mesh.triangles.size(), 3 * 2 * kRows * 30);

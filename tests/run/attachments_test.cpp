@@ -201,7 +201,7 @@ TEST_F(AttachmentsOfACrowd, GoAlongWithExpressionsInFilesOfTheirOwn) {
   EXPECT_THAT(testing::read_text(mesh("herself+cap+aside.obj")),
               HasSubstr("mtllib attachments/cap/cap.mtl\n"));
   fs::remove(mesh("herself+cap+aside.obj"));
-  EXPECT_THAT(verify_crowd(folder_.out()).missing,
+  EXPECT_THAT(verify_crowd(folder_.out()).missing_files,
               ::testing::ElementsAre("meshes/herself+cap+aside.obj"));
   run({"shapes={neutral: heads/ann.obj, directory: shapes}"});
   EXPECT_EQ(faces_built(), 1);
@@ -265,7 +265,7 @@ TEST_F(AttachmentsOfACrowd, AreReducedOnLevelsOfDetailUnlessTheyAreSmall) {
                   .contains("LOD1+veil.obj"));
   EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
   fs::remove(mesh("herself+LOD2+veil.obj"));
-  EXPECT_THAT(verify_crowd(folder_.out()).missing,
+  EXPECT_THAT(verify_crowd(folder_.out()).missing_files,
               ::testing::ElementsAre("meshes/herself+LOD2+veil.obj"));
   run(set);
   EXPECT_EQ(faces_built(), 1);
@@ -277,7 +277,7 @@ TEST_F(AttachmentsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
   fs::remove(mesh("herself+cap.obj"));
   fs::remove(mesh("attachments/cap/cap.mtl"));
   EXPECT_THAT(
-      verify_crowd(folder_.out()).missing,
+      verify_crowd(folder_.out()).missing_files,
       ::testing::UnorderedElementsAre("meshes/attachments/cap/cap.mtl", "meshes/herself+cap.obj"));
   run();
   EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());

@@ -69,7 +69,7 @@ class TraitFolder {
 double distance_on(const Positions& mesh, const HeadLandmarks& landmarks, std::size_t a,
                    std::size_t b) {
   const auto at = [&](std::size_t l) {
-    const SurfacePoint& place = *landmarks.places[l];
+    const SurfacePoint& place = *landmarks.surface_points[l];
     Eigen::RowVector3d point = Eigen::RowVector3d::Zero();
     for (std::size_t c = 0; c < 3; ++c) point += place.shares[c] * mesh.row(place.corners[c]);
     return point;

@@ -375,7 +375,7 @@ TEST(PlannedCrowd, IsUsedByShardsWithOtherFormats) {
   plan(folder.config(), {}, options);
   ConfigOverrides overrides;
   overrides.assignments = {"output.meshes=[ply]", "output.contact_sheet=none"};
-  options.plan_from = PlanFrom::kFolder;
+  options.plan_source = PlanSource::kFolder;
   options.shard = Shard{1, 2};
   generate(folder.config(), overrides, options);
   EXPECT_TRUE(fs::exists(folder.out() / "meshes/mob_0001.ply"));

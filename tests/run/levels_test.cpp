@@ -161,7 +161,8 @@ TEST_F(LevelsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
   const auto whole = testing::crowd_files(folder_.out());
   const std::string id = testing::plan_lines(folder_.out()).back().at("id");
   fs::remove(mesh(id + "+LOD2+smile.obj"));
-  EXPECT_THAT(verify_crowd(folder_.out()).missing, ElementsAre("meshes/" + id + "+LOD2+smile.obj"));
+  EXPECT_THAT(verify_crowd(folder_.out()).missing_files,
+              ElementsAre("meshes/" + id + "+LOD2+smile.obj"));
   run("[obj, glb]");
   EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
   EXPECT_EQ(testing::read_json(folder_.out() / "timings.json").at("faces"), 1);

@@ -26,17 +26,17 @@ class MeasuredLids {
  public:
   static constexpr std::size_t kPlanes = 64;
 
-  /// \param faces, parts, part  must outlive this object.
+  /// \param head_set, parts, part  must outlive this object.
   /// \param skin                its vertices, ascending
-  MeasuredLids(const HeadSet& faces, std::span<const std::uint32_t> skin, const PartList& parts,
+  MeasuredLids(const HeadSet& head_set, std::span<const std::uint32_t> skin, const PartList& parts,
                const Part& part, const Positions& neutral, const HeadAxes& axes)
-      : faces_(faces),
+      : faces_(head_set),
         parts_(parts),
         part_(part),
         axes_(axes),
         ones_(part.vertices.size(), 1.0),
-        mean_(mean_head(faces)),
-        around_(faces.topology) {
+        mean_(mean_head(head_set)),
+        around_(head_set.topology) {
     const BallMap ball = map_in(neutral);
     TemplateEye eye{ball,
                     find_lids(neutral, PointGrid(neutral, part.vertices), ball.centre(),
@@ -52,7 +52,7 @@ class MeasuredLids {
     }
     std::vector<signed char> side(static_cast<std::size_t>(neutral.rows()), 0);
     lid_sides(eye, neutral, side);
-    const std::vector<Triangle> triangles = triangles_of(faces.topology);
+    const std::vector<Triangle> triangles = triangles_of(head_set.topology);
     for (const Triangle& t : triangles) {
       const int sum = side[t[0]] + side[t[1]] + side[t[2]];
       if (sum == 3) upper_.push_back(t);

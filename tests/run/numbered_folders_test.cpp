@@ -111,7 +111,7 @@ TEST_F(NumberedFolders, VerifyMissesAFileAndTheNextRunMakesItAgain) {
   EXPECT_TRUE(verify_crowd(out).is_intact());
   for (const char* name : {"meshes/001/mob_0004.npy", "renders/002/mob_0007.png"}) {
     fs::remove(out / name);
-    EXPECT_THAT(verify_crowd(out).missing, ElementsAre(name));
+    EXPECT_THAT(verify_crowd(out).missing_files, ElementsAre(name));
     run({kThreePerFolder}, out);
     EXPECT_EQ(faces_built(out), 1) << name;
     EXPECT_THAT(differing_files(whole, crowd_files(out)), IsEmpty()) << name;
@@ -191,7 +191,8 @@ TEST_F(NumberedFolders, ALargeCrowdThatLiesInOneFolderStaysThere) {
   overrides.seed = "1";
   Job job = load_job(folder_.config(), overrides);
   job.config.output.faces_per_folder.reset();  // as versions wrote it that knew no subfolders
-  folder_.folder().write("out/config.yaml", config_in_folder(job.config, directory_of(job.config)));
+  folder_.folder().write("out/config.yaml",
+                         config_text_in_folder(job.config, directory_of(job.config)));
   EXPECT_EQ(faces_per_folder(folder_, 10'001), std::nullopt);
   EXPECT_EQ(load_job(folder_.out() / "config.yaml", {}).config.output.faces_per_folder,
             std::nullopt);

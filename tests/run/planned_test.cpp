@@ -41,28 +41,28 @@ SmallCrowd all_kinds() {
 class Planned : public ::testing::Test {
  protected:
   Planned() : folder_(all_kinds()) { folder_.folder().write("heads/bowl.mtl", "newmtl skin\n"); }
-  GenerateOptions options(Shard shard, PlanFrom from) const {
+  GenerateOptions options(Shard shard, PlanSource from) const {
     return {folder_.cache(), Replace::kRefuse, false, 0, shard, from};
   }
-  void run_shard(Shard shard, PlanFrom from, const ConfigOverrides& overrides = {}) const {
+  void run_shard(Shard shard, PlanSource from, const ConfigOverrides& overrides = {}) const {
     generate(folder_.config(), overrides, options(shard, from));
   }
   void run_plan(const ConfigOverrides& overrides = {}) const {
-    plan(folder_.config(), overrides, options({}, PlanFrom::kFolderOrCasting));
+    plan(folder_.config(), overrides, options({}, PlanSource::kFolderOrCasting));
   }
   std::optional<PlannedFaces> faces(const Shard& shard) const {
-    return planned_faces(load_job(folder_.config(), {}), {folder_.out()}, shard);
+    return read_planned_faces(load_job(folder_.config(), {}), {folder_.out()}, shard);
   }
 
   SmallCrowdFolder folder_;
 };
 
 TEST_F(Planned, ShardsOfTheFoldersPlanGiveWhatOneRunGives) {
-  run_shard({}, PlanFrom::kFolderOrCasting);
+  run_shard({}, PlanSource::kFolderOrCasting);
   const auto whole = testing::crowd_files(folder_.out());
   fs::remove_all(folder_.out());
   run_plan();
-  for (const std::uint64_t shard : {3U, 1U, 2U}) run_shard({shard, 3}, PlanFrom::kFolder);
+  for (const std::uint64_t shard : {3U, 1U, 2U}) run_shard({shard, 3}, PlanSource::kFolder);
   gather(folder_.out(), folder_.cache());
   EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
 }
@@ -83,7 +83,7 @@ TEST_F(Planned, FacesReadBackAreThoseThatWereCast) {
 
 TEST_F(Planned, AnotherPlanIsNotTaken) {
   testing::expect_error(ExitCode::kMissingInput, {"planned.json", "crowdface plan"}, [&] {
-    run_shard({1, 2}, PlanFrom::kFolder);
+    run_shard({1, 2}, PlanSource::kFolder);
   });
   EXPECT_FALSE(fs::exists(folder_.out()));
   run_plan();
@@ -131,14 +131,14 @@ class PlanOfOthers : public Planned {
 };
 
 TEST_F(PlanOfOthers, IsTakenByWhoeverGathers) {
-  for (const std::uint64_t shard : {1U, 2U}) run_shard({shard, 2}, PlanFrom::kFolder);
+  for (const std::uint64_t shard : {1U, 2U}) run_shard({shard, 2}, PlanSource::kFolder);
   gather(folder_.out(), folder_.cache());
   EXPECT_TRUE(is_still_theirs());
   EXPECT_FALSE(fs::exists(folder_.out() / "planned.json"));
 }
 
 TEST_F(PlanOfOthers, IsTakenByOneRun) {
-  run_shard({}, PlanFrom::kFolderOrCasting);
+  run_shard({}, PlanSource::kFolderOrCasting);
   EXPECT_TRUE(is_still_theirs());
 }
 
@@ -160,11 +160,11 @@ TEST_F(PlanOfOthers, IsNotTakenByOneRunIfAnythingBesideItIsAltered) {
 }
 
 TEST_F(Planned, OneRunOfTheFoldersPlanGivesWhatItGivesWithoutOne) {
-  run_shard({}, PlanFrom::kFolderOrCasting);
+  run_shard({}, PlanSource::kFolderOrCasting);
   const auto whole = testing::crowd_files(folder_.out());
   fs::remove_all(folder_.out());
   run_plan();
-  run_shard({}, PlanFrom::kFolderOrCasting);
+  run_shard({}, PlanSource::kFolderOrCasting);
   EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
 }
 
@@ -173,15 +173,15 @@ TEST_F(Planned, OneRunOfTheFoldersPlanWritesTheTableAnew) {
   run_plan();
   const std::string table = testing::read_text(folder_.out() / "crowd.csv");
   folder_.folder().write("out/crowd.csv", "id\r\n");
-  run_shard({}, PlanFrom::kFolderOrCasting);
+  run_shard({}, PlanSource::kFolderOrCasting);
   EXPECT_EQ(testing::read_text(folder_.out() / "crowd.csv"), table);
   EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
 }
 
 // A run that is stopped has left its plan to those that go on.
 TEST_F(Planned, AShardThatCastsLeavesItsPlanToOthers) {
-  run_shard({1, 2}, PlanFrom::kFolderOrCasting);
-  run_shard({2, 2}, PlanFrom::kFolder);
+  run_shard({1, 2}, PlanSource::kFolderOrCasting);
+  run_shard({2, 2}, PlanSource::kFolder);
   EXPECT_TRUE(faces({}).has_value());
 }
 
@@ -190,7 +190,7 @@ TEST_F(Planned, AShardCastsWhereThePlanIsAltered) {
   run_plan();
   const std::string plan = testing::read_text(folder_.out() / "plan.jsonl");
   folder_.folder().write("out/plan.jsonl", plan.substr(0, plan.find('\n') + 1));
-  run_shard({1, 2}, PlanFrom::kFolderOrCasting);
+  run_shard({1, 2}, PlanSource::kFolderOrCasting);
   EXPECT_EQ(testing::read_text(folder_.out() / "plan.jsonl"), plan);
 }
 

@@ -89,7 +89,7 @@ TEST_F(PointsOfACrowd, AreRecordedVerifiedResumedAndRemoved) {
   run("[obj]");
   const auto whole = testing::crowd_files(folder_.out());
   fs::remove(mesh("herself+points.json"));
-  EXPECT_THAT(verify_crowd(folder_.out()).missing, ElementsAre("meshes/herself+points.json"));
+  EXPECT_THAT(verify_crowd(folder_.out()).missing_files, ElementsAre("meshes/herself+points.json"));
   run("[obj]");
   EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
   EXPECT_EQ(testing::read_json(folder_.out() / "timings.json").at("faces"), 1);

@@ -144,21 +144,22 @@ TEST_F(Resume, VerifyMissesLinesOfTheLedger) {
 
 TEST_F(Resume, VerifyNamesWhatIsMissingAndAltered) {
   EXPECT_TRUE(verify_crowd(folder_.out()).is_intact());
-  EXPECT_EQ(verify_crowd(folder_.out()).files, whole_.size() - 1) << "all but the ledger itself";
+  EXPECT_EQ(verify_crowd(folder_.out()).file_count, whole_.size() - 1)
+      << "all but the ledger itself";
   fs::remove(folder_.out() / "meshes/mob_0002.glb");
   folder_.folder().write("out/renders/mob_0003.png", "no picture");
   folder_.folder().write("out/sheets/sheet_001.png", "no sheet");
   const auto before = crowd_files(folder_.out());
   const CrowdCheck check = verify_crowd(folder_.out());
-  EXPECT_THAT(check.missing, ElementsAre("meshes/mob_0002.glb"));
-  EXPECT_THAT(check.altered, ElementsAre("renders/mob_0003.png", "sheets/sheet_001.png"));
-  EXPECT_THAT(check.unfinished, IsEmpty());
+  EXPECT_THAT(check.missing_files, ElementsAre("meshes/mob_0002.glb"));
+  EXPECT_THAT(check.altered_files, ElementsAre("renders/mob_0003.png", "sheets/sheet_001.png"));
+  EXPECT_THAT(check.unfinished_items, IsEmpty());
   EXPECT_THAT(differing_files(before, crowd_files(folder_.out())), IsEmpty());
   run();
   expect_whole("repaired");
   folder_.folder().write("out/ledger.jsonl", "");
   const CrowdCheck without = verify_crowd(folder_.out());
-  EXPECT_EQ(without.unfinished.size(), 9U) << "seven faces, plan and report";
+  EXPECT_EQ(without.unfinished_items.size(), 9U) << "seven faces, plan and report";
   testing::expect_error(ExitCode::kMissingInput, {"config.yaml"},
                         [&] { verify_crowd(folder_ / "heads"); });
 }
@@ -172,7 +173,8 @@ TEST_F(Resume, ShardsAndGatherGiveWhatOneRunGives) {
       run({shard, shards});
       EXPECT_FALSE(fs::exists(folder_.out() / "report.json"));
     }
-    EXPECT_EQ(verify_crowd(folder_.out()).unfinished, std::vector<std::string>{"report.json"});
+    EXPECT_EQ(verify_crowd(folder_.out()).unfinished_items,
+              std::vector<std::string>{"report.json"});
     gather(folder_.out(), folder_.cache());
     expect_whole(concat(shards, " shards"));
     EXPECT_FALSE(fs::exists(folder_.out() / concat("crowdface-1of", shards, ".log")));
@@ -229,7 +231,7 @@ TEST_F(Resume, ShardsOfHeadsThatHaveChangedSinceAreGathered) {
   edit_a_head();
   run({1, 2});
   run({2, 2});
-  EXPECT_THAT(verify_crowd(folder_.out()).altered, IsEmpty());
+  EXPECT_THAT(verify_crowd(folder_.out()).altered_files, IsEmpty());
   gather(folder_.out(), folder_.cache());
   const auto gathered = crowd_files(folder_.out());
   EXPECT_FALSE(differing_files(whole_, gathered).empty());
@@ -244,7 +246,7 @@ TEST_F(Resume, SheetsMadeAnewBetweenShardsAndGatherAlterNoMesh) {
   run({1, 2});
   run({2, 2});
   remake_sheets(folder_.out(), {"output.contact_sheet.cell=48"}, folder_.cache());
-  EXPECT_THAT(verify_crowd(folder_.out()).altered, IsEmpty());
+  EXPECT_THAT(verify_crowd(folder_.out()).altered_files, IsEmpty());
 }
 
 TEST_F(Resume, ARunThatOnlyGathersNeedsNoMemoryForFaces) {

@@ -138,10 +138,11 @@ TEST_F(ShapesOfACrowd, AreTheSameInEveryFormat) {
 TEST_F(ShapesOfACrowd, AreRecordedVerifiedAndResumed) {
   run("[obj, points]");
   const auto whole = testing::crowd_files(folder_.out());
-  EXPECT_TRUE(verify_crowd(folder_.out()).missing.empty());
+  EXPECT_TRUE(verify_crowd(folder_.out()).missing_files.empty());
   const std::string id = testing::plan_lines(folder_.out()).back().at("id");
   fs::remove(mesh(id + "+other.obj"));
-  EXPECT_THAT(verify_crowd(folder_.out()).missing, ElementsAre("meshes/" + id + "+other.obj"));
+  EXPECT_THAT(verify_crowd(folder_.out()).missing_files,
+              ElementsAre("meshes/" + id + "+other.obj"));
   run("[obj, points]");
   EXPECT_THAT(testing::differing_files(whole, testing::crowd_files(folder_.out())), IsEmpty());
   EXPECT_EQ(testing::read_json(folder_.out() / "timings.json").at("faces"), 1);

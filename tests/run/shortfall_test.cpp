@@ -47,7 +47,7 @@ TEST(TellShortfall, NamesTheHeadsOfAGroupThatHasFew) {
   config.groups[1].sampling.sources = {0, 1, 2};
   const auto told = [&](int group) {
     try {
-      tell_shortfall(config, {}, {0, {}, group});
+      throw_shortfall(config, {}, {0, {}, group});
     } catch (const Unsatisfiable& error) {
       return std::string(error.what());
     }

@@ -103,14 +103,15 @@ TEST(FittingTasks, GrowWithTheCrowdAndAreNeverMoreThanItsFaces) {
   crowd.contact_sheet = "{cell: 256}";
   const SmallCrowdFolder folder(crowd);
   const Job job = load_job(folder.config(), {});
-  EXPECT_EQ(fitting_shards(job.config, job.inputs, 1, 1), 1U);
-  EXPECT_EQ(fitting_shards(job.config, job.inputs, 0, 1), 1U);
-  const std::uint64_t many = fitting_shards(job.config, job.inputs, 1'000'000, 1);
+  EXPECT_EQ(suitable_shard_count(job.config, job.inputs, 1, 1), 1U);
+  EXPECT_EQ(suitable_shard_count(job.config, job.inputs, 0, 1), 1U);
+  const std::uint64_t many = suitable_shard_count(job.config, job.inputs, 1'000'000, 1);
   EXPECT_GT(many, 10U);
   EXPECT_NEAR(static_cast<double>(many),
-              8.0 * static_cast<double>(fitting_shards(job.config, job.inputs, 1'000'000, 8)), 8);
-  EXPECT_EQ(fitting_shards(job.config, job.inputs, 1'000'000'000, 1), 1000U);
-  EXPECT_EQ(fitting_prepares(job.inputs, 1), 1U);
+              8.0 * static_cast<double>(suitable_shard_count(job.config, job.inputs, 1'000'000, 8)),
+              8);
+  EXPECT_EQ(suitable_shard_count(job.config, job.inputs, 1'000'000'000, 1), 1000U);
+  EXPECT_EQ(suitable_prepare_count(job.inputs, 1), 1U);
 }
 
 }  // namespace

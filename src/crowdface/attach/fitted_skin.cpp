@@ -179,7 +179,7 @@ Positions FittedSkin::normals(const Positions& face) const {
   return normal_sign_ * fans_.normals(topology_, face, {0, 0, 0});
 }
 
-NearestSkin FittedSkin::nearest_skin(const Positions& face, const Positions& normals,
+NearestSkinPoint FittedSkin::nearest_skin(const Positions& face, const Positions& normals,
                                      std::uint32_t start, const Eigen::Vector3d& point) const {
   const SurfacePoint place = nearest_point_from(
       topology_, vertex_faces_, face,

@@ -14,7 +14,7 @@
 namespace crowdface {
 
 /// The point of the skin that is nearest to a given point.
-struct NearestSkin {
+struct NearestSkinPoint {
   std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
   /// signed distance of the given point from the skin; negative if the point is inside
   double height = 0;
@@ -66,7 +66,7 @@ class FittedSkin {
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from `normals`.
   /// \param start    A vertex of the skin near the point.
-  NearestSkin nearest_skin(const Positions& face, const Positions& normals, std::uint32_t start,
+  NearestSkinPoint nearest_skin(const Positions& face, const Positions& normals, std::uint32_t start,
                            const Eigen::Vector3d& point) const;
 
  private:

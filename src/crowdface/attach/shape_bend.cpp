@@ -59,7 +59,7 @@ class Roots {
       if (!is_found_[start.point]) grow(start, nearest, neighbours);
     }
   }
-  const std::vector<NearestSkin>& of_point() const { return of_point_; }
+  const std::vector<NearestSkinPoint>& of_point() const { return of_point_; }
 
  private:
   struct QueueEntry {
@@ -103,13 +103,14 @@ class Roots {
   const FittedSkin& skin_;
   const Positions& points_;
   Positions normals_;
-  std::vector<NearestSkin> of_point_;
+  std::vector<NearestSkinPoint> of_point_;
   std::vector<bool> is_found_;
 };
 
 /// Returns, for each point, the position around which the patch is selected: the point moved
 /// towards its root by `off`, or the root itself if it is nearer than `off`.
-Positions anchors_of(const std::vector<NearestSkin>& roots, const Positions& points, double off) {
+Positions anchors_of(const std::vector<NearestSkinPoint>& roots, const Positions& points,
+                     double off) {
   Positions anchors(points.rows(), 3);
   for (std::size_t p = 0; p < roots.size(); ++p) {
     const Eigen::Vector3d away = row3(points, p) - roots[p].position;
@@ -127,7 +128,7 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   std::vector<std::uint32_t> all(static_cast<std::size_t>(points.rows()));
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
-  const std::vector<NearestSkin> roots = Roots(skin, adjacency, topology, points).of_point();
+  const std::vector<NearestSkinPoint> roots = Roots(skin, adjacency, topology, points).of_point();
   const Positions anchors = anchors_of(roots, points, kOffMm * skin.mm());
   const PointGrid grid(anchors, all);
   EdgeDistances along(adjacency, skin.mesh());

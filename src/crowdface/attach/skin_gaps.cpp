@@ -55,7 +55,7 @@ std::vector<SkinGaps::Violation> SkinGaps::violations(const Positions& face,
   std::vector<Violation> all;
   for (std::uint32_t p = 0; p < heights_.size(); ++p) {
     if (heights_[p] == kNowhere || heights_[p] < 0) continue;
-    const NearestSkin place =
+    const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     const double missing = min_height(p) - place.height;
     if (missing > 0) all.push_back({p, missing, place.outward});
@@ -68,7 +68,7 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
   const auto count = static_cast<std::uint32_t>(heights_.size());
   parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
     if (heights_[p] == kNowhere) return;
-    const NearestSkin place =
+    const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     // Restore the original gap near the skin, and at least the minimum distance elsewhere.
     const double off = std::abs(heights_[p]) / skin_.mm();

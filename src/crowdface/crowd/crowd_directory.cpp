@@ -37,17 +37,17 @@ void remove_file(const fs::path& path) {
 std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
   const fs::path data = directory.gallery() / "data";
   std::vector<fs::path> folders;
-  for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
+  for (const fs::path& folder : folder_and_numbered_subfolders(directory.meshes())) {
     folders.insert(folders.end(), {folder, folder / kBlendedFolder});
   }
   for (const fs::path& folder : {directory.renders(), directory.sheets()}) {
-    for (const fs::path& each : with_numbered_folders(folder)) folders.push_back(each);
+    for (const fs::path& each : folder_and_numbered_subfolders(folder)) folders.push_back(each);
   }
   folders.insert(folders.end(),
                  {directory.topology(), directory.head_render("").parent_path(),
                   directory.founder_render("").parent_path(), directory.reviews(),
                   directory.gallery(), data, data / "attachments", directory.gallery_pages()});
-  for (const fs::path& each : with_numbered_folders(directory.gallery_faces())) {
+  for (const fs::path& each : folder_and_numbered_subfolders(directory.gallery_faces())) {
     folders.push_back(each);
   }
   folders.push_back(data / "heads");
@@ -91,19 +91,19 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
       files.push_back(std::move(file));
     }
   };
-  for (const fs::path& folder : with_numbered_folders(directory.meshes())) {
+  for (const fs::path& folder : folder_and_numbered_subfolders(directory.meshes())) {
     add(folder, [](const fs::path& path) {
       return mesh_format_of(path) || path.extension() == ".mtl" ||
-             path.filename().string().ends_with(concat('+', kFollowingPoints));
+             path.filename().string().ends_with(concat('+', kFollowingPointsFile));
     });
     for (fs::path& file : list_files(folder / kBlendedFolder, is_file)) {
       files.push_back(std::move(file));  // this folder holds no other files
     }
   }
-  for (const fs::path& folder : with_numbered_folders(directory.renders())) {
+  for (const fs::path& folder : folder_and_numbered_subfolders(directory.renders())) {
     add(folder, has_extension(".png"));
   }
-  for (const fs::path& folder : with_numbered_folders(directory.gallery_faces())) {
+  for (const fs::path& folder : folder_and_numbered_subfolders(directory.gallery_faces())) {
     for (fs::path& file : list_files(folder, has_extension(".js")))
       files.push_back(std::move(file));
   }
@@ -116,7 +116,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
   for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
   for (const std::vector<fs::path>& more :
-       {files_of_faces(directory), crowd_sheets(directory), files_beside_sheets(directory)}) {
+       {files_of_faces(directory), crowd_sheets(directory), files_made_with_sheets(directory)}) {
     files.insert(files.end(), more.begin(), more.end());
   }
   for (const fs::path& path : files) remove_file(path);
@@ -225,7 +225,7 @@ void refuse_unread_reviews(const CrowdDirectory& directory, const CrowdConfig& c
 /// \throws CannotCreate if there is such a link.
 void refuse_links(const CrowdDirectory& directory) {
   for (const fs::path& folder : crowd_folders(directory))
-    refuse_folder_elsewhere(directory, folder);
+    refuse_link_out_of_crowd(directory, folder);
   std::vector<fs::path> files = {directory.log(), directory.ledger()};
   for (const fs::path& path : directory.shard_ledgers()) files.push_back(path);
   for (const fs::path& path : directory.shard_logs()) files.push_back(path);
@@ -258,7 +258,7 @@ std::vector<fs::path> CrowdDirectory::ledgers() const {
   return all;
 }
 
-void refuse_folder_elsewhere(const CrowdDirectory& directory, const fs::path& folder) {
+void refuse_link_out_of_crowd(const CrowdDirectory& directory, const fs::path& folder) {
   std::error_code error;
   const fs::path root = fs::weakly_canonical(directory.root, error);
   if (error) return;  // the folder neither exists nor can be created; other code reports this
@@ -285,7 +285,7 @@ std::vector<std::string> ids_in_plan(const CrowdDirectory& directory) {
 std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
   const std::set<std::string> recorded = recorded_files(directory, kSheetsItem);
   std::vector<fs::path> sheets;
-  for (const fs::path& folder : with_numbered_folders(directory.sheets())) {
+  for (const fs::path& folder : folder_and_numbered_subfolders(directory.sheets())) {
     for (fs::path& file : list_folder(folder)) sheets.push_back(std::move(file));
   }
   std::erase_if(sheets, [&](const fs::path& path) {
@@ -294,7 +294,7 @@ std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
   return sheets;
 }
 
-std::vector<fs::path> files_beside_sheets(const CrowdDirectory& directory) {
+std::vector<fs::path> files_made_with_sheets(const CrowdDirectory& directory) {
   std::vector<fs::path> files;
   const auto add = [&](const fs::path& folder, const auto& is_ours) {
     for (fs::path& file : list_files(folder, is_ours)) {
@@ -314,11 +314,11 @@ std::vector<fs::path> files_beside_sheets(const CrowdDirectory& directory) {
 }
 
 fs::path CrowdDirectory::sheet(std::size_t page) const {
-  return sheets() / folder_of(std::to_string(page)) /
+  return sheets() / numbered_subfolder(std::to_string(page)) /
          concat("sheet_", zero_padded(page, 3), ".png");
 }
 
-fs::path CrowdDirectory::folder_of(std::string_view id) const {
+fs::path CrowdDirectory::numbered_subfolder(std::string_view id) const {
   if (faces_per_folder == 0) return {};
   constexpr std::size_t kMaxDigits = 15;
   const std::size_t last = id.find_last_not_of("0123456789");
@@ -327,7 +327,7 @@ fs::path CrowdDirectory::folder_of(std::string_view id) const {
   return zero_padded(parse_unsigned(digits).value_or(0) / faces_per_folder, 3);
 }
 
-std::vector<fs::path> with_numbered_folders(const fs::path& folder) {
+std::vector<fs::path> folder_and_numbered_subfolders(const fs::path& folder) {
   std::vector<fs::path> folders = list_files(folder, [](const fs::path& path) {
     return path.filename().string().find_first_not_of("0123456789") == std::string::npos &&
            is_folder(path);
@@ -397,7 +397,7 @@ void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& co
                           Replace replace) {
   check_crowd_directory(directory, config, replace);
   make_directories(directory.root);
-  if (config.without_kept_reviews) set_reviews_aside(directory);
+  if (config.rename_review_folder) set_reviews_aside(directory);
   refuse_unread_reviews(directory, config);
   const bool is_others = path_exists(directory.config())
                              ? !config.differences(read_file(directory.config())).empty()

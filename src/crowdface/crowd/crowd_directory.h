@@ -18,7 +18,7 @@
 namespace crowdface {
 
 /// Name of the file with the points that follow a face; the face's id and '+' precede this name.
-inline constexpr const char* kFollowingPoints = "points.json";
+inline constexpr const char* kFollowingPointsFile = "points.json";
 
 /// Paths of the files in a crowd's folder (docs/crowd-directory.md).
 struct CrowdDirectory {
@@ -45,25 +45,27 @@ struct CrowdDirectory {
   std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
   std::filesystem::path lock() const { return root / ".crowdface.lock"; }
   /// A file that identifies the job to which the plan belongs, so that a shard uses only the plan
-  /// of its own job; see planned_faces.
+  /// of its own job; see read_planned_faces.
   std::filesystem::path plan_marker() const { return root / "planned.json"; }
   /// Progress of a shard, for `crowdface status` and other observers.
   std::filesystem::path progress(const Shard& shard) const {
-    return of_shard(root / "progress.json", shard);
+    return shard_path(root / "progress.json", shard);
   }
   std::vector<std::filesystem::path> all_progress() const {
-    return of_all_shards(root / "progress.json");
+    return existing_shard_paths(root / "progress.json");
   }
   /// Scripts and logs of tasks that run on other machines.
   std::filesystem::path task_folder() const { return root / "submit"; }
   /// The shard's own log, ledger and lock. If the shard is the whole crowd: the crowd's log, ledger
   /// and lock.
-  std::filesystem::path log(const Shard& shard) const { return of_shard(log(), shard); }
-  std::filesystem::path ledger(const Shard& shard) const { return of_shard(ledger(), shard); }
-  std::filesystem::path lock(const Shard& shard) const { return of_shard(lock(), shard); }
+  std::filesystem::path log(const Shard& shard) const { return shard_path(log(), shard); }
+  std::filesystem::path ledger(const Shard& shard) const { return shard_path(ledger(), shard); }
+  std::filesystem::path lock(const Shard& shard) const { return shard_path(lock(), shard); }
   /// The existing ledgers and logs of all shards, sorted by name.
-  std::vector<std::filesystem::path> shard_ledgers() const { return of_all_shards(ledger()); }
-  std::vector<std::filesystem::path> shard_logs() const { return of_all_shards(log()); }
+  std::vector<std::filesystem::path> shard_ledgers() const {
+    return existing_shard_paths(ledger());
+  }
+  std::vector<std::filesystem::path> shard_logs() const { return existing_shard_paths(log()); }
   /// The ledgers of all shards, then the crowd's own ledger, which need not exist.
   std::vector<std::filesystem::path> ledgers() const;
   std::filesystem::path meshes() const { return root / "meshes"; }
@@ -79,12 +81,14 @@ struct CrowdDirectory {
   std::filesystem::path topology() const { return meshes() / "topology"; }
   /// Folder with the meshes of a face. Subfolders hold the textures that the face's material file
   /// names.
-  std::filesystem::path meshes_of(const std::string& id) const { return meshes() / folder_of(id); }
+  std::filesystem::path meshes_of(const std::string& id) const {
+    return meshes() / numbered_subfolder(id);
+  }
   /// Relative path from a face's meshes to files that all faces share, such as material files: ".."
   /// or empty.
-  std::string shared_from_mesh() const { return faces_per_folder > 0 ? ".." : ""; }
+  std::string path_from_mesh_to_shared() const { return faces_per_folder > 0 ? ".." : ""; }
   std::filesystem::path render(const std::string& id) const {
-    return renders() / folder_of(id) / (id + ".png");
+    return renders() / numbered_subfolder(id) / (id + ".png");
   }
   std::filesystem::path head_render(const std::string& name) const {
     return renders() / "heads" / (name + ".png");
@@ -96,7 +100,7 @@ struct CrowdDirectory {
   std::filesystem::path gallery() const { return root / "gallery"; }
   std::filesystem::path gallery_faces() const { return gallery() / "data/faces"; }
   std::filesystem::path gallery_face(const std::string& id) const {
-    return gallery_faces() / folder_of(id) / (id + ".js");
+    return gallery_faces() / numbered_subfolder(id) / (id + ".js");
   }
   /// Scripts with the recipes of a large crowd; each script holds `faces_per_folder` faces.
   std::filesystem::path gallery_pages() const { return gallery() / "data/pages"; }
@@ -115,16 +119,17 @@ struct CrowdDirectory {
   std::filesystem::path sheet(std::size_t page) const;
   /// Subfolder of a face, such as "012", from the number at the end of its id; empty if the crowd
   /// has no subfolders.
-  std::filesystem::path folder_of(std::string_view id) const;
+  std::filesystem::path numbered_subfolder(std::string_view id) const;
 };
 
 /// A folder and its existing numbered subfolders.
-std::vector<std::filesystem::path> with_numbered_folders(const std::filesystem::path& folder);
+std::vector<std::filesystem::path> folder_and_numbered_subfolders(
+    const std::filesystem::path& folder);
 
-/// Prevents the engine from writing files of a crowd outside the crowd's folder.
+/// Prevents crowdface from writing a crowd's files outside the crowd's folder.
 /// \throws CannotCreate if `folder`, a folder of the crowd, is a link that leads out of the crowd's
 ///         folder.
-void refuse_folder_elsewhere(const CrowdDirectory& directory, const std::filesystem::path& folder);
+void refuse_link_out_of_crowd(const CrowdDirectory& directory, const std::filesystem::path& folder);
 
 /// The ids in the plan of a crowd's folder. Skips lines that cannot be read or whose id is not a
 /// valid file name.
@@ -157,7 +162,7 @@ std::vector<std::filesystem::path> crowd_sheets(const CrowdDirectory& directory)
 /// The files made together with the sheets: images of heads and founders, and the gallery except
 /// for the meshes of faces.
 /// \throws IoError if a folder cannot be read.
-std::vector<std::filesystem::path> files_beside_sheets(const CrowdDirectory& directory);
+std::vector<std::filesystem::path> files_made_with_sheets(const CrowdDirectory& directory);
 
 /// \throws MissingInput if the folder is not a crowd's folder.
 void require_crowd(const CrowdDirectory& directory);
@@ -173,7 +178,7 @@ struct CrowdConfig {
   /// #reviews: the content of each review file when this run read it
   std::vector<std::string> original_reviews = {};
   /// Whether to rename the folder of reviews to a name with the date.
-  bool without_kept_reviews = false;
+  bool rename_review_folder = false;
 };
 
 /// Checks before any heavy work whether open_crowd_directory would succeed; changes nothing.

@@ -22,7 +22,7 @@ class CrowdLock {
 
   /// Call this before a run reports success.
   /// \throws IoError if the folder was removed or replaced since the lock was taken.
-  void require_still_there() const { root_->require_same(); }
+  void require_same_folder() const { root_->require_same(); }
 
  private:
   std::unique_ptr<DirectoryHandle> root_;

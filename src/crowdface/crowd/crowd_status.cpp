@@ -61,7 +61,7 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
   return ids;
 }
 
-/// Number of shards of the last submission to a farm, otherwise the number in the shards' file
+/// Returns the number of shards: from the last submission to a farm, or else from the shards' file
 /// names; 1 if there are no shards.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
   const auto job = parse_shallow_json(text_of(directory.task_folder() / "job.json"));
@@ -73,7 +73,7 @@ std::uint64_t shard_count(const CrowdDirectory& directory) {
   for (const auto& files : {directory.shard_ledgers(), directory.all_progress()}) {
     for (const fs::path& file : files) {
       const std::string stem = file.stem().string();
-      count = std::max(count, shard_of_name(stem.substr(stem.find('-') + 1))->count);
+      count = std::max(count, parse_shard_name(stem.substr(stem.find('-') + 1))->count);
     }
   }
   return count;
@@ -99,14 +99,14 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
   status.state = notes->state;
   status.machine = notes->machine;
   status.reason = notes->reason;
-  if (notes->made > 0 && notes->seconds > 0) {
-    status.faces_a_second = static_cast<double>(notes->made) / notes->seconds;
+  if (notes->faces_made > 0 && notes->seconds > 0) {
+    status.faces_a_second = static_cast<double>(notes->faces_made) / notes->seconds;
   }
 }
 
 /// Adds the error from the log of a task that died without a report in the crowd's folder.
 void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
-  const TaskEnd end = end_of_task(
+  const TaskEnd end = parse_task_end(
       text_of(directory.task_folder() / "log" / concat("blend-", status.shard.index, ".log")));
   if (!end.code || *end.code == 0) return;
   constexpr auto kAgain = static_cast<std::uint64_t>(ExitCode::kInterrupted);
@@ -127,16 +127,17 @@ ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
 
 /// Derives the final state and the remaining time. Call this once `done` is known.
 void finish(const CrowdDirectory& directory, ShardStatus& status) {
-  if (status.faces > 0 && status.done == status.faces) {
+  if (status.faces > 0 && status.finished_faces == status.faces) {
     status.state = ShardState::kDone;
     status.reason.clear();
     status.requeued = false;
   }
   if (status.state != ShardState::kWorking) return;
-  status.silent_seconds =
+  status.seconds_since_write =
       seconds_since({directory.progress(status.shard), directory.ledger(status.shard)});
   if (status.faces_a_second) {
-    status.seconds_left = static_cast<double>(status.faces - status.done) / *status.faces_a_second;
+    status.seconds_left =
+        static_cast<double>(status.faces - status.finished_faces) / *status.faces_a_second;
   }
 }
 
@@ -145,7 +146,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
     return path.extension() == ".log" && !path.filename().string().starts_with("blend-");
   };
   for (const fs::path& log : list_files(directory.task_folder() / "log", is_log)) {
-    const TaskEnd end = end_of_task(text_of(log));
+    const TaskEnd end = parse_task_end(text_of(log));
     if (!end.code || *end.code == 0 || end.requeued) continue;
     status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.code,
                                      end.reason.empty() ? "" : ": ", end.reason));
@@ -154,7 +155,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
 
 }  // namespace
 
-TaskEnd end_of_task(std::string_view log) {
+TaskEnd parse_task_end(std::string_view log) {
   TaskEnd end;
   // An incomplete last line is still being written.
   for (const std::string_view line : split_lines(log.substr(0, log.rfind('\n') + 1))) {
@@ -176,9 +177,9 @@ CrowdStatus crowd_status(const fs::path& crowd_directory) {
   const CrowdDirectory directory{crowd_directory};
   if (!path_exists(directory.task_folder())) require_crowd(directory);
   CrowdStatus status;
-  status.planned = path_exists(directory.plan());
-  status.gathered = path_exists(directory.report());
-  const std::uint64_t shards = status.gathered ? 1 : shard_count(directory);
+  status.is_planned = path_exists(directory.plan());
+  status.is_gathered = path_exists(directory.report());
+  const std::uint64_t shards = status.is_gathered ? 1 : shard_count(directory);
   for (std::uint64_t index = 1; shards > 1 && index <= shards; ++index) {
     status.shards.push_back(status_of(directory, {index, shards}));
   }
@@ -188,10 +189,10 @@ CrowdStatus crowd_status(const fs::path& crowd_directory) {
     if (!status.shards.empty()) {
       ShardStatus& shard = status.shards[status.faces % shards];
       ++shard.faces;
-      shard.done += done ? 1U : 0U;
+      shard.finished_faces += done ? 1U : 0U;
     }
     ++status.faces;
-    status.done += done ? 1U : 0U;
+    status.finished_faces += done ? 1U : 0U;
   });
   for (ShardStatus& shard : status.shards) {
     finish(directory, shard);
@@ -200,7 +201,7 @@ CrowdStatus crowd_status(const fs::path& crowd_directory) {
       status.seconds_left = std::max(status.seconds_left.value_or(0), *shard.seconds_left);
     }
   }
-  if (!status.gathered) add_failures(directory, status);
+  if (!status.is_gathered) add_failures(directory, status);
   return status;
 }
 

@@ -17,11 +17,11 @@ struct ShardStatus {
   Shard shard;
   ShardState state = ShardState::kWaiting;
   std::uint64_t faces = 0;
-  std::uint64_t done = 0;                ///< number of finished faces according to all ledgers
+  std::uint64_t finished_faces = 0;      ///< number of finished faces according to all ledgers
   std::optional<double> faces_a_second;  ///< speed of the last run
   std::optional<double> seconds_left;    ///< set while the shard is working and its speed is known
   std::optional<double>
-      silent_seconds;  ///< set while working: seconds since the shard's last write
+      seconds_since_write;  ///< set while working: seconds since the shard's last write
   std::string machine;
   std::string reason;  ///< why the last run ended early
   /// Whether Slurm will run the shard's task again, although the last run ended early.
@@ -32,11 +32,11 @@ struct ShardStatus {
 };
 
 struct CrowdStatus {
-  bool planned = false;             ///< whether the plan exists
-  bool gathered = false;            ///< whether the report exists, so that all work is done
-  std::uint64_t faces = 0;          ///< number of faces in the plan
-  std::uint64_t done = 0;           ///< number of finished faces according to all ledgers
-  std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun
+  bool is_planned = false;           ///< whether the plan exists
+  bool is_gathered = false;          ///< whether the report exists, so that all work is done
+  std::uint64_t faces = 0;           ///< number of faces in the plan
+  std::uint64_t finished_faces = 0;  ///< number of finished faces according to all ledgers
+  std::vector<ShardStatus> shards;   ///< empty if a single run makes the crowd or no run has begun
   std::optional<double> faces_a_second;  ///< total speed of all working shards
   std::optional<double> seconds_left;    ///< until the last working shard finishes
   std::vector<std::string> failures;     ///< last error of each failed task that is not a shard
@@ -48,7 +48,7 @@ struct TaskEnd {
   std::string reason;                 ///< last error in the log
   bool requeued = false;              ///< the task has asked Slurm to run it again
 };
-TaskEnd end_of_task(std::string_view log);
+TaskEnd parse_task_end(std::string_view log);
 
 /// Reads the status from the folder and changes nothing. Needs neither the heads nor locks.
 /// \throws MissingInput if the folder is not a crowd's folder; IoError.

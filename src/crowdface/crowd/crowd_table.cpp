@@ -82,8 +82,7 @@ void add_neck_colours(const std::vector<FacePlan>& crowd,
                          return format_number(rounded(colour(face)[c]));
                        }});
   }
-  columns.push_back(
-      {"neck_srgb", [=](const FacePlan& face) { return hex_of_light(colour(face)); }});
+  columns.push_back({"neck_srgb", [=](const FacePlan& face) { return srgb_hex(colour(face)); }});
 }
 
 /// By face id: the families that the face is a parent of, and its role in each, by family.
@@ -238,7 +237,7 @@ std::string table_line(const TableColumns& columns, const Text& text) {
 
 }  // namespace
 
-std::string hex_of_light(const Eigen::Array3d& light) {
+std::string srgb_hex(const Eigen::Array3d& light) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   constexpr unsigned kBase = 16;
   std::string text = "#";

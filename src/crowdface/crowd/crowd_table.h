@@ -31,12 +31,12 @@ TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names
                       const TableFacts& facts = {});
 
 /// The text of plan.jsonl: the text of plan_text with additional keys for each face: `sex` and
-/// `tags` if the heads have tags, and the `family_role` of parents and children (the `family` names
-/// the other members). `crowd` and `names` must outlive the text.
+/// `tags` if the heads have tags, and `family_role` for parents and children. Other members of a
+/// family have only `family`. `crowd` and `names` must outlive the text.
 TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                                const Digest& settings, const TableFacts& facts);
 
 /// A colour in linear light as sRGB, "#C89F8A".
-std::string hex_of_light(const Eigen::Array3d& light);
+std::string srgb_hex(const Eigen::Array3d& light);
 
 }  // namespace crowdface

@@ -26,8 +26,8 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
   return json;
 }
 
-/// The first band's values stand directly in the object, the values of the other bands under their
-/// names.
+/// Stores the first band's values directly in the object, and the other bands' values under `bands`
+/// by name.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);
   for (const SourceWeight& part : region.colours) {

@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-Positions read_face(const CrowdDirectory& directory, const std::string& id,
-                    const std::vector<MeshFormat>& formats, Index vertices) {
+Positions read_face_positions(const CrowdDirectory& directory, const std::string& id,
+                              const std::vector<MeshFormat>& formats, Index vertices) {
   const auto format =
       std::ranges::find_if(formats, [](MeshFormat one) { return traits_of(one).read != nullptr; });
   if (format == formats.end()) {

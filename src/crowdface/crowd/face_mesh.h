@@ -14,7 +14,7 @@ namespace crowdface {
 /// can read.
 /// \throws MissingInput if there is no such format or the file does not exist; InvalidInput if the
 ///         file does not belong to this crowd.
-Positions read_face(const CrowdDirectory& directory, const std::string& id,
-                    const std::vector<MeshFormat>& formats, Index vertices);
+Positions read_face_positions(const CrowdDirectory& directory, const std::string& id,
+                              const std::vector<MeshFormat>& formats, Index vertices);
 
 }  // namespace crowdface

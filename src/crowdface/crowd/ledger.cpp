@@ -71,7 +71,7 @@ class LedgerReader {
     } else if (entry) {
       lines.entries.push_back(std::move(*entry));
     } else {
-      ++lines.damaged;
+      ++lines.damaged_count;
     }
     before_.add_raw(line).add_raw("\n");
   }
@@ -184,12 +184,12 @@ Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& 
     add(read_ledger(other));
   }
   LedgerLines lines = read_ledger(own);
-  if (lines.damaged > 0) {
-    log_warning(concat(own.string(), ": ", lines.damaged,
-                       lines.damaged == 1 ? " line is" : " lines are",
+  if (lines.damaged_count > 0) {
+    log_warning(concat(own.string(), ": ", lines.damaged_count,
+                       lines.damaged_count == 1 ? " line is" : " lines are",
                        " damaged; the work that was recorded there is done again"));
   }
-  if (lines.damaged > 0 || !path_exists(own)) {
+  if (lines.damaged_count > 0 || !path_exists(own)) {
     write_file(own, text_of_items(lines.entries.size(),
                                   [&](std::size_t i) { return line_with_end(lines.entries[i]); }));
   }
@@ -197,7 +197,7 @@ Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& 
   file_ = std::make_unique<AppendFile>(own);
 }
 
-std::optional<LedgerEntry> Ledger::proven(const std::string& item, const Digest& key) {
+std::optional<LedgerEntry> Ledger::find_proven(const std::string& item, const Digest& key) {
   std::vector<LedgerEntry> candidates;
   {
     const std::lock_guard lock(mutex_);
@@ -209,13 +209,13 @@ std::optional<LedgerEntry> Ledger::proven(const std::string& item, const Digest&
   for (const LedgerEntry& entry : candidates) {
     if (entry.key != key || !files_match(root_, entry)) continue;
     const std::lock_guard lock(mutex_);
-    settle_on(entry);
+    replace_lines(entry);
     return entry;
   }
   return std::nullopt;
 }
 
-void Ledger::settle_on(LedgerEntry entry) {
+void Ledger::replace_lines(LedgerEntry entry) {
   Item& item = items_[entry.item];
   for (const LedgerEntry& line : item.lines) {
     for (const LedgerEntry::File& file : line.files) {
@@ -237,7 +237,7 @@ void Ledger::record_all(std::vector<LedgerEntry> entries) {
   file_->append(lines);
   const std::lock_guard lock(mutex_);
   has_appended_ = true;
-  for (LedgerEntry& entry : entries) settle_on(std::move(entry));
+  for (LedgerEntry& entry : entries) replace_lines(std::move(entry));
 }
 
 void Ledger::record(LedgerEntry entry) {
@@ -246,10 +246,10 @@ void Ledger::record(LedgerEntry entry) {
 
 void Ledger::record(const std::string& item, const Digest& key,
                     const std::vector<std::string>& names) {
-  record({item, key, files_now(names), {}});
+  record({item, key, hash_files(names), {}});
 }
 
-std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>& names) const {
+std::vector<LedgerEntry::File> Ledger::hash_files(const std::vector<std::string>& names) const {
   std::vector<LedgerEntry::File> files;
   try {
     for (const std::string& name : names) files.push_back({name, hash_file(root_ / name)});
@@ -264,13 +264,13 @@ std::vector<LedgerEntry::File> Ledger::files_now(const std::vector<std::string>&
 FileDigest Ledger::write(const std::string& name, const TextPieces& text) {
   if (!path_exists(root_ / name)) {
     const FileDigest content = write_file(root_ / name, text);
-    keep({name, content});
+    record_existing({name, content});
     return content;
   }
   const LedgerEntry::File file{name, digest_of(text)};
-  if (proven(name, file.content.digest)) return file.content;
+  if (find_proven(name, file.content.digest)) return file.content;
   if (!has_content(root_ / name, file.content)) write_file(root_ / name, text);
-  keep(file);
+  record_existing(file);
   return file.content;
 }
 
@@ -278,26 +278,27 @@ FileDigest Ledger::write(const std::string& name, std::string_view bytes) {
   return write(name, [&](const TakePiece& take) { take(bytes); });
 }
 
-void Ledger::keep(const LedgerEntry::File& file) {
+void Ledger::record_existing(const LedgerEntry::File& file) {
   record({file.name, file.content.digest, {file}, {}});
 }
 
-void Ledger::adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files) {
+void Ledger::record_remade_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files) {
   if (files == entry.files) return;
   entry.files = std::move(files);
   entry.key = Hasher().add(entry.key).add("made anew").digest();
   record(std::move(entry));
 }
 
-void Ledger::adopt(const std::string& item, const std::vector<std::string>& names,
-                   const std::vector<std::string>& folders) {
+void Ledger::record_remade(const std::string& item, const std::vector<std::string>& names,
+                           const std::vector<std::string>& folders) {
   const auto is_in_them = [&](const std::string& name) {
     return std::any_of(folders.begin(), folders.end(),
                        [&](const std::string& folder) { return name.starts_with(folder + '/'); });
   };
   const auto known = items_.find(item);
-  adopt_entry(known == items_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.lines.back(),
-              files_now(names));
+  record_remade_entry(
+      known == items_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.lines.back(),
+      hash_files(names));
   // If an item has several lines, take the last line that matches the existing files; if none
   // matches, the last line.
   const auto line_of = [&](const std::vector<LedgerEntry>& lines) {
@@ -317,11 +318,11 @@ void Ledger::adopt(const std::string& item, const std::vector<std::string>& name
       if (!is_in_them(file.name) || !path_exists(root_ / file.name)) continue;
       file.content = hash_file(root_ / file.name);
     }
-    adopt_entry(std::move(entry), std::move(files));
+    record_remade_entry(std::move(entry), std::move(files));
   }
 }
 
-void Ledger::give_text(const TakePiece& take) const {
+void Ledger::write_text(const TakePiece& take) const {
   Hasher before;
   FileCounts counts;
   std::vector<const LedgerEntry*> done;
@@ -357,9 +358,9 @@ void Ledger::remove_outdated_files() const {
   }
 }
 
-void Ledger::settle() {
+void Ledger::compact() {
   remove_outdated_files();
-  const TextPieces text = [&](const TakePiece& take) { give_text(take); };
+  const TextPieces text = [&](const TakePiece& take) { write_text(take); };
   if (has_appended_ || !has_content(own_, digest_of(text))) write_file(own_, text);
   for (const fs::path& other : other_ledgers_) {
     std::error_code error;

@@ -45,7 +45,7 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 /// The valid lines of a ledger, in their order.
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
-  std::size_t damaged = 0;  ///< number of invalid lines
+  std::size_t damaged_count = 0;  ///< number of invalid lines
   /// Whether a run finished, the ledger still has all lines of this run, and the lines list as many
   /// files of each kind as the run counted.
   bool complete = false;
@@ -80,7 +80,7 @@ class Ledger {
 
   /// Returns a ledger line of the item that has this key and whose files are unchanged. Such a line
   /// proves that the item is finished.
-  std::optional<LedgerEntry> proven(const std::string& item, const Digest& key);
+  std::optional<LedgerEntry> find_proven(const std::string& item, const Digest& key);
 
   /// Appends one line for each entry. `write_file` or `write_files` must have written the files.
   /// \throws IoError.
@@ -96,19 +96,19 @@ class Ledger {
   FileDigest write(const std::string& name, std::string_view bytes);
   /// Records a file that already exists with the right content; its ledger key is the hash of its
   /// content.
-  void keep(const LedgerEntry::File& file);
+  void record_existing(const LedgerEntry::File& file);
 
   /// Records files that were made again, possibly in a format that the config does not ask for.
   /// Files whose content has changed get another key, so that the next run makes them again as the
   /// config demands; unchanged files keep their lines.
   /// \param item, names  an item and its present files
   /// \param folders      files of other items are checked if they are in one of these folders
-  void adopt(const std::string& item, const std::vector<std::string>& names,
-             const std::vector<std::string>& folders);
+  void record_remade(const std::string& item, const std::vector<std::string>& names,
+                     const std::vector<std::string>& folders);
 
   /// Sorts the ledger by item and keeps only the entries that this run proved or recorded. Removes
   /// the other ledgers, and the files that only outdated lines name.
-  void settle();
+  void compact();
 
   /// Call this before a run reports success.
   /// \throws IoError if the ledger or a file that this run proved or recorded no longer exists.
@@ -122,11 +122,11 @@ class Ledger {
     bool done = false;
   };
 
-  void settle_on(LedgerEntry entry);
+  void replace_lines(LedgerEntry entry);
   void remove_outdated_files() const;
-  std::vector<LedgerEntry::File> files_now(const std::vector<std::string>& names) const;
-  void adopt_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
-  void give_text(const TakePiece& take) const;
+  std::vector<LedgerEntry::File> hash_files(const std::vector<std::string>& names) const;
+  void record_remade_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
+  void write_text(const TakePiece& take) const;
 
   std::filesystem::path root_, own_;
   std::vector<std::filesystem::path> other_ledgers_;

@@ -283,11 +283,11 @@ class LineReader {
 
 }  // namespace
 
-std::string format_recipe(const FacePlan& face, const PlanNames& names, const Digest& settings) {
+std::string format_plan_line(const FacePlan& face, const PlanNames& names, const Digest& settings) {
   return face_to_json(face, names, settings).dump();
 }
 
-PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::string& place) {
+PlanLine parse_plan_line(std::string_view line, const PlanNames& names, const std::string& place) {
   return LineReader(names, place).read(line);
 }
 
@@ -297,7 +297,7 @@ std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNam
   read_lines(path, [&](std::string_view line, bool) {
     ++number;
     if (line.empty()) return;
-    plan.push_back(parse_recipe(line, names, concat(path.string(), ":", number)));
+    plan.push_back(parse_plan_line(line, names, concat(path.string(), ":", number)));
   });
   return plan;
 }
@@ -305,7 +305,7 @@ std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNam
 TextPieces plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                      const Digest& settings) {
   return text_of_items(crowd.size(), [&crowd, &names, settings](std::size_t i) {
-    return format_recipe(crowd[i], names, settings) + '\n';
+    return format_plan_line(crowd[i], names, settings) + '\n';
   });
 }
 

@@ -15,7 +15,7 @@ namespace crowdface {
 
 /// One line of plan.jsonl without a line end (docs/crowd-directory.md lists the fields). Numbers
 /// have full precision, distances four decimals.
-std::string format_recipe(const FacePlan& face, const PlanNames& names, const Digest& settings);
+std::string format_plan_line(const FacePlan& face, const PlanNames& names, const Digest& settings);
 
 /// A face read from a plan, and the hash of the settings under which it was cast.
 struct PlanLine {
@@ -26,7 +26,7 @@ struct PlanLine {
 /// Reads one line.
 /// \param place  "file:line", for messages.
 /// \throws InvalidInput with the place, the field, the expected and the actual value.
-PlanLine parse_recipe(std::string_view line, const PlanNames& names, const std::string& place);
+PlanLine parse_plan_line(std::string_view line, const PlanNames& names, const std::string& place);
 
 /// Reads all lines of a plan file.
 std::vector<PlanLine> read_plan(const std::filesystem::path& path, const PlanNames& names);

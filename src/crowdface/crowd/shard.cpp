@@ -40,24 +40,24 @@ std::optional<Shard> parse_shard(std::string_view text) {
   return Shard{*index, *count};
 }
 
-std::optional<Shard> shard_of_name(std::string name) {
+std::optional<Shard> parse_shard_name(std::string name) {
   const std::size_t of = name.find("of");
   return of == name.npos ? std::nullopt : parse_shard(name.replace(of, 2, "/"));
 }
 
-fs::path of_shard(const fs::path& path, const Shard& shard) {
+fs::path shard_path(const fs::path& path, const Shard& shard) {
   if (shard.is_whole_crowd()) return path;
   fs::path result = path;
   return result.replace_filename(
       concat(path.stem().string(), '-', shard.name(), path.extension().string()));
 }
 
-std::vector<fs::path> of_all_shards(const fs::path& path) {
+std::vector<fs::path> existing_shard_paths(const fs::path& path) {
   const std::string start = path.stem().string() + "-";
   return list_files(path.parent_path(), [&](const fs::path& file) {
     const std::string stem = file.stem().string();
     return file.extension() == path.extension() && stem.starts_with(start) &&
-           shard_of_name(stem.substr(start.size()));
+           parse_shard_name(stem.substr(start.size()));
   });
 }
 
@@ -68,8 +68,8 @@ std::string_view name_of(ShardState state) {
 std::string format_shard_notes(const ShardNotes& notes) {
   const Json json = {{"state", name_of(notes.state)},
                      {"faces", notes.faces},
-                     {"done", notes.done},
-                     {"made", notes.made},
+                     {"done", notes.finished_faces},
+                     {"made", notes.faces_made},
                      {"seconds", rounded(notes.seconds)},
                      {"machine", notes.machine},
                      {"reason", notes.reason}};
@@ -85,8 +85,8 @@ std::optional<ShardNotes> parse_shard_notes(std::string_view text) {
     if (state == kStateNames.end()) return std::nullopt;
     notes.state = static_cast<ShardState>(state - kStateNames.begin());
     for (const auto& [key, number] :
-         {std::pair("faces", &notes.faces), std::pair("done", &notes.done),
-          std::pair("made", &notes.made)}) {
+         {std::pair("faces", &notes.faces), std::pair("done", &notes.finished_faces),
+          std::pair("made", &notes.faces_made)}) {
       if (!json.at(key).is_number_unsigned()) return std::nullopt;
       *number = json.at(key).get<std::uint64_t>();
     }

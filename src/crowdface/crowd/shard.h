@@ -26,13 +26,13 @@ struct Shard {
 /// Parses text such as "2/7"; nothing if the text is not a shard or names more than 9999 shards.
 std::optional<Shard> parse_shard(std::string_view text);
 /// Parses a name such as "2of7", with the same limits.
-std::optional<Shard> shard_of_name(std::string name);
+std::optional<Shard> parse_shard_name(std::string name);
 
 /// The shard's own file in place of a file of the crowd: "ledger-2of7.jsonl" for "ledger.jsonl".
 /// Returns `path` itself if the shard is the whole crowd.
-std::filesystem::path of_shard(const std::filesystem::path& path, const Shard& shard);
+std::filesystem::path shard_path(const std::filesystem::path& path, const Shard& shard);
 /// The existing files of all shards that belong to `path`, sorted by name.
-std::vector<std::filesystem::path> of_all_shards(const std::filesystem::path& path);
+std::vector<std::filesystem::path> existing_shard_paths(const std::filesystem::path& path);
 
 enum class ShardState {
   kWaiting,      ///< no run has begun
@@ -46,9 +46,9 @@ std::string_view name_of(ShardState state);
 /// What a shard reports about its latest run, both during the run and at its end.
 struct ShardNotes {
   ShardState state = ShardState::kWorking;
-  std::uint64_t faces = 0;  ///< number of faces in the shard
-  std::uint64_t done = 0;   ///< number of finished faces in the shard
-  std::uint64_t made = 0;   ///< number of faces that this run has made in `seconds`
+  std::uint64_t faces = 0;           ///< number of faces in the shard
+  std::uint64_t finished_faces = 0;  ///< number of finished faces in the shard
+  std::uint64_t faces_made = 0;      ///< number of faces that this run has made in `seconds`
   double seconds = 0;
   std::string machine;
   std::string reason;  ///< why the run was interrupted or failed

@@ -34,12 +34,12 @@ using StatusRow = std::array<std::string, 7>;
 
 StatusRow row_of(const ShardStatus& shard) {
   std::string remark = shard.reason;
-  if (shard.silent_seconds.value_or(0) > kSilentSeconds) {
-    remark = concat("nothing written for ", format_duration(*shard.silent_seconds));
+  if (shard.seconds_since_write.value_or(0) > kSilentSeconds) {
+    remark = concat("nothing written for ", format_duration(*shard.seconds_since_write));
   }
   return {concat(shard.shard.index, "/", shard.shard.count),
           std::string(shard.state_name()),
-          concat(shard.done, "/", shard.faces),
+          concat(shard.finished_faces, "/", shard.faces),
           pace(shard.faces_a_second),
           duration(shard.seconds_left),
           shard.machine,
@@ -70,12 +70,12 @@ Json rounded_or_null(const std::optional<double>& value) {
 }  // namespace
 
 std::string format_status_table(const CrowdStatus& status) {
-  std::string text = status.gathered  ? "finished"
-                     : status.planned ? "planned, not finished"
-                                      : "not planned yet";
-  if (status.planned) {
-    text += concat(": ", status.done, " of ", status.faces, " faces, ",
-                   percent(status.done, status.faces));
+  std::string text = status.is_gathered  ? "finished"
+                     : status.is_planned ? "planned, not finished"
+                                         : "not planned yet";
+  if (status.is_planned) {
+    text += concat(": ", status.finished_faces, " of ", status.faces, " faces, ",
+                   percent(status.finished_faces, status.faces));
   }
   if (status.seconds_left) {
     text += concat(", ", pace(status.faces_a_second), ", ", duration(status.seconds_left), " left");
@@ -89,10 +89,10 @@ std::string format_status_table(const CrowdStatus& status) {
 }
 
 std::string format_status_json(const CrowdStatus& status) {
-  Json json = {{"planned", status.planned},
-               {"finished", status.gathered},
+  Json json = {{"planned", status.is_planned},
+               {"finished", status.is_gathered},
                {"faces", status.faces},
-               {"done", status.done},
+               {"done", status.finished_faces},
                {"faces_a_second", rounded_or_null(status.faces_a_second)},
                {"seconds_left", rounded_or_null(status.seconds_left)},
                {"failures", status.failures},
@@ -102,10 +102,10 @@ std::string format_status_json(const CrowdStatus& status) {
                               {"of", shard.shard.count},
                               {"state", shard.state_name()},
                               {"faces", shard.faces},
-                              {"done", shard.done},
+                              {"done", shard.finished_faces},
                               {"faces_a_second", rounded_or_null(shard.faces_a_second)},
                               {"seconds_left", rounded_or_null(shard.seconds_left)},
-                              {"silent_seconds", rounded_or_null(shard.silent_seconds)},
+                              {"silent_seconds", rounded_or_null(shard.seconds_since_write)},
                               {"machine", shard.machine},
                               {"reason", shard.reason}});
   }

@@ -24,10 +24,10 @@ std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
   std::map<std::string, std::vector<LedgerEntry>> all;
   for (const fs::path& path : directory.ledgers()) {
     LedgerLines lines = read_ledger(path);
-    if (lines.damaged > 0) {
+    if (lines.damaged_count > 0) {
       check.remarks.push_back(
-          concat(path.filename().string(), ": ", lines.damaged,
-                 lines.damaged == 1 ? " line is damaged" : " lines are damaged"));
+          concat(path.filename().string(), ": ", lines.damaged_count,
+                 lines.damaged_count == 1 ? " line is damaged" : " lines are damaged"));
     }
     if (path == directory.ledger() && !lines.complete) {
       check.remarks.push_back(
@@ -59,10 +59,11 @@ void compare_files(const CrowdDirectory& directory,
     good[f] = has_content(directory.root / files[f]->name, files[f]->content);
     progress.step();
   });
-  check.files = files.size();
+  check.file_count = files.size();
   for (std::size_t f = 0; f < files.size(); ++f) {
     if (good[f] != 0) continue;
-    auto& list = is_file(directory.root / files[f]->name) ? check.altered : check.missing;
+    auto& list =
+        is_file(directory.root / files[f]->name) ? check.altered_files : check.missing_files;
     list.push_back(files[f]->name);
   }
 }
@@ -77,12 +78,12 @@ CrowdCheck verify_crowd(const fs::path& crowd_directory) {
   compare_files(directory, entries, check);
   if (path_exists(directory.plan())) {
     for (const std::string& id : ids_in_plan(directory)) {
-      if (!entries.contains(concat("faces/", id))) check.unfinished.push_back(id);
+      if (!entries.contains(concat("faces/", id))) check.unfinished_items.push_back(id);
     }
   }
   for (const fs::path& path : {directory.plan(), directory.report()}) {
     const std::string name = path.filename().string();
-    if (!entries.contains(name)) check.unfinished.push_back(name);
+    if (!entries.contains(name)) check.unfinished_items.push_back(name);
   }
   if (!directory.shard_ledgers().empty()) {
     check.remarks.emplace_back("shards have not been gathered");

@@ -27,30 +27,31 @@ YamlNode parsed(const std::string& text, const std::string& source) {
   return std::move(*root);
 }
 
-/// Writes a value on one line.
-std::string in_flow(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::kList) return flow_list(texts_of(node.items, in_flow));
+/// Formats a YAML value on one line.
+std::string single_line_yaml(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::kList) return flow_list(texts_of(node.items, single_line_yaml));
   if (node.kind == YamlNode::Kind::kMap) {
     return flow_map(texts_of(node.entries, [](const YamlEntry& child) {
-      return entry(write_scalar(child.key), in_flow(child.value));
+      return entry(write_scalar(child.key), single_line_yaml(child.value));
     }));
   }
   return node.quoted ? write_scalar(node.text) : node.text;
 }
 
-/// Writes one line for each section and for each list item.
+/// Formats the edits, with one line for each section and for each list item.
 std::string text_of(const YamlNode& edits) {
   std::string text = "# Written by crowdface edit; the config names this file as `edits`.\n";
   if (edits.entries.empty()) text += "{}\n";
   for (const auto& [key, place, value] : edits.entries) {
     const bool is_list = value.kind == YamlNode::Kind::kList;
-    text += entry(key, is_list ? block_list(texts_of(value.items, in_flow)) : in_flow(value));
+    text += entry(key, is_list ? block_list(texts_of(value.items, single_line_yaml))
+                               : single_line_yaml(value));
     text += '\n';
   }
   return text;
 }
 
-/// Saves a change of the edits.
+/// Applies a change to the edits and saves them.
 fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edits)>& change) {
   std::string config_text = read_file(config);
   const YamlNode root = parsed(config_text, config.string());
@@ -90,7 +91,7 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
   return file;
 }
 
-/// The paths as the config names them, in one line.
+/// Formats paths relative to the config's folder, as a YAML list on one line.
 std::string paths_from(const fs::path& config, const std::vector<fs::path>& files) {
   const fs::path folder = fs::absolute(config).lexically_normal().parent_path();
   return flow_names(texts_of(files, [&](const fs::path& file) {
@@ -107,7 +108,7 @@ fs::path put_sections(const fs::path& config, const std::string& sections) {
 
 fs::path put_recipe(const ManualRecipe& recipe, const Config& config) {
   const YamlNode node = parsed(format_manual_recipe(recipe, config), "recipe");
-  return put_sections(config.file, concat("recipes: [", in_flow(node), "]\n"));
+  return put_sections(config.file, concat("recipes: [", single_line_yaml(node), "]\n"));
 }
 
 fs::path put_regions(const fs::path& config, const std::vector<std::string>& names,
@@ -132,7 +133,7 @@ std::optional<std::string> section_in_edits(const fs::path& edits, const std::st
   const YamlNode root = parsed(read_file(edits), edits.string());
   const YamlEntry* found = root.find(section);
   if (found == nullptr) return std::nullopt;
-  return in_flow(found->value);
+  return single_line_yaml(found->value);
 }
 
 fs::path restore_section(const fs::path& config, const std::string& section,

@@ -17,7 +17,9 @@ double between(double a, double b, double share) {
   return a + share * (b - a);
 }
 
-/// \param sources  sources of the band
+/// Interpolates between two bands.
+/// \param share    0: result `a`; 1: result `b`
+/// \param sources  heads that the band may blend
 BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index target,
                    const std::vector<Index>& sources, const CastingOptions& casting) {
   BandRecipe band;
@@ -36,10 +38,10 @@ BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index
 
 FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
                   std::uint32_t attempt) {
-  const bool keeps_target = request.like || !request.locked.empty();
-  const FacePlan& old = request.like ? *request.like : request.from;
+  const bool keeps_target = request.original || !request.locked.empty();
+  const FacePlan& old = request.original ? *request.original : request.start_face;
   ManualRecipe open;
-  open.id = request.from.id;
+  open.id = request.start_face.id;
   open.age = Range{0, 0};
   if (keeps_target) open.target = old.recipe.target;
   FacePlan face = random_face_plan(casting, open, {0, attempt, concat("edit/", open.id)},
@@ -50,15 +52,15 @@ FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
     face.recipe.asymmetry = old.recipe.asymmetry;
     face.recipe.mirrored = old.recipe.mirrored;
   }
-  for (std::size_t k = 0; k < face.recipe.regions.size() && request.like; ++k) {
+  for (std::size_t k = 0; k < face.recipe.regions.size() && request.original; ++k) {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {
       BandRecipe& band = band_of(region, b);
-      band = between(band_of(request.like->recipe.regions[k], b), band, request.amount,
+      band = between(band_of(request.original->recipe.regions[k], b), band, request.variation,
                      face.recipe.target, sources_of(casting.sampling, b), casting);
     }
   }
-  copy_bands(request.locked, request.from.recipe, face.recipe);
+  copy_bands(request.locked, request.start_face.recipe, face.recipe);
   return face;
 }
 
@@ -82,7 +84,7 @@ std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudg
     const FaceSpace::Point point = judge.space().point(face.recipe);
     std::optional<Reason> why = judge.check_recipe(face.recipe, point);
     const double least = casting.diversity.min_distance_mm;
-    if (!why && !request.like && least > 0 && crowd.nearest(point, least).face >= 0) {
+    if (!why && !request.original && least > 0 && crowd.nearest(point, least).face >= 0) {
       why = Reason::kMinDistance;
     }
     if (!why) why = judge.check_skin(face.recipe);

@@ -13,17 +13,17 @@ namespace crowdface {
 
 /// A request to sample faces from which the user chooses.
 struct SampleRequest {
-  FacePlan from;  ///< the face to sample anew: supplies the id and all locked parts
+  FacePlan start_face;  ///< the face to sample anew: supplies the id and all locked parts
   std::vector<std::size_t>
       locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
-  std::optional<FacePlan> like;  ///< sample variations of this face
-  /// how far variations move from `like` towards an independently sampled face, 0 to 1
-  double amount = 1;
+  std::optional<FacePlan> original;  ///< sample variations of this face
+  /// how far variations move from `original` towards an independently sampled face, 0 to 1
+  double variation = 1;
   std::size_t count = 1;            ///< number of faces to sample
   std::uint32_t first_attempt = 0;  ///< a different number yields different faces
 };
 
-/// Samples faces that satisfy the limits of the config. Without `like`, the faces also keep the
+/// Samples faces that satisfy the limits of the config. Without `original`, the faces also keep the
 /// minimum distance from the crowd.
 /// \return fewer faces than requested if too many attempts violate the limits.
 /// \throws Unsatisfiable if all attempts violate the limits.

@@ -36,22 +36,22 @@ void require_safe_name(const std::string& name) {
 }  // namespace
 
 DroppedFiles::DroppedFiles(const fs::path& folder)
-    : added_(folder / "added"), arriving_(added_ / ".arriving") {}
+    : added_folder_(folder / "added"), upload_folder_(added_folder_ / ".arriving") {}
 
 DroppedFiles::~DroppedFiles() {
-  forget();
+  discard();
 }
 
-void DroppedFiles::forget() {
-  if (sizes_.empty()) return;
+void DroppedFiles::discard() {
+  if (expected_bytes_.empty()) return;
   std::error_code ignored;
-  fs::remove_all(arriving_, ignored);
-  fs::remove(added_, ignored);  // only if it is empty
-  sizes_.clear();
-  arrived_.clear();
+  fs::remove_all(upload_folder_, ignored);
+  fs::remove(added_folder_, ignored);  // only if it is empty
+  expected_bytes_.clear();
+  received_bytes_.clear();
 }
 
-void DroppedFiles::begin(const std::map<std::string, std::uint64_t>& sizes) {
+void DroppedFiles::begin_upload(const std::map<std::string, std::uint64_t>& sizes) {
   constexpr std::size_t kMostFiles = 256;
   constexpr std::uint64_t kMostBytes = std::uint64_t{2} << 30U;
   if (sizes.size() > kMostFiles) {
@@ -67,22 +67,23 @@ void DroppedFiles::begin(const std::map<std::string, std::uint64_t>& sizes) {
     throw UsageError("none of these files is a head: drop textures together with their heads");
   }
   const std::lock_guard lock(mutex_);
-  forget();
-  sizes_ = sizes;
-  make_directories(arriving_);
+  discard();
+  expected_bytes_ = sizes;
+  make_directories(upload_folder_);
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(arriving_)) fs::remove_all(entry, ignored);
+  for (const auto& entry : fs::directory_iterator(upload_folder_)) fs::remove_all(entry, ignored);
 }
 
 void DroppedFiles::add(const std::string& name, std::uint64_t offset, std::string_view bytes) {
   const std::lock_guard lock(mutex_);
-  const auto size = sizes_.find(name);
-  if (size == sizes_.end()) throw UsageError(concat(quoted(name), ": this file was not announced"));
-  std::uint64_t& arrived = arrived_[name];
+  const auto size = expected_bytes_.find(name);
+  if (size == expected_bytes_.end())
+    throw UsageError(concat(quoted(name), ": this file was not announced"));
+  std::uint64_t& arrived = received_bytes_[name];
   if (offset != arrived || bytes.size() > size->second - arrived) {
     throw UsageError(concat(quoted(name), ": the file changed while it was read; drop it again"));
   }
-  const fs::path path = arriving_ / name;
+  const fs::path path = upload_folder_ / name;
   std::ofstream file(path, std::ios::binary | std::ios::app);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
@@ -90,13 +91,13 @@ void DroppedFiles::add(const std::string& name, std::uint64_t offset, std::strin
   arrived += bytes.size();
 }
 
-std::vector<fs::path> DroppedFiles::keep() {
+std::vector<fs::path> DroppedFiles::move_to_config_folder() {
   const std::lock_guard lock(mutex_);
-  if (sizes_.empty()) throw UsageError("no files were dropped");
+  if (expected_bytes_.empty()) throw UsageError("no files were dropped");
   std::vector<fs::path> heads;
-  for (const auto& [name, bytes] : sizes_) {
-    const auto arrived = arrived_.find(name);
-    if ((arrived == arrived_.end() ? 0 : arrived->second) != bytes) {
+  for (const auto& [name, bytes] : expected_bytes_) {
+    const auto arrived = received_bytes_.find(name);
+    if ((arrived == received_bytes_.end() ? 0 : arrived->second) != bytes) {
       throw UsageError(concat(quoted(name), " is incomplete; drop the files again"));
     }
     if (is_head_file(name)) heads.emplace_back(name);
@@ -104,11 +105,11 @@ std::vector<fs::path> DroppedFiles::keep() {
   const std::string stem = heads.front().stem().string();
   fs::path folder;
   for (std::size_t number = 1; folder.empty() || path_exists(folder); ++number) {
-    folder = added_ / (number == 1 ? stem : concat(stem, '-', number));
+    folder = added_folder_ / (number == 1 ? stem : concat(stem, '-', number));
   }
-  fs::rename(arriving_, folder);
-  sizes_.clear();
-  arrived_.clear();
+  fs::rename(upload_folder_, folder);
+  expected_bytes_.clear();
+  received_bytes_.clear();
   for (fs::path& head : heads) head = folder / head;
   return heads;
 }

@@ -17,29 +17,30 @@ class DroppedFiles {
  public:
   /// \param folder  the config's folder
   explicit DroppedFiles(const std::filesystem::path& folder);
-  /// Removes files that were not kept.
+  /// Removes files that move_to_config_folder has not moved.
   ~DroppedFiles();
   DroppedFiles(const DroppedFiles&) = delete;
   DroppedFiles& operator=(const DroppedFiles&) = delete;
 
-  /// Begins anew. \param sizes  size in bytes of each file, by name
+  /// Discards the files of an earlier call and begins a new upload.
+  /// \param sizes  size in bytes of each file, by name
   /// \throws UsageError if a name is unsafe, there is no mesh, or the files are too large.
-  void begin(const std::map<std::string, std::uint64_t>& sizes);
+  void begin_upload(const std::map<std::string, std::uint64_t>& sizes);
   /// Adds the next piece of a file.
   /// \param offset  bytes before the piece
-  /// \throws UsageError if another piece is missing, or the file would become larger than its size
-  /// in `begin`.
+  /// \throws UsageError if an earlier piece is missing, or the file would become larger than its
+  /// size in `begin_upload`.
   void add(const std::string& name, std::uint64_t offset, std::string_view bytes);
   /// Moves all files to a new folder. \return the meshes, in the order of their names.
   /// \throws UsageError if a file is incomplete.
-  std::vector<std::filesystem::path> keep();
+  std::vector<std::filesystem::path> move_to_config_folder();
 
  private:
-  void forget();
+  void discard();
 
-  std::filesystem::path added_, arriving_;
+  std::filesystem::path added_folder_, upload_folder_;
   std::mutex mutex_;
-  std::map<std::string, std::uint64_t> sizes_, arrived_;
+  std::map<std::string, std::uint64_t> expected_bytes_, received_bytes_;
 };
 
 }  // namespace crowdface

@@ -60,7 +60,8 @@ class EditorLock {
   FileLock lock_;
 };
 
-/// The command line that makes the faces of the job in the state in which the editor opened it.
+/// Returns the arguments of the run that makes the faces of the opened job, with the overrides that
+/// the editor received.
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
                                             const EditOptions& options) {
   std::vector<std::string> arguments = {"generate", config.file.string(), "--cache",
@@ -89,13 +90,13 @@ struct OpenedJob {
 
 }  // namespace
 
-void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
+void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started) {
-  Job job = load_edited_job(given, overrides, options.cache);
+  Job job = load_edited_job(config_or_crowd, overrides, options.cache);
   const std::filesystem::path path = make_edited_folder(job.config);
   EditorLock lock(path);
   EditedFolder folder(path);
-  const bool is_crowd = is_folder(given);
+  const bool is_crowd = is_folder(config_or_crowd);
   GenerateRun run(generate_arguments(job.config, overrides, options), path / "generate.log");
 
   std::mutex opening, answering;
@@ -110,7 +111,7 @@ void edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
   };
   open_again = [&] {
     const std::lock_guard one(opening);
-    open(load_edited_job(given, overrides, options.cache));
+    open(load_edited_job(config_or_crowd, overrides, options.cache));
   };
   open(std::move(job));
   const auto now_opened = [&] {

@@ -27,7 +27,7 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       open_again_(std::move(open_again)),
       page_(gallery_page_folder(), "editor"),
       pictures_(session.job()),
-      placed_(session.job(), session.crowd()),
+      attachments_(session.job(), session.crowd()),
       expressions_(session.job()),
       dropped_(session.job().config.file.parent_path()),
       painting_(session, folder.path() / "strokes.jsonl") {
@@ -53,7 +53,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"GET", "api/faces/", &EditApi::face_picture},
                                             {"GET", "api/state", &EditApi::state},
                                             {"POST", "api/state", &EditApi::take_over},
-                                            {"PUT", "api/state", &EditApi::keep_state},
+                                            {"PUT", "api/state", &EditApi::save_state},
                                             {"POST", "api/save", &EditApi::save},
                                             {"POST", "api/recipes", &EditApi::put_recipe},
                                             {"GET", "api/generate", &EditApi::generate_progress},
@@ -83,20 +83,20 @@ HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
   Json json = session_.description();
   json["can_edit_config"] = may_edit_config_;
   {
-    const std::lock_guard lock(building_);
+    const std::lock_guard lock(build_mutex_);
     json["painted"] = painting_.differs_from_config();
   }
   if (may_edit_config_) {
     json["regions_edit"] = edit_json(session_.job().config.edits, "regions");
     json["faces_edit"] = edit_json(session_.job().config.edits, "faces");
   }
-  json["attachments"] = placed_.kinds();
+  json["attachments"] = attachments_.kinds();
   json["shapes"] = expressions_.names();
   return json_answer(json);
 }
 
 HttpAnswer EditApi::mesh(const HttpRequest&, const std::string&) {
-  const std::lock_guard lock(building_);
+  const std::lock_guard lock(build_mutex_);
   painting_.apply();
   return binary_answer(session_.mesh());
 }
@@ -110,20 +110,20 @@ HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
   const std::string what = rest.substr(slash);
   const auto number = parse_unsigned(std::string_view(rest).substr(0, slash));
   if (!number || *number >= session_.job().inputs.faces.heads.size()) {
-    return refusal(404, "there is no such head");
+    return error_answer(404, "there is no such head");
   }
   const auto head = static_cast<Index>(*number);
   if (what.empty()) return binary_answer(session_.head(head));
   if (what == "/thumbnail") return {200, "image/png", pictures_.thumbnail(head)};
-  if (what != "/texture") return refusal(404, "there is nothing at this address");
+  if (what != "/texture") return error_answer(404, "there is nothing at this address");
   auto texture = session_.textures().picture(head);
-  if (!texture) return refusal(404, "the head has no texture");
+  if (!texture) return error_answer(404, "the head has no texture");
   return {200, "image/jpeg", std::move(*texture)};
 }
 
 HttpAnswer EditApi::attachment(const HttpRequest&, const std::string& rest) {
-  auto look = placed_.look(rest);
-  if (!look) return refusal(404, "there is no such attachment");
+  auto look = attachments_.look(rest);
+  if (!look) return error_answer(404, "there is no such attachment");
   return {200, "application/json", std::move(*look)};
 }
 
@@ -147,19 +147,19 @@ std::vector<std::size_t> EditApi::parts_in(const Json& body, const std::string& 
 HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   constexpr double kMaxFaces = 64;
   constexpr std::uint32_t kAttempts = 4096;  // more than one request needs
-  const Json body = body_of(request);
-  SampleRequest draw{face_of(body), parts_in(body, "locked"), std::nullopt};
-  if (body.contains("like") && !body["like"].is_null()) draw.like = face_of(body, "like");
-  if (body.contains("amount")) draw.amount = number_in(body, "amount", 0, 1);
+  const Json body = parse_json_body(request);
+  SampleRequest sampling{face_of(body), parts_in(body, "locked"), std::nullopt};
+  if (body.contains("like") && !body["like"].is_null()) sampling.original = face_of(body, "like");
+  if (body.contains("amount")) sampling.variation = number_in(body, "amount", 0, 1);
   if (body.contains("count")) {
-    draw.count = static_cast<std::size_t>(number_in(body, "count", 1, kMaxFaces));
+    sampling.count = static_cast<std::size_t>(number_in(body, "count", 1, kMaxFaces));
   }
-  draw.first_attempt = draws_.fetch_add(kAttempts);
+  sampling.first_attempt = sampling_attempts_.fetch_add(kAttempts);
   Json recipes = Json::array();
-  Json mm = Json::array();  // distances from `like`
-  for (const FacePlan& face : session_.sample_faces(draw)) {
+  Json mm = Json::array();  // distances from `original`
+  for (const FacePlan& face : session_.sample_faces(sampling)) {
     recipes.push_back(recipe_to_json(face, session_.casting(), session_.job().config));
-    if (draw.like) mm.push_back(session_.distance_mm(*draw.like, face));
+    if (sampling.original) mm.push_back(session_.distance_mm(*sampling.original, face));
   }
   return json_answer({{"recipes", recipes}, {"mm", mm}});
 }
@@ -168,11 +168,11 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
 /// the new face and its measures.
 HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
   constexpr double kFarthest = 1e4;
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   const FacePlan face =
       session_.steer(face_of(body), text_in(body, "trait"),
                      number_in(body, "value", -kFarthest, kFarthest), parts_in(body, "locked"));
-  Json answer = told(session_.measure(face, opened_in(body)));
+  Json answer = measures_json(session_.measure(face, opened_id(body)));
   answer["recipe"] = recipe_to_json(face, session_.casting(), session_.job().config);
   return json_answer(answer);
 }
@@ -181,37 +181,37 @@ HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
 HttpAnswer EditApi::face_picture(const HttpRequest&, const std::string& rest) {
   const std::vector<FacePlan>* crowd = session_.crowd();
   if (crowd == nullptr || std::ranges::find(*crowd, rest, &FacePlan::id) == crowd->end()) {
-    return refusal(404, "there is no such face");
+    return error_answer(404, "there is no such face");
   }
   const auto file = directory_of(session_.job().config).render(rest);
-  if (!path_exists(file)) return refusal(404, "the face has no picture");
+  if (!path_exists(file)) return error_answer(404, "the face has no picture");
   return {200, "image/png", read_file(file)};
 }
 
-void EditApi::note_turn(const std::string& page, std::uint64_t turn) {
+void EditApi::note_request_number(const std::string& page, std::uint64_t turn) {
   constexpr std::size_t kMaxPages = 64;
-  const std::lock_guard lock(turns_mutex_);
-  if (turns_.size() > kMaxPages) turns_.clear();
-  std::uint64_t& newest = turns_[page];
+  const std::lock_guard lock(newest_requests_mutex_);
+  if (newest_requests_.size() > kMaxPages) newest_requests_.clear();
+  std::uint64_t& newest = newest_requests_[page];
   newest = std::max(newest, turn);
 }
 
-bool EditApi::is_overtaken(const std::string& page, std::uint64_t turn) {
-  const std::lock_guard lock(turns_mutex_);
-  const auto newest = turns_.find(page);
-  return newest != turns_.end() && turn < newest->second;
+bool EditApi::is_outdated_request(const std::string& page, std::uint64_t turn) {
+  const std::lock_guard lock(newest_requests_mutex_);
+  const auto newest = newest_requests_.find(page);
+  return newest != newest_requests_.end() && turn < newest->second;
 }
 
-nlohmann::ordered_json EditApi::told(const FaceMeasures& measures) const {
+nlohmann::ordered_json EditApi::measures_json(const FaceMeasures& measures) const {
   const auto& names = session_.job().names.heads;
   Json json;
-  json["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.head)]},
-                          {"mm", measures.head_mm},
-                          {"as_built_mm", measures.head_as_built_mm}};
+  json["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.nearest_head)]},
+                          {"mm", measures.nearest_head_mm},
+                          {"as_built_mm", measures.nearest_head_as_built_mm}};
   json["nearest_face"] = nullptr;
-  if (measures.face) {
-    json["nearest_face"] = {{"id", (*session_.crowd())[*measures.face].id},
-                            {"mm", measures.face_mm}};
+  if (measures.nearest_face) {
+    json["nearest_face"] = {{"id", (*session_.crowd())[*measures.nearest_face].id},
+                            {"mm", measures.nearest_face_mm}};
   }
   json["traits"] = Json::array();
   for (const FaceMeasures::Trait& one : measures.traits) {
@@ -222,28 +222,28 @@ nlohmann::ordered_json EditApi::told(const FaceMeasures& measures) const {
                               {"value", one.value},
                               {"low", one.low},
                               {"high", one.high},
-                              {"more", one.more}});
+                              {"more", one.above_mean}});
   }
   json["warnings"] = measures.warnings;
   return json;
 }
 
 /// The id of the crowd's face from which the edit began, or empty.
-std::string EditApi::opened_in(const Json& body) {
+std::string EditApi::opened_id(const Json& body) {
   return body.contains("face") && body["face"].is_string() ? body["face"].get<std::string>() : "";
 }
 
 HttpAnswer EditApi::measures(const HttpRequest& request, const std::string&) {
-  const Json body = body_of(request);
-  return json_answer(told(session_.measure(face_of(body), opened_in(body))));
+  const Json body = parse_json_body(request);
+  return json_answer(measures_json(session_.measure(face_of(body), opened_id(body))));
 }
 
 /// What is wrong with the whole mesh of a face: {"faults": sentences}.
 HttpAnswer EditApi::faults(const HttpRequest& request, const std::string&) {
-  const FacePlan face = face_of(body_of(request));
+  const FacePlan face = face_of(parse_json_body(request));
   Positions positions;
   {
-    const std::lock_guard lock(building_);
+    const std::lock_guard lock(build_mutex_);
     painting_.apply();
     positions = session_.build(face.recipe);
   }
@@ -252,15 +252,15 @@ HttpAnswer EditApi::faults(const HttpRequest& request, const std::string&) {
 
 HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   constexpr double kMaxTurns = 1e15;
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   const FacePlan face = face_of(body);
   const std::string page = body.contains("page") ? text_in(body, "page") : "";
   const auto turn =
       static_cast<std::uint64_t>(body.contains("turn") ? number_in(body, "turn", 0, kMaxTurns) : 0);
-  if (!page.empty()) note_turn(page, turn);
-  const std::lock_guard lock(building_);
-  if (!page.empty() && is_overtaken(page, turn))
-    return refusal(409, "overtaken by a newer request");
+  if (!page.empty()) note_request_number(page, turn);
+  const std::lock_guard lock(build_mutex_);
+  if (!page.empty() && is_outdated_request(page, turn))
+    return error_answer(409, "overtaken by a newer request");
   painting_.apply();
   const auto begin = std::chrono::steady_clock::now();
   const Positions positions = session_.build(face.recipe);
@@ -277,12 +277,12 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.add("normals", std::span(normals));
   const Json chosen = body.contains("wears") ? body["wears"] : Json::object();
   if (!chosen.is_object()) throw UsageError("wears: expected a mapping from kinds");
-  const std::string opened = opened_in(body);
+  const std::string opened = opened_id(body);
   answer.head["worn"] = Json::array();
-  const auto worn = placed_.attachments_of(face, opened, chosen, positions, moves);
+  const auto worn = attachments_.attachments_of(face, opened, chosen, positions, moves);
   answer.head["bare"] = !worn;  // attachments are still being bound; the page asks again
   for (const PlacedAttachment& one : worn.value_or(std::vector<PlacedAttachment>())) {
-    const std::vector<float> places = placed_.points(one);
+    const std::vector<float> places = attachments_.points(one);
     const std::string name = one.look().name();
     answer.head["worn"].push_back(name);
     answer.add(concat("worn ", name), std::span(places));
@@ -290,7 +290,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.head["ms"] =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (body.contains("measure") && body["measure"] == true) {
-    answer.head.update(told(session_.measure(face, positions, opened)));
+    answer.head.update(measures_json(session_.measure(face, positions, opened)));
   }
   return binary_answer(answer.bytes());
 }
@@ -298,7 +298,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
 /// The face's own skin: {"picture", "normals"} as JPEG files in the layout of the atlas, {"rough",
 /// "colours"} at the preview's vertices. Omits keys for which faces have no textures.
 HttpAnswer EditApi::skin(const HttpRequest& request, const std::string&) {
-  const FacePlan face = face_of(body_of(request));
+  const FacePlan face = face_of(parse_json_body(request));
   BinaryAnswer answer;
   const auto add = [&](std::string_view name, std::string_view bytes) {
     answer.add(name, std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));

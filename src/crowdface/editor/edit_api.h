@@ -48,7 +48,7 @@ class EditApi {
   Handler job, mesh, light, head, attachment, face, skin, measures, faults, draw, steer,
       face_picture;
   // Requests that save or write files.
-  Handler state, take_over, keep_state, save, put_recipe, review;
+  Handler state, take_over, save_state, save, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
   // Requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
@@ -56,7 +56,8 @@ class EditApi {
   Handler begin_drop, drop_bytes, add_heads;
   HttpAnswer painted_masks() const;
   EditedFolder::WriteMesh mesh_writer();
-  /// A path for new masks that overwrites no earlier masks, so that steps can be undone.
+  /// Returns a path for new masks at which no file exists. Earlier masks remain, so that steps can
+  /// be undone.
   std::filesystem::path unused_masks() const;
   void require_masks_of_config() const;
   void require_own_config() const;
@@ -66,11 +67,11 @@ class EditApi {
   // \throws UsageError with the key's name.
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
   FacePlan face_of(const Json& body, const std::string& key = "recipe") const;
-  static std::string opened_in(const Json& body);
+  static std::string opened_id(const Json& body);
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
-  Json told(const FaceMeasures& measures) const;
-  void note_turn(const std::string& page, std::uint64_t turn);
-  bool is_overtaken(const std::string& page, std::uint64_t turn);
+  Json measures_json(const FaceMeasures& measures) const;
+  void note_request_number(const std::string& page, std::uint64_t turn);
+  bool is_outdated_request(const std::string& page, std::uint64_t turn);
 
   const EditSession& session_;
   bool may_edit_config_;
@@ -79,15 +80,16 @@ class EditApi {
   std::function<void()> open_again_;
   PageFiles page_;
   EditPictures pictures_;
-  EditAttachments placed_;
+  EditAttachments attachments_;
   EditExpressions expressions_;
   DroppedFiles dropped_;
-  RegionPainting painting_;  ///< guarded by `building_`
-  std::mutex building_;      ///< builds one face at a time, because each build uses all cores
+  RegionPainting painting_;  ///< guarded by `build_mutex_`
+  std::mutex build_mutex_;   ///< builds one face at a time, because each build uses all cores
   /// Number of sampling attempts so far, so that each request samples different faces.
-  std::atomic<std::uint32_t> draws_ = 0;
-  std::mutex turns_mutex_;
-  std::map<std::string, std::uint64_t> turns_;  ///< number of the newest request of each page
+  std::atomic<std::uint32_t> sampling_attempts_ = 0;
+  std::mutex newest_requests_mutex_;
+  std::map<std::string, std::uint64_t>
+      newest_requests_;  ///< number of the newest request of each page
 };
 
 }  // namespace crowdface

@@ -49,16 +49,16 @@ HttpAnswer EditApi::state(const HttpRequest&, const std::string&) {
 }
 
 HttpAnswer EditApi::take_over(const HttpRequest& request, const std::string& rest) {
-  folder_.take_over(text_in(body_of(request), "page"));
+  folder_.take_over(text_in(parse_json_body(request), "page"));
   return state(request, rest);
 }
 
-HttpAnswer EditApi::keep_state(const HttpRequest& request, const std::string&) {
+HttpAnswer EditApi::save_state(const HttpRequest& request, const std::string&) {
   const Json json = parse_shallow_json(request.body);
   if (json.is_discarded()) throw UsageError("the state: expected JSON");
   const bool is_named = json.is_object() && json.contains("page") && json["page"].is_string();
-  if (!folder_.keep_state(request.body, is_named ? json["page"].get<std::string>() : "")) {
-    return refusal(409, "another page edits this face now");
+  if (!folder_.save_state(request.body, is_named ? json["page"].get<std::string>() : "")) {
+    return error_answer(409, "another page edits this face now");
   }
   return json_answer(Json::object());
 }
@@ -71,7 +71,7 @@ EditedFolder::WriteMesh EditApi::mesh_writer() {
 }
 
 HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   const FacePlan face = face_of(body);
   const std::string name = text_in(body, "format");
   const auto format = mesh_format_of("face." + name);
@@ -79,11 +79,11 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
     throw UsageError(concat("format: expected one of ", join(EditedFolder::formats()), ", found ",
                             quoted(name)));
   }
-  const std::lock_guard lock(building_);
+  const std::lock_guard lock(build_mutex_);
   require_masks_of_config();
   const auto file = folder_.path() / concat(face.id, extension_of(*format));
   if (body.contains("ask") && body["ask"] == true && path_exists(file)) {
-    return refusal(409, concat(file.filename().string(), " exists"));
+    return error_answer(409, concat(file.filename().string(), " exists"));
   }
   painting_.apply();
   return json_answer(file_json(folder_.save(session_.job(), face, *format, mesh_writer())));
@@ -98,11 +98,11 @@ void EditApi::require_own_config() const {
 
 HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
   require_own_config();
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   const Config& config = session_.job().config;
   const ManualRecipe recipe =
       manual_recipe_of_json(body.contains("recipe") ? body["recipe"] : Json(), config);
-  const std::lock_guard lock(building_);
+  const std::lock_guard lock(build_mutex_);
   require_masks_of_config();
   return json_answer(file_json(crowdface::put_recipe(recipe, config)));
 }
@@ -142,7 +142,7 @@ HttpAnswer EditApi::open_again(const HttpRequest&, const std::string&) {
 
 HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
   constexpr std::size_t kLongestNote = 2000;
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   ReviewMark mark;
   mark.id = text_in(body, "id");
   const std::vector<FacePlan>* crowd = session_.crowd();
@@ -184,22 +184,22 @@ void EditApi::require_masks_of_config() const {
 }
 
 HttpAnswer EditApi::paint_masks(const HttpRequest& request, const std::string&) {
-  const Json body = body_of(request);
-  const std::lock_guard lock(building_);
+  const Json body = parse_json_body(request);
+  const std::lock_guard lock(build_mutex_);
   folder_.require_same();
   painting_.stroke(body);
   return painted_masks();
 }
 
 HttpAnswer EditApi::undo_masks(const HttpRequest&, const std::string&) {
-  const std::lock_guard lock(building_);
+  const std::lock_guard lock(build_mutex_);
   folder_.require_same();
   painting_.undo();
   return painted_masks();
 }
 
 HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
-  const std::lock_guard lock(building_);
+  const std::lock_guard lock(build_mutex_);
   folder_.require_same();
   Json files = Json::array();
   for (const auto& file : painting_.save(painting_.regions({}), unused_masks())) {
@@ -229,11 +229,11 @@ nlohmann::ordered_json EditApi::edit_json(const std::filesystem::path& edits,
 HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& rest) {
   require_own_config();
   require_no_run();
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   const std::filesystem::path& config = session_.job().config.file;
   std::filesystem::path edits;
   {
-    const std::lock_guard lock(building_);
+    const std::lock_guard lock(build_mutex_);
     folder_.require_same();
     if (body.contains("back")) {
       edits = restore_section(config, "regions", optional_text_in(body, "back"));
@@ -241,7 +241,7 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
       const PaintedRegions regions = painting_.regions(body);
       edits = put_regions(config, regions.names, painting_.save(regions, unused_masks()));
     }
-    painting_.forget();
+    painting_.delete_stored_strokes();
   }
   open_again(request, rest);
   return json_answer({{"regions", edit_json(edits, "regions")}});
@@ -250,12 +250,12 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
 HttpAnswer EditApi::begin_drop(const HttpRequest& request, const std::string&) {
   constexpr double kMostBytes = 1e15;
   require_own_config();
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   std::map<std::string, std::uint64_t> sizes;
   for (const auto& [name, ignored] : body.items()) {
     sizes[name] = static_cast<std::uint64_t>(number_in(body, name, 0, kMostBytes));
   }
-  dropped_.begin(sizes);
+  dropped_.begin_upload(sizes);
   return json_answer(Json::object());
 }
 
@@ -263,7 +263,7 @@ HttpAnswer EditApi::begin_drop(const HttpRequest& request, const std::string&) {
 HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& rest) {
   const std::size_t slash = std::min(rest.find('/'), rest.size());
   const auto offset = parse_unsigned(std::string_view(rest).substr(0, slash));
-  if (!offset || slash == rest.size()) return refusal(404, "there is nothing at this address");
+  if (!offset || slash == rest.size()) return error_answer(404, "there is nothing at this address");
   dropped_.add(rest.substr(slash + 1), *offset, request.body);
   return json_answer(Json::object());
 }
@@ -273,7 +273,7 @@ HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& re
 HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& rest) {
   require_own_config();
   require_no_run();
-  const Json body = body_of(request);
+  const Json body = parse_json_body(request);
   const Config& config = session_.job().config;
   const auto before = section_in_edits(config.edits, "faces");
   const std::string config_text = read_file(config.file);
@@ -283,7 +283,7 @@ HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& res
     open_again(request, rest);
     return json_answer(Json::object());
   }
-  const std::vector<std::filesystem::path> heads = dropped_.keep();
+  const std::vector<std::filesystem::path> heads = dropped_.move_to_config_folder();
   try {
     const auto edits = put_heads(config.file, heads);
     try {

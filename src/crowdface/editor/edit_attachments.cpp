@@ -41,7 +41,8 @@ std::optional<std::string> EditAttachments::look(const std::string& name) const 
   return std::nullopt;
 }
 
-FacePlan EditAttachments::sampled_for(const FacePlan& face, const std::string& opened) const {
+FacePlan EditAttachments::with_sampled_attachments(const FacePlan& face,
+                                                   const std::string& opened) const {
   if (crowd_ != nullptr) {
     const auto found = std::ranges::find(*crowd_, opened, &FacePlan::id);
     if (found != crowd_->end()) return *found;
@@ -51,17 +52,17 @@ FacePlan EditAttachments::sampled_for(const FacePlan& face, const std::string& o
   return alone[0];
 }
 
-EditAttachments::Bound EditAttachments::bound(const std::string& name) {
+EditAttachments::BindingFuture EditAttachments::binding(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  Bound& bound = bound_[name];
-  if (bound.valid()) return bound;
+  BindingFuture& future = bindings_[name];
+  if (future.valid()) return future;
   FacePlan wearer;
   wearer.attachments = {name};
-  bound = std::async(std::launch::async, [this, wearer] {
-            return std::make_unique<const FaceAttachments>(job_.config, job_.inputs,
-                                                           std::span(&wearer, 1));
-          }).share();
-  return bound;
+  future = std::async(std::launch::async, [this, wearer] {
+             return std::make_unique<const FaceAttachments>(job_.config, job_.inputs,
+                                                            std::span(&wearer, 1));
+           }).share();
+  return future;
 }
 
 std::optional<std::vector<PlacedAttachment>> EditAttachments::attachments_of(
@@ -70,7 +71,7 @@ std::optional<std::vector<PlacedAttachment>> EditAttachments::attachments_of(
   const std::vector<Attachment>& items = job_.inputs.attachments.items;
   std::vector<PlacedAttachment> placed;
   if (items.empty()) return placed;
-  const FacePlan plan = sampled_for(face, opened);
+  const FacePlan plan = with_sampled_attachments(face, opened);
   const std::vector<std::string>& drawn = plan.attachments;
   const Json known = kinds();
   for (const auto& [kind, choice] : chosen.items()) {
@@ -86,14 +87,14 @@ std::optional<std::vector<PlacedAttachment>> EditAttachments::attachments_of(
   }
   FacePlan dressed = face;
   dressed.hair = plan.hair;
-  std::vector<Bound> worn;
+  std::vector<BindingFuture> worn;
   std::vector<std::string> names;
   for (const Attachment& item : items) {
     const std::string choice = chosen.value(item.kind, std::string("draw"));
     const bool wears =
         choice == "draw" ? std::ranges::find(drawn, item.name) != drawn.end() : choice == item.name;
     if (!wears) continue;
-    worn.push_back(bound(item.name));
+    worn.push_back(binding(item.name));
     names.push_back(item.name);
   }
   for (std::size_t i = 0; i < worn.size(); ++i) {

@@ -49,15 +49,16 @@ class EditAttachments {
   std::vector<float> points(const PlacedAttachment& placed) const { return shown_.points(placed); }
 
  private:
-  using Bound = std::shared_future<std::unique_ptr<const FaceAttachments>>;
+  using BindingFuture = std::shared_future<std::unique_ptr<const FaceAttachments>>;
 
-  Bound bound(const std::string& name);
-  FacePlan sampled_for(const FacePlan& face, const std::string& opened) const;
+  BindingFuture binding(const std::string& name);
+  FacePlan with_sampled_attachments(const FacePlan& face, const std::string& opened) const;
 
   const Job& job_;
   const std::vector<FacePlan>* crowd_;
   std::mutex mutex_;
-  std::map<std::string, Bound> bound_;  ///< by name: the attachments that any face has worn
+  std::map<std::string, BindingFuture>
+      bindings_;  ///< by name: the attachments that any face has worn
   AttachmentSurfaces surfaces_;
   ShownAttachments shown_;
 };

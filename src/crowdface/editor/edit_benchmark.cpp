@@ -51,11 +51,11 @@ std::string line(std::string_view what, double ms) {
 
 }  // namespace
 
-std::string benchmark_edit(const std::filesystem::path& given, const ConfigOverrides& overrides,
-                           const EditOptions& options) {
+std::string benchmark_edit(const std::filesystem::path& config_or_crowd,
+                           const ConfigOverrides& overrides, const EditOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const EditSession session(load_edited_job(given, overrides, options.cache), options.cache,
-                            options.preview_vertices);
+  const EditSession session(load_edited_job(config_or_crowd, overrides, options.cache),
+                            options.cache, options.preview_vertices);
   const std::chrono::duration<double> opened = std::chrono::steady_clock::now() - begin;
   const CastingOptions& casting = session.casting();
   Recipe start;

@@ -15,18 +15,19 @@ std::vector<std::string> EditExpressions::names() const {
   return names;
 }
 
-EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& shares,
+EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& weights,
                                                  const Recipe& recipe, const Positions& positions) {
-  if (!shares.is_object()) throw UsageError("expression: expected a mapping from shapes to shares");
+  if (!weights.is_object())
+    throw UsageError("expression: expected a mapping from shapes to shares");
   const std::vector<std::string> known = names();
   std::vector<std::pair<std::size_t, double>> wanted;
-  for (const auto& [name, ignored] : shares.items()) {
+  for (const auto& [name, ignored] : weights.items()) {
     const auto found = std::ranges::find(known, name);
     if (found == known.end()) {
       throw UsageError(concat("expression: no shape is called ", quoted(name)));
     }
-    const double share = number_in(shares, name, 0, 1);
-    if (share > 0) wanted.emplace_back(found - known.begin(), share);
+    const double weight = number_in(weights, name, 0, 1);
+    if (weight > 0) wanted.emplace_back(found - known.begin(), weight);
   }
   Moves moves;
   if (wanted.empty()) return moves;
@@ -36,9 +37,9 @@ EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& s
     moves_ = shapes_->shapes_of_face(recipe, positions);
     face_ = positions;
   }
-  for (const auto& [shape, share] : wanted) {
+  for (const auto& [shape, weight] : wanted) {
     moves.push_back(moves_[shape]);
-    moves.back().moves *= share;
+    moves.back().moves *= weight;
   }
   return moves;
 }

@@ -27,10 +27,10 @@ class EditExpressions {
   std::vector<std::string> names() const;
   /// The displacements of a face for some expressions. Computes all expressions of a face at once
   /// and keeps them until the face changes.
-  /// \param shares     {name: share 0 … 1}; missing expressions are at rest
+  /// \param weights     {name: weight 0 … 1}; missing expressions have weight 0
   /// \param positions  the face at rest
-  /// \throws UsageError if a name does not exist or a share is outside its range.
-  Moves moves_of(const nlohmann::ordered_json& shares, const Recipe& recipe,
+  /// \throws UsageError if a name does not exist or a weight is outside its range.
+  Moves moves_of(const nlohmann::ordered_json& weights, const Recipe& recipe,
                  const Positions& positions);
 
  private:

@@ -21,11 +21,12 @@ std::string EditPictures::thumbnail(Index head) {
   const std::lock_guard lock(mutex_);
   std::string& png = thumbnails_[head];
   if (!png.empty()) return png;
-  if (!small_) {
-    small_ = std::make_unique<CrowdRenders>(job_.config, one_picture(View::kFront, kThumbnail),
-                                            job_.inputs);
+  if (!thumbnail_renders_) {
+    thumbnail_renders_ = std::make_unique<CrowdRenders>(
+        job_.config, one_picture(View::kFront, kThumbnail), job_.inputs);
   }
-  png = small_->render_png(job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions, head);
+  png = thumbnail_renders_->render_png(
+      job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions, head);
   return png;
 }
 

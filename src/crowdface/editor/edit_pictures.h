@@ -28,7 +28,7 @@ class EditPictures {
  private:
   const Job& job_;
   std::mutex mutex_;
-  std::unique_ptr<CrowdRenders> small_;
+  std::unique_ptr<CrowdRenders> thumbnail_renders_;
   std::map<Index, std::string> thumbnails_;
   std::unique_ptr<FaceTextures> textures_;
 };

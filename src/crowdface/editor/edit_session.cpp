@@ -85,24 +85,24 @@ std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
 
 }  // namespace
 
-Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
+Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverrides overrides,
                     const CacheFolder& cache) {
-  if (!is_folder(given)) return load_job(given, overrides, cache);
-  if (!overrides.out) overrides.out = given.string();
-  return load_job(CrowdDirectory{given}.config(), overrides, cache);
+  if (!is_folder(config_or_crowd)) return load_job(config_or_crowd, overrides, cache);
+  if (!overrides.out) overrides.out = config_or_crowd.string();
+  return load_job(CrowdDirectory{config_or_crowd}.config(), overrides, cache);
 }
 
 EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_vertices)
     : job_(std::move(job)),
       textures_(job_.inputs),
-      reducing_(std::async(std::launch::async,
-                           [this, preview_vertices] {
-                             const HeadSet& faces = job_.inputs.faces;
-                             return preview_mesh(
-                                 faces.topology, textures_.coordinates(), mean_head(faces),
-                                 visible_faces(surfaces_of(job_.config, job_.inputs)),
-                                 preview_vertices);
-                           })),
+      preview_future_(std::async(
+          std::launch::async,
+          [this, preview_vertices] {
+            const HeadSet& head_set = job_.inputs.faces;
+            return preview_mesh(head_set.topology, textures_.coordinates(), mean_head(head_set),
+                                visible_faces(surfaces_of(job_.config, job_.inputs)),
+                                preview_vertices);
+          })),
       crowd_(crowd_of_job(job_)),
       prepared_(prepare(job_.config, job_.inputs, job_.smoothing, cache)),
       builder_(job_.config, job_.inputs, prepared_),
@@ -110,9 +110,9 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       judging_(std::async(std::launch::async, [this] { return judging(); }).share()),
       casting_(casting_options(job_.config, job_.inputs,
                                job_.config.plane.layout == Layout::kSimilarity
-                                   ? judging_.get().where->space.head_distances()
+                                   ? judging_.get().space->space.head_distances()
                                    : Eigen::MatrixXd())),
-      preview_(reducing_.get()),
+      preview_(preview_future_.get()),
       vertex_faces_(job_.inputs.faces.topology),
       sky_shares_(std::async(std::launch::async, [this] {
                     return vertex_visibility(job_.inputs.faces.topology,
@@ -124,10 +124,10 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
   }
 }
 
-EditSession::Judging EditSession::judging() const {
-  auto where =
+EditSession::JudgingData EditSession::judging() const {
+  auto searched_space =
       std::make_unique<const CastingSpace>(casting_space(job_.config, job_.inputs, prepared_, {}));
-  const FaceSpace& space = where->space;
+  const FaceSpace& space = searched_space->space;
   NearestFaceSearch crowd(space.dimensions());
   if (crowd_) {
     std::vector<FaceSpace::Point> points(crowd_->size());
@@ -135,12 +135,12 @@ EditSession::Judging EditSession::judging() const {
                       [&](std::size_t i) { points[i] = space.point((*crowd_)[i].recipe); });
     for (const FaceSpace::Point& point : points) crowd.add(point);
   }
-  FaceJudge judge(space, job_.config.diversity, job_.config.believability, &where->skin);
+  FaceJudge judge(space, job_.config.diversity, job_.config.believability, &searched_space->skin);
   auto traits = available_face_traits(job_.config, job_.inputs, prepared_);
   std::unique_ptr<const TraitRules> rules;
   if (traits) rules = std::make_unique<const TraitRules>(traits->measurer(), casting_);
   judge.set_trait_rules(rules.get());
-  return {std::move(where), std::move(judge), std::move(crowd), std::move(traits),
+  return {std::move(searched_space), std::move(judge), std::move(crowd), std::move(traits),
           std::move(rules)};
 }
 
@@ -181,25 +181,25 @@ NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::
 }
 
 double EditSession::distance_mm(const FacePlan& one, const FacePlan& other) const {
-  const FaceSpace& space = judging_.get().where->space;
+  const FaceSpace& space = judging_.get().space->space;
   return FaceSpace::distance(space.point(one.recipe), space.point(other.recipe));
 }
 
 FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& opened) const {
-  const Judging& judging = judging_.get();
+  const JudgingData& judging = judging_.get();
   const FaceJudge& judge = judging.judge;
   const FaceSpace::Point point = judge.space().point(recipe.recipe);
   FaceMeasures measures;
   const NearestFaceSearch::NearestFace head = judge.nearest_head(point);
-  measures.head = head.face;
-  measures.head_mm = head.distance_mm;
-  measures.head_as_built_mm =
+  measures.nearest_head = head.face;
+  measures.nearest_head_mm = head.distance_mm;
+  measures.nearest_head_as_built_mm =
       (point.as_built - judge.space().head_point(head.face).as_built).norm();
   if (crowd_) {
     const NearestFaceSearch::NearestFace nearest = nearest_other_face(point, recipe, opened);
     if (nearest.face >= 0) {
-      measures.face = static_cast<std::size_t>(nearest.face);
-      measures.face_mm = nearest.distance_mm;
+      measures.nearest_face = static_cast<std::size_t>(nearest.face);
+      measures.nearest_face_mm = nearest.distance_mm;
     }
   }
   if (judging.traits) measure_traits(*judging.traits, *judging.rules, recipe, measures);
@@ -254,7 +254,7 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
 }
 
 std::vector<FacePlan> EditSession::sample_faces(const SampleRequest& request) const {
-  const Judging& judging = judging_.get();
+  const JudgingData& judging = judging_.get();
   return crowdface::sample_faces(casting_, judging.judge, judging.crowd, request);
 }
 
@@ -269,7 +269,8 @@ std::vector<std::uint8_t> EditSession::roughness(const TextureSet& texture_set) 
   if (texture_set.roughness.of_face.empty()) return roughness;
   const float plain = material_of(SurfaceKind::kSkin).roughness;
   for (std::size_t v = 0; v < preview_.vertices.size(); ++v) {
-    const Eigen::Vector2f uv = textures_.in_cell({preview_.uvs[2 * v], preview_.uvs[2 * v + 1]});
+    const Eigen::Vector2f uv =
+        textures_.cell_coordinates({preview_.uvs[2 * v], preview_.uvs[2 * v + 1]});
     const float rough =
         roughness_at(texture_set, {static_cast<Index>(preview_.faces[v]), uv}).value_or(plain);
     roughness.push_back(static_cast<std::uint8_t>(std::lround(255 * rough)));

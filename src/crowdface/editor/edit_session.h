@@ -25,25 +25,25 @@
 
 namespace crowdface {
 
-/// \param given  a config, or a crowd's folder. For a folder the function loads the config in it,
-///               and the job's output goes to this folder.
-Job load_edited_job(const std::filesystem::path& given, ConfigOverrides overrides,
+/// \param config_or_crowd  a config, or a crowd's folder. If it is a folder, loads the config in
+///                         it; the job's output goes to this folder.
+Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverrides overrides,
                     const CacheFolder& cache);
 
-/// What the editor reports about a face in addition to its shape.
+/// Distances, measurements and warnings that the editor shows with a face.
 struct FaceMeasures {
-  Index head = 0;  ///< the nearest input head
-  double head_mm = 0;
-  /// Distance to this head with the face as built. head_mm is the smaller of this and the distance
-  /// with all extrapolation factors 1.
-  double head_as_built_mm = 0;
+  Index nearest_head = 0;  ///< index of the nearest input head
+  double nearest_head_mm = 0;
+  /// Distance to this head with the face as built. nearest_head_mm is the smaller of this and the
+  /// distance with all extrapolation factors 1.
+  double nearest_head_as_built_mm = 0;
   /// The nearest face of the crowd other than the face itself and the face it was opened from.
-  std::optional<std::size_t> face;
-  double face_mm = 0;
+  std::optional<std::size_t> nearest_face;
+  double nearest_face_mm = 0;
   /// A measurement of the face, in its unit, and how much larger it is than the heads' mean.
   struct Trait {
     std::size_t trait = 0;  ///< index into measurements()
-    double value = 0, more = 0;
+    double value = 0, above_mean = 0;
     double low = 0, high = 0;  ///< smallest and largest value of the heads
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads
@@ -68,7 +68,7 @@ class EditSession {
   /// The heads' textures, in the layout of the preview's texture coordinates.
   const TextureAtlas& textures() const { return textures_; }
 
-  /// The data that the page needs first.
+  /// Describes the job for the page, which loads this first.
   nlohmann::ordered_json description() const;
   /// Triangles, colours, masks and texture coordinates of the preview, as a BinaryAnswer.
   std::string mesh() const;
@@ -119,14 +119,14 @@ class EditSession {
  private:
   /// The data for comparing and judging faces. Computing it takes about a second, so a separate
   /// thread does it while the page loads.
-  struct Judging {
-    std::unique_ptr<const CastingSpace> where;
+  struct JudgingData {
+    std::unique_ptr<const CastingSpace> space;
     FaceJudge judge;
     NearestFaceSearch crowd;
     std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
     std::unique_ptr<const TraitRules> rules;
   };
-  Judging judging() const;
+  JudgingData judging() const;
   NearestFaceSearch::NearestFace nearest_other_face(const FaceSpace::Point& point,
                                                     const FacePlan& recipe,
                                                     const std::string& opened) const;
@@ -137,7 +137,7 @@ class EditSession {
   Job job_;
   TextureAtlas textures_;
   /// Reduces the mesh on another thread while the following members are constructed.
-  std::future<PreviewMesh> reducing_;
+  std::future<PreviewMesh> preview_future_;
   std::optional<std::vector<FacePlan>> crowd_;
   Prepared prepared_;
   std::optional<Prepared> fitted_;  ///< set for `levels: exact`: fields for the preview only
@@ -145,7 +145,7 @@ class EditSession {
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;
   mutable FaceBuilder::PreviousFace previous_face_;
-  std::shared_future<Judging> judging_;
+  std::shared_future<JudgingData> judging_;
   CastingOptions casting_;
   PreviewMesh preview_;
   VertexFaces vertex_faces_;

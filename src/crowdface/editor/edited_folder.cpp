@@ -39,7 +39,7 @@ bool crowd_has_review(const Config& config, const std::string& text) {
 
 /// Prefix of a file that exists while a face is being saved. The file contains the extension of the
 /// mesh file.
-constexpr std::string_view kSaving = ".saving-";
+constexpr std::string_view kSavingPrefix = ".saving-";
 constexpr const char* kPlan = "edited.jsonl";
 
 /// All lines of a plan except the line with the given id.
@@ -49,13 +49,13 @@ std::string other_lines(const fs::path& plan, const std::string& id, const PlanN
   for (const PlanLine& line : read_plan(plan, names)) {
     if (line.face.id == id) continue;
     const auto settings = parse_digest(line.settings);
-    lines += format_recipe(line.face, names, settings.value_or(Digest{})) + '\n';
+    lines += format_plan_line(line.face, names, settings.value_or(Digest{})) + '\n';
   }
   return lines;
 }
 
 /// Restores the former lines of a plan; only logs a write error.
-void take_back(const fs::path& plan, const std::string& lines) {
+void restore_plan(const fs::path& plan, const std::string& lines) {
   try {
     write_file(plan, lines);
   } catch (const RecoverableError& error) {
@@ -67,12 +67,12 @@ void take_back(const fs::path& plan, const std::string& lines) {
 
 fs::path make_edited_folder(const Config& config) {
   fs::path path = config.output.directory / "edited";
-  refuse_folder_elsewhere({config.output.directory}, path);
+  refuse_link_out_of_crowd({config.output.directory}, path);
   make_directories(path);
   return path;
 }
 
-EditedFolder::EditedFolder(fs::path path) : path_(std::move(path)), held_(path_) {
+EditedFolder::EditedFolder(fs::path path) : path_(std::move(path)), handle_(path_) {
   remove_temporary_files(path_);
 }
 
@@ -94,7 +94,7 @@ void EditedFolder::take_over(std::string page) {
   editing_page_ = std::move(page);
 }
 
-bool EditedFolder::keep_state(std::string_view text, const std::string& page) {
+bool EditedFolder::save_state(std::string_view text, const std::string& page) {
   const std::lock_guard lock(mutex_);
   if (page != editing_page_) return false;
   require_same();
@@ -114,16 +114,16 @@ fs::path EditedFolder::save(const Job& job, const FacePlan& face, MeshFormat for
                             const WriteMesh& write) {
   const std::lock_guard lock(mutex_);
   require_same();
-  const fs::path plan = path_ / kPlan, saving = path_ / concat(kSaving, face.id);
+  const fs::path plan = path_ / kPlan, saving = path_ / concat(kSavingPrefix, face.id);
   const std::string ending(extension_of(format));
   const std::string before = path_exists(plan) ? read_file(plan) : std::string();
   const std::string others = other_lines(plan, face.id, job.names);
   write_file(saving, ending);
-  write_file(plan, others + format_recipe(face, job.names, job.settings) + '\n');
+  write_file(plan, others + format_plan_line(face, job.names, job.settings) + '\n');
   try {
     write_meshes(face, ending, write);
   } catch (...) {
-    take_back(plan, before);
+    restore_plan(plan, before);
     throw;
   }
   remove_if_exists(saving);
@@ -134,13 +134,13 @@ void EditedFolder::finish_saves(const Job& job, const WriteMesh& write) {
   const std::lock_guard lock(mutex_);
   for (const fs::path& saving : list_folder(path_)) {
     const std::string name = saving.filename().string();
-    if (!name.starts_with(kSaving)) continue;
+    if (!name.starts_with(kSavingPrefix)) continue;
     try {
       const fs::path plan = path_ / kPlan;
       const std::vector<PlanLine> lines =
           path_exists(plan) ? read_plan(plan, job.names) : std::vector<PlanLine>();
       for (const PlanLine& line : lines) {
-        if (line.face.id != name.substr(kSaving.size())) continue;
+        if (line.face.id != name.substr(kSavingPrefix.size())) continue;
         write_meshes(line.face, read_file(saving), write);
       }
       remove_if_exists(saving);

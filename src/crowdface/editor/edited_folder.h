@@ -31,16 +31,16 @@ class EditedFolder {
 
   const std::filesystem::path& path() const { return path_; }
   /// Call this before other code writes to the folder.
-  void require_same() const { held_.require_same(); }
+  void require_same() const { handle_.require_same(); }
 
-  /// The state that the page saved last, unchanged; empty if there is none.
+  /// Returns the text that the page last saved as its state; empty if there is none.
   std::string state() const;
   /// From now on, only this page may replace the state: two pages would overwrite each other's steps.
   void take_over(std::string page);
   /// Saves the state of a page.
   /// \param page  the page that sends the state, or empty if no page has taken over
   /// \return false, without an effect, if another page has taken over
-  bool keep_state(std::string_view text, const std::string& page);
+  bool save_state(std::string_view text, const std::string& page);
 
   /// Writes the mesh of a face in one format.
   using WriteMesh =
@@ -66,7 +66,7 @@ class EditedFolder {
   std::filesystem::path save_review(const Config& config, const std::function<void(Review&)>& edit);
 
   std::filesystem::path path_;
-  DirectoryHandle held_;
+  DirectoryHandle handle_;
   std::mutex mutex_;
   std::string editing_page_;  ///< see take_over
 };

@@ -100,14 +100,14 @@ void GenerateRun::start() {
         concat("crowdface generate cannot be started: ", std::generic_category().message(error)));
   }
   state_ = State::kRunning;
-  stopped_ = false;
+  was_stopped_ = false;
 }
 
 void GenerateRun::stop() {
   const std::lock_guard lock(mutex_);
   update_state(WNOHANG);
   if (state_ != State::kRunning) return;
-  stopped_ = true;
+  was_stopped_ = true;
   ::kill(process_, SIGTERM);
 }
 
@@ -124,7 +124,7 @@ void GenerateRun::update_state(int options) {
   int status = 0;
   if (::waitpid(process_, &status, options) != process_) return;
   const bool done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  state_ = done ? State::kDone : stopped_ ? State::kStopped : State::kFailed;
+  state_ = done ? State::kDone : was_stopped_ ? State::kStopped : State::kFailed;
 }
 
 RunProgress GenerateRun::progress() const {

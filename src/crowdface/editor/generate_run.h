@@ -47,7 +47,7 @@ class GenerateRun {
   std::filesystem::path log_;
   std::mutex mutex_;
   State state_ = State::kIdle;
-  bool stopped_ = false;
+  bool was_stopped_ = false;
   pid_t process_ = 0;
 };
 

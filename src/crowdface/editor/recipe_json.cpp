@@ -43,8 +43,8 @@ Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Ind
   return json;
 }
 
-/// The first band's values stand directly in the object, the values of the other bands under their
-/// names.
+/// Stores the first band's values directly in the object, and the other bands' values under `bands`
+/// by name.
 Json region_to_json(const RegionRecipe& region, Index target, const CastingOptions& casting,
                     const std::vector<std::string>& heads) {
   const SamplingOptions& sampling = casting.sampling;
@@ -74,7 +74,7 @@ std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
     sum += value;
   }
   if (!(sum > 0)) throw UsageError("mixture: expected shares of heads, one above 0");
-  // Keeps shares that already sum to one bitwise unchanged.
+  // Shares whose sum differs from one by at most this value stay bitwise unchanged.
   constexpr double kRounding = 1e-12;
   if (std::abs(sum - 1) > kRounding) return normalized_weights(std::move(shares));
   std::erase_if(shares, [](const SourceWeight& share) { return share.weight == 0; });

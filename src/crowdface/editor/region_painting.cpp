@@ -43,7 +43,7 @@ bool is_true(const Json& body, const std::string& key) {
 }
 
 /// Hash of the data on which strokes depend: the preview's triangles, the regions and their masks.
-Digest ground_of(const EditSession& session) {
+Digest hash_painting_base(const EditSession& session) {
   const RegionWeights::Alpha& alpha = session.job().inputs.regions.alpha;
   const std::span values(alpha.data(), static_cast<std::size_t>(alpha.size()));
   Hasher hasher;
@@ -56,7 +56,7 @@ Digest ground_of(const EditSession& session) {
 RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path& strokes)
     : session_(session),
       mean_(shape_of_mean(session.job().inputs.faces)),
-      strokes_(strokes, ground_of(session)) {
+      strokes_(strokes, hash_painting_base(session)) {
   replay();
 }
 
@@ -76,7 +76,7 @@ void RegionPainting::replay() {
   }
 }
 
-void RegionPainting::keep(const Json& step) {
+void RegionPainting::store(const Json& step) {
   try {
     strokes_.add(step);
   } catch (...) {  // restore the masks from the file
@@ -98,7 +98,7 @@ MaskPainter& RegionPainting::painter() {
   return *painter_;
 }
 
-SurfacePoint RegionPainting::place_of(const Json& point) {
+SurfacePoint RegionPainting::surface_point_of(const Json& point) {
   if (!point.is_object()) throw UsageError("points: expected a list of {triangle, u, v}");
   const PreviewMesh& preview = session_.preview();
   const std::size_t triangles = preview.triangles.size() / 3;
@@ -135,21 +135,21 @@ void RegionPainting::paint(const Json& body) {
     throw UsageError(concat("points: expected a list of 1 to ", kMaxPoints));
   }
   std::vector<SurfacePoint> places;
-  for (const Json& point : body["points"]) places.push_back(place_of(point));
+  for (const Json& point : body["points"]) places.push_back(surface_point_of(point));
   painter().paint(region, places, brush, !is_true(body, "begin") && differs_from_config());
   painted_ = true;
 }
 
 void RegionPainting::stroke(const Json& body) {
   paint(body);
-  keep(body);
+  store(body);
 }
 
 void RegionPainting::undo() {
   if (!differs_from_config()) throw UsageError("there is no stroke to undo");
   painter().undo();
   painted_ = true;
-  keep({{kUndo, true}});
+  store({{kUndo, true}});
 }
 
 std::vector<float> RegionPainting::masks() const {
@@ -198,10 +198,10 @@ PaintedRegions RegionPainting::regions(const Json& change) {
 
 std::vector<std::filesystem::path> RegionPainting::save(const PaintedRegions& regions,
                                                         const std::filesystem::path& path) const {
-  const HeadSet& faces = session_.job().inputs.faces;
-  const int size = mask_texels(faces.topology.vertex_count);
-  const MaskFiles images =
-      encode_masks(paint_masks(faces.topology, faces.uvs, regions.alpha, mean_.skin, size), path);
+  const HeadSet& head_set = session_.job().inputs.faces;
+  const int size = mask_texels(head_set.topology.vertex_count);
+  const MaskFiles images = encode_masks(
+      paint_masks(head_set.topology, head_set.uvs, regions.alpha, mean_.skin, size), path);
   for (const auto& [file, bytes] : images.files) write_file(file, bytes);
   return images.masks;
 }

@@ -59,17 +59,17 @@ class RegionPainting {
   std::vector<std::filesystem::path> save(const PaintedRegions& regions,
                                           const std::filesystem::path& path) const;
   /// Deletes the stored strokes. Call this once the config's masks contain them.
-  void forget() { strokes_.clear(); }
+  void delete_stored_strokes() { strokes_.clear(); }
 
  private:
   MaskPainter& painter();
-  SurfacePoint place_of(const nlohmann::ordered_json& point);
+  SurfacePoint surface_point_of(const nlohmann::ordered_json& point);
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   void paint(const nlohmann::ordered_json& body);
   /// Applies all strokes of the file.
   void replay();
   /// Appends a stroke that was just painted to the file; if this fails, undoes the stroke.
-  void keep(const nlohmann::ordered_json& step);
+  void store(const nlohmann::ordered_json& step);
 
   EditSession& session_;
   HeadShape mean_;

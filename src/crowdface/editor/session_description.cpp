@@ -174,13 +174,13 @@ Json EditSession::description() const {
 }
 
 std::string EditSession::mesh() const {
-  const HeadSet& faces = job_.inputs.faces;
+  const HeadSet& head_set = job_.inputs.faces;
   const Surfaces surfaces = surfaces_of(job_.config, job_.inputs);
-  const Positions mean = mean_head(faces);
+  const Positions mean = mean_head(head_set);
   const VertexColours of_all =
-      surface_colours(faces.topology, surfaces, mean, job_.config.faces.front);
+      surface_colours(head_set.topology, surfaces, mean, job_.config.faces.front);
   const RegionWeights::Alpha& alpha = builder_.regions().alpha;
-  std::vector<bool> is_part(static_cast<std::size_t>(faces.topology.vertex_count), false);
+  std::vector<bool> is_part(static_cast<std::size_t>(head_set.topology.vertex_count), false);
   for (const Part& part : job_.inputs.parts.parts) {
     for (const std::uint32_t v : part.vertices) is_part[v] = true;
   }
@@ -195,7 +195,7 @@ std::string EditSession::mesh() const {
   }
   for (const std::uint32_t face : preview_.faces) textured.push_back(textures_.shows(face) ? 1 : 0);
   Eigen::Array3d low = mean.row(0).array(), high = low;
-  for (const Head& head : faces.heads) {
+  for (const Head& head : head_set.heads) {
     low = low.min(head.positions.colwise().minCoeff().transpose().array());
     high = high.max(head.positions.colwise().maxCoeff().transpose().array());
   }
@@ -211,10 +211,11 @@ std::string EditSession::mesh() const {
   add("colours", colours);
   add("alpha", masks);
   if (!preview_.uvs.empty()) add("uv", preview_.uvs);
-  add("twin", preview_.twins);
+  add("twin", preview_.first_copies);
   add("part", parts);
   add("textured", textured);
-  if (const auto eyes = eye_coordinates(faces.topology, surfaces, mean, job_.config.faces.front)) {
+  if (const auto eyes =
+          eye_coordinates(head_set.topology, surfaces, mean, job_.config.faces.front)) {
     answer.head["eyes"] = {{"pupil", kPupilRadius},
                            {"iris", kIrisRadius},
                            {"softness", kIrisSoftness},

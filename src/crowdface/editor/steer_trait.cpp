@@ -33,7 +33,7 @@ void set_weights(BandRecipe& band, const std::vector<Index>& heads, const PerHea
 }
 
 /// The nearest weights that are not negative and sum to one (Held, Wolfe and Crowder 1974).
-PerHead projected(PerHead row) {
+PerHead projected_onto_simplex(PerHead row) {
   PerHead sorted = row;
   std::ranges::sort(sorted, std::greater<>());
   double sum = 0, shift = 0;
@@ -49,7 +49,7 @@ PerHead projected(PerHead row) {
 PerHead moved(const PerHead& weights, const PerHead& gradient, double step) {
   PerHead row = weights;
   for (std::size_t i = 0; i < row.size(); ++i) row[i] += step * gradient[i];
-  return projected(std::move(row));
+  return projected_onto_simplex(std::move(row));
 }
 
 /// For each head of a band: the derivative of the measurement as the weights move towards this head

@@ -18,7 +18,7 @@ struct SteeredBand {
 /// Changes weights so that a measurement comes as near to a value as these heads allow, with the
 /// smallest sum of squared changes: Newton steps along the gradient, projected onto weights that
 /// are not negative and sum to one. Bands that hardly change the measurement stay as they are;
-/// bands that change lose their position.
+/// bands that change lose their position on the plane.
 /// \param measure  the measurement of a recipe; thread-safe
 Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double wanted,
                    const std::function<double(const Recipe&)>& measure);

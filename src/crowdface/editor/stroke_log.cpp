@@ -43,24 +43,24 @@ StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
 
 void StrokeLog::add(const Json& stroke) {
   std::string lines;
-  if (!open_) {
+  if (!append_file_) {
     // Rewrites the file, because its last line may be incomplete.
     lines = Json({{kPaintedOn, painted_on_.hex()}}).dump() + '\n';
     for (const Json& before : strokes_) lines += before.dump() + '\n';
     write_file(file_, lines);
-    open_ = std::make_unique<AppendFile>(file_);
+    append_file_ = std::make_unique<AppendFile>(file_);
   }
   try {
-    open_->append(stroke.dump() + '\n');
+    append_file_->append(stroke.dump() + '\n');
   } catch (...) {  // the file may hold part of the line, so the next stroke rewrites it
-    open_.reset();
+    append_file_.reset();
     throw;
   }
   strokes_.push_back(stroke);
 }
 
 void StrokeLog::clear() {
-  open_.reset();
+  append_file_.reset();
   strokes_.clear();
   remove_if_exists(file_);
 }

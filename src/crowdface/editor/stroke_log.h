@@ -35,7 +35,7 @@ class StrokeLog {
   std::filesystem::path file_;
   Digest painted_on_;
   std::vector<nlohmann::ordered_json> strokes_;
-  std::unique_ptr<AppendFile> open_;  ///< open since the first call of `add`
+  std::unique_ptr<AppendFile> append_file_;  ///< open since the first call of `add`
 };
 
 }  // namespace crowdface

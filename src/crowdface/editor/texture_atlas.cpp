@@ -13,7 +13,7 @@ namespace crowdface {
 namespace {
 
 // Largest width or height of one cell, and of the whole atlas, in texels.
-constexpr int kMaxTexels = 2048, kMaxOfAll = 4096;
+constexpr int kMaxCellTexels = 2048, kMaxAtlasTexels = 4096;
 
 std::array<std::uint8_t, 3> colour_texel(const Light& light) {
   return {srgb_byte(light[0]), srgb_byte(light[1]), srgb_byte(light[2])};
@@ -54,7 +54,7 @@ TextureAtlas::TextureAtlas(const Inputs& inputs) : inputs_(inputs) {
   }
   columns_ = static_cast<int>(std::ceil(std::sqrt(cells_)));
   rows_ = (static_cast<int>(cells_) + columns_ - 1) / columns_;
-  cell_px_ = std::min({largest, kMaxTexels, kMaxOfAll / columns_});
+  cell_px_ = std::min({largest, kMaxCellTexels, kMaxAtlasTexels / columns_});
 }
 
 TextureCoordinates TextureAtlas::coordinates() const {

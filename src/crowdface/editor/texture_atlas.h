@@ -22,7 +22,7 @@ class TextureAtlas {
   TextureCoordinates coordinates() const;
   bool has(Index head) const;
   /// Converts atlas coordinates to coordinates in a cell; only the fractional parts count.
-  Eigen::Vector2f in_cell(const Eigen::Vector2f& uv) const {
+  Eigen::Vector2f cell_coordinates(const Eigen::Vector2f& uv) const {
     return {uv.x() * static_cast<float>(columns_), uv.y() * static_cast<float>(rows_)};
   }
   /// Whether the texture of a polygon is in the atlas.

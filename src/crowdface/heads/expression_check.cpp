@@ -56,12 +56,12 @@ double median(std::vector<double> values) {
 }
 
 /// The vertex-wise median of all heads, which one odd head does not change.
-Positions middle_head(const HeadSet& faces) {
-  Positions middle(faces.heads[0].positions.rows(), 3);
+Positions middle_head(const HeadSet& head_set) {
+  Positions middle(head_set.heads[0].positions.rows(), 3);
   parallel_for_each(static_cast<std::size_t>(middle.rows()), [&](std::size_t v) {
     for (Index c = 0; c < 3; ++c) {
       std::vector<double> values;
-      for (const Head& head : faces.heads) {
+      for (const Head& head : head_set.heads) {
         values.push_back(head.positions(static_cast<Index>(v), c));
       }
       middle(static_cast<Index>(v), c) = median(std::move(values));
@@ -72,20 +72,20 @@ Positions middle_head(const HeadSet& faces) {
 
 }  // namespace
 
-std::vector<std::string> odd_expressions(const HeadSet& faces, const std::vector<bool>& skin,
+std::vector<std::string> odd_expressions(const HeadSet& head_set, const std::vector<bool>& skin,
                                          const HeadAxes& axes, double mm) {
-  if (faces.heads.size() < kMinHeads) return {};
-  const HeadShape head{middle_head(faces), skin, {}};
-  const auto marks = find_face_marks(faces.topology, head, axes);
+  if (head_set.heads.size() < kMinHeads) return {};
+  const HeadShape head{middle_head(head_set), skin, {}};
+  const auto marks = find_face_marks(head_set.topology, head, axes);
   if (!marks) return {};
   std::vector<std::string> warnings;
   for (const Box& box : kBoxes) {
     const std::vector<Index> vertices = vertices_in(box, *marks, head, axes);
     if (vertices.size() < kMinVertices) continue;
     const Positions middle = head.positions(vertices, kAllColumns);
-    std::vector<double> off(faces.heads.size());
+    std::vector<double> off(head_set.heads.size());
     parallel_for_each(off.size(), [&](std::size_t h) {
-      const Positions own = faces.heads[h].positions(vertices, kAllColumns);
+      const Positions own = head_set.heads[h].positions(vertices, kAllColumns);
       const Positions moved = fit_similarity(own, middle, ScaleFit::kUniform).apply(own);
       std::vector<double> apart;
       for (Index i = 0; i < middle.rows(); ++i)
@@ -97,7 +97,7 @@ std::vector<std::string> odd_expressions(const HeadSet& faces, const std::vector
     for (std::size_t h = 0; h < off.size(); ++h) {
       if (off[h] < kMinMm || off[h] < kMaxOfOthers * usual) continue;
       warnings.push_back(concat(
-          faces.heads[h].name, ": the shape of its ", box.name, " differs by ",
+          head_set.heads[h].name, ": the shape of its ", box.name, " differs by ",
           format_fixed(off[h], 1), " mm from the median of all heads, the others by ",
           format_fixed(usual, 1),
           " mm: is its expression neutral? Faces built from this head take over its expression"));

@@ -125,23 +125,23 @@ struct Goal {
 };
 
 Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const Poses& poses) {
-  const HeadSet& faces = inputs.faces;
+  const HeadSet& head_set = inputs.faces;
   Goal goal;
   if (!config.neck.body.empty()) {
-    const Positions ring = poses.mean(faces, rim, rim);
+    const Positions ring = poses.mean(head_set, rim, rim);
     goal.body = read_neck_body(config, inputs, rim, ring);
-    goal.rotation = goal.body.is_head ? poses.rotation_to(faces, rim, goal.body.skin_positions)
+    goal.rotation = goal.body.is_head ? poses.rotation_to(head_set, rim, goal.body.skin_positions)
                                       : rotation_of_rim(ring, goal.body.rim_positions);
     return goal;
   }
   goal.body.area_vectors = Positions::Zero(static_cast<Index>(rim.size()), 3);
   if (!config.neck.like) {
-    goal.body.rim_positions = poses.mean(faces, rim, rim);
+    goal.body.rim_positions = poses.mean(head_set, rim, rim);
     return goal;
   }
-  const Positions& head = faces.heads[static_cast<std::size_t>(*config.neck.like)].positions;
+  const Positions& head = head_set.heads[static_cast<std::size_t>(*config.neck.like)].positions;
   goal.body.rim_positions = head(rim, kAllColumns);
-  goal.rotation = poses.rotation_to(faces, rim, head);
+  goal.rotation = poses.rotation_to(head_set, rim, head);
   return goal;
 }
 
@@ -230,25 +230,26 @@ Positions normals_of(Positions areas, const Positions& of_body) {
 }
 
 void place_heads(const Config& config, Inputs& inputs) {
-  HeadSet& faces = inputs.faces;
+  HeadSet& head_set = inputs.faces;
   const double mm = mm_per(config.faces.units), falloff = config.neck.falloff_mm / mm;
   const Rim rim = find_neck_rim(config, inputs);
-  Positions unplaced_mean = mean_head(faces);
-  const Poses poses(config, faces, skin_above(inputs, unplaced_mean, rim, falloff));
+  Positions unplaced_mean = mean_head(head_set);
+  const Poses poses(config, head_set, skin_above(inputs, unplaced_mean, rim, falloff));
   Goal goal = find_goal(config, inputs, rim, poses);
-  std::vector<HeadsOnBody::Head> heads(faces.heads.size());
+  std::vector<HeadsOnBody::Head> heads(head_set.heads.size());
   parallel_for_each(heads.size(), [&](std::size_t h) {
-    heads[h] = place(rim, goal, poses.turns[h], mm, faces.heads[h].positions);
+    heads[h] = place(rim, goal, poses.turns[h], mm, head_set.heads[h].positions);
   });
   warn_of_bent(config, heads, inputs);
   const Vector3d middle = ring_middle(goal.body.rim_positions);
-  Positions mean = turned_mean(faces, heads, middle);
-  Seam seam{rim,
+  Positions mean = turned_mean(head_set, heads, middle);
+  Seam seam{
+      rim,
             goal.body.rim_positions,
             {},
-            NeckBend(faces.topology, inputs.adjacency, mean, rim, falloff)};
+            NeckBend(head_set.topology, inputs.adjacency, mean, rim, falloff)};
   seam.fit(mean);
-  const Positions areas = area_vectors_around(faces.topology, mean, rim);
+  const Positions areas = area_vectors_around(head_set.topology, mean, rim);
   goal.body.face_outward(areas);
   seam.normals = normals_of(areas, goal.body.area_vectors);
   HeadsOnBody neck{std::move(seam), std::move(heads),   middle, std::move(unplaced_mean), mm,

@@ -50,14 +50,14 @@ std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index coun
   return used;
 }
 
-Positions mean_head(const HeadSet& faces) {
+Positions mean_head(const HeadSet& head_set) {
   constexpr Index kBlock = 4096;
-  Positions mean(faces.topology.vertex_count, 3);
+  Positions mean(head_set.topology.vertex_count, 3);
   parallel_blocks(mean.rows(), kBlock, [&](Index begin, Index end) {
     auto rows = mean.middleRows(begin, end - begin);
     rows.setZero();
-    for (const Head& head : faces.heads) rows += head.positions.middleRows(begin, end - begin);
-    rows /= static_cast<double>(faces.heads.size());
+    for (const Head& head : head_set.heads) rows += head.positions.middleRows(begin, end - begin);
+    rows /= static_cast<double>(head_set.heads.size());
   });
   return mean;
 }

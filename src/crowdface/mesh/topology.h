@@ -85,7 +85,7 @@ struct HeadSet {
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);
 
 /// The mean of all heads, #V by 3.
-Positions mean_head(const HeadSet& faces);
+Positions mean_head(const HeadSet& head_set);
 
 /// Describes the first difference between two topologies in words ("face 12: expected vertices 1 2
 /// 3 4, found 1 2 4 3"). Counts polygons and vertices from 1, as OBJ does. Returns an empty text if

@@ -35,7 +35,7 @@ int status_of(const Error& error) {
 
 }  // namespace
 
-Json body_of(const HttpRequest& request) {
+Json parse_json_body(const HttpRequest& request) {
   Json json = parse_shallow_json(request.body);
   if (!json.is_object()) throw UsageError("the request: expected a mapping in JSON");
   return json;
@@ -62,7 +62,7 @@ HttpAnswer json_answer(const Json& json, int status) {
   return {status, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 
-HttpAnswer refusal(int status, std::string_view sentence) {
+HttpAnswer error_answer(int status, std::string_view sentence) {
   return json_answer({{"error", sentence}}, status);
 }
 
@@ -70,13 +70,13 @@ HttpAnswer binary_answer(std::string bytes) {
   return {200, "application/octet-stream", std::move(bytes)};
 }
 
-PageFiles::PageFiles(std::optional<std::filesystem::path> folder, std::string page)
-    : folder_(std::move(folder)), page_(std::move(page)) {}
+PageFiles::PageFiles(std::optional<std::filesystem::path> folder, std::string page_name)
+    : folder_(std::move(folder)), page_name_(std::move(page_name)) {}
 
 std::optional<HttpAnswer> PageFiles::file(std::string_view name) const {
-  const std::string html = concat(page_, ".html");
+  const std::string html = concat(page_name_, ".html");
   if (name.empty()) name = html;
-  if (name != html && name != concat(page_, ".js") && name != concat(page_, ".css") &&
+  if (name != html && name != concat(page_name_, ".js") && name != concat(page_name_, ".css") &&
       name != kLicense) {
     return std::nullopt;
   }
@@ -89,7 +89,7 @@ std::optional<HttpAnswer> PageFiles::file(std::string_view name) const {
 
 HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request) {
   auto file = request.method == "GET" ? files.file(request.path) : std::nullopt;
-  if (!file) return refusal(404, "there is nothing at this address");
+  if (!file) return error_answer(404, "there is nothing at this address");
   return std::move(*file);
 }
 
@@ -98,10 +98,10 @@ HttpAnswer answer_or_refuse(const HttpRequest& request,
   try {
     return answer(request);
   } catch (const RecoverableError& error) {
-    return refusal(status_of(error), error.what());
+    return error_answer(status_of(error), error.what());
   } catch (const std::exception& error) {
     log_error(concat(request.path, ": internal error, please report it: ", error.what()));
-    return refusal(500, "internal error; the terminal that runs crowdface shows the details");
+    return error_answer(500, "internal error; the terminal that runs crowdface shows the details");
   }
 }
 

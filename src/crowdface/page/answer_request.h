@@ -14,7 +14,7 @@
 namespace crowdface {
 
 /// Parses the body of a request. \throws UsageError if the body is not a JSON object.
-nlohmann::ordered_json body_of(const HttpRequest& request);
+nlohmann::ordered_json parse_json_body(const HttpRequest& request);
 
 /// Returns the text of `key` in a request's body. \throws UsageError if it is missing or not a
 /// text.
@@ -27,7 +27,7 @@ double number_in(const nlohmann::ordered_json& body, const std::string& key, dou
 /// Returns an answer with a JSON body.
 HttpAnswer json_answer(const nlohmann::ordered_json& json, int status = 200);
 /// An error answer with the body {"error": sentence}.
-HttpAnswer refusal(int status, std::string_view sentence);
+HttpAnswer error_answer(int status, std::string_view sentence);
 /// An answer in a binary format that the page decodes.
 HttpAnswer binary_answer(std::string bytes);
 
@@ -35,9 +35,9 @@ HttpAnswer binary_answer(std::string bytes);
 /// them.
 class PageFiles {
  public:
-  /// \param folder  folder of the built pages; nothing if there is none
-  /// \param page    NAME, such as "editor"
-  PageFiles(std::optional<std::filesystem::path> folder, std::string page);
+  /// \param folder     folder of the built pages; nothing if there is none
+  /// \param page_name  NAME, such as "editor"
+  PageFiles(std::optional<std::filesystem::path> folder, std::string page_name);
 
   /// The file with this name; an empty name means NAME.html. If the page was not built, NAME.html
   /// is a notice that says how to build it. \return nothing if there is no such file.
@@ -45,7 +45,7 @@ class PageFiles {
 
  private:
   std::optional<std::filesystem::path> folder_;
-  std::string page_;
+  std::string page_name_;
 };
 
 /// Returns the file of the page that the request asks for, or status 404.

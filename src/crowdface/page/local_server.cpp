@@ -34,11 +34,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxHeadBytes = std::size_t{16} << 10U, kMaxConnections = 64, kMaxAtOnce = 16,
                       kThreads = 16;
-constexpr auto kMoment = std::chrono::milliseconds(100);
-/// Time limits. kPatience: for the head of a request, counted from its first byte.
-/// kPatienceWithBody: for the rest of a request with a body, and for a client to accept more bytes
+constexpr auto kPollInterval = std::chrono::milliseconds(100);
+/// Time limits. kHeadTimeout: for the head of a request, counted from its first byte.
+/// kBodyTimeout: for the rest of a request with a body, and for a client to accept more bytes
 /// of its answer.
-constexpr auto kPatience = std::chrono::seconds(5), kPatienceWithBody = std::chrono::seconds(60);
+constexpr auto kHeadTimeout = std::chrono::seconds(5), kBodyTimeout = std::chrono::seconds(60);
 
 /// Returns 128 random bits from the operating system as 32 hexadecimal digits.
 std::string random_token() {
@@ -52,7 +52,7 @@ std::string random_token() {
 }
 
 /// Compares two texts in constant time, so that the time does not reveal a matching prefix.
-bool is_same(std::string_view a, std::string_view b) {
+bool equal_in_constant_time(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned differences = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -130,7 +130,7 @@ struct LocalServer::State {
 
   std::optional<HttpAnswer> refusal(const HttpHead& head) const;
   bool comes_from_us(const HttpHead& head) const;
-  std::list<Connection>::iterator slowest();
+  std::list<Connection>::iterator slowest_connection();
   bool is_full();
   void accept_clients();
   void read_from(Connection& client);
@@ -165,7 +165,7 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
     return refuse(405, "expected GET, POST or PUT");
   }
   if (head.path.size() > kLongestPath ||
-      !is_same(std::string_view(head.path).substr(0, prefix.size()), prefix)) {
+      !equal_in_constant_time(std::string_view(head.path).substr(0, prefix.size()), prefix)) {
     return refuse(404, "there is nothing at this address");
   }
   const std::size_t lengths = head.count("content-length");
@@ -175,36 +175,36 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
     return refuse(411, "expected a body of a known length");
   }
   if (head.count("content-encoding") > 0) return refuse(415, "expected a body without compression");
-  if (length.value_or(0) > kMaxBytes) return refuse(413, "the body is larger than 4 MiB");
+  if (length.value_or(0) > kMaxBodyBytes) return refuse(413, "the body is larger than 4 MiB");
   return std::nullopt;
 }
 
-/// The connection to close in favour of a new client: the one that has waited longest for the rest
-/// of its request's head, for more than kMoment.
-std::list<Connection>::iterator LocalServer::State::slowest() {
+/// Returns the connection to close in favour of a new client: the connection that has waited
+/// longest for the rest of its request's head, if longer than kPollInterval; otherwise end().
+std::list<Connection>::iterator LocalServer::State::slowest_connection() {
   auto oldest = connections.end();
   for (auto client = connections.begin(); client != connections.end(); ++client) {
     const bool may_go = client->state == Connection::State::kReading && !client->head &&
-                        Clock::now() - client->since > kMoment;
+                        Clock::now() - client->since > kPollInterval;
     if (may_go && (oldest == connections.end() || client->since < oldest->since)) oldest = client;
   }
   return oldest;
 }
 
 bool LocalServer::State::is_full() {
-  return connections.size() >= kMaxConnections && slowest() == connections.end();
+  return connections.size() >= kMaxConnections && slowest_connection() == connections.end();
 }
 
-/// Accepts some of the waiting clients. If there are too many connections, closes the slowest. Reads
-/// from each new client at once, so that a client whose request has arrived is not closed in favour
-/// of the clients after it.
+/// Accepts some of the waiting clients. If there are too many connections, closes the slowest.
+/// Reads from each new client at once, so that a client whose request has arrived is not closed in
+/// favour of the clients after it.
 void LocalServer::State::accept_clients() {
   for (std::size_t i = 0; i < kMaxAtOnce && !is_full(); ++i) {
     Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     const bool is_short = !accepted.valid() && is_system_error(errno);
     if (!accepted.valid() && !is_short) return;
     if (is_short || connections.size() >= kMaxConnections) {
-      const auto oldest = slowest();
+      const auto oldest = slowest_connection();
       if (oldest == connections.end()) return;
       connections.erase(oldest);
     }
@@ -291,11 +291,11 @@ void LocalServer::State::write_to(Connection& client) {
 
 bool LocalServer::State::is_over(const Connection& client) const {
   if (client.state == Connection::State::kAnswering) return false;
-  const auto patience = client.head ? kPatienceWithBody : kPatience;
+  const auto patience = client.head ? kBodyTimeout : kHeadTimeout;
   return !client.socket.valid() || Clock::now() - client.since > patience;
 }
 
-/// Waits up to kMoment for events and handles them without blocking.
+/// Waits up to kPollInterval for events and handles them without blocking.
 void LocalServer::State::serve_once() {
   const short new_clients = is_full() ? 0 : POLLIN;
   std::vector<pollfd> waiting = {{listening.get(), new_clients, 0}, {woken.get(), POLLIN, 0}};
@@ -306,7 +306,7 @@ void LocalServer::State::serve_once() {
     waiting.push_back({client.socket.get(), static_cast<short>(writes ? POLLOUT : POLLIN), 0});
     clients.push_back(&client);
   }
-  if (::poll(waiting.data(), waiting.size(), static_cast<int>(kMoment.count())) < 0) return;
+  if (::poll(waiting.data(), waiting.size(), static_cast<int>(kPollInterval.count())) < 0) return;
   for (std::size_t c = 0; c < clients.size(); ++c) {
     if (waiting[c + 2].revents == 0) continue;
     clients[c]->state == Connection::State::kWriting ? write_to(*clients[c])

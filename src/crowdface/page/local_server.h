@@ -28,7 +28,7 @@ struct HttpAnswer {
 class LocalServer {
  public:
   /// Largest body, in bytes.
-  static constexpr std::size_t kMaxBytes = std::size_t{4} << 20U;
+  static constexpr std::size_t kMaxBodyBytes = std::size_t{4} << 20U;
 
   /// \param answer  called from several threads.
   /// \param port    0: any free port.

@@ -175,10 +175,10 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
     if (is("GET", "api/mesh/scan")) {
       return mesh(now->session.scan_mesh(), now->session.inputs().scan_colours, now->shown_scan);
     }
-    if (is("POST", "api/pick")) return pick(now->session, body_of(asked));
-    if (is("POST", "api/suggest")) return suggest(now->session, body_of(asked));
-    if (is("PUT", "api/landmarks")) return save(now->session, body_of(asked));
-    if (is("POST", "api/open")) return open(body_of(asked));
+    if (is("POST", "api/pick")) return pick(now->session, parse_json_body(asked));
+    if (is("POST", "api/suggest")) return suggest(now->session, parse_json_body(asked));
+    if (is("PUT", "api/landmarks")) return save(now->session, parse_json_body(asked));
+    if (is("POST", "api/open")) return open(parse_json_body(asked));
     return page_answer(page_, asked);
   });
 }

@@ -22,7 +22,7 @@ constexpr double kCutBelow = 0.22;
 /// Estimates the extreme points of the attachments on all heads, for framing: maps a sample of each
 /// attachment's vertices from the bounding box of the head for which it was made to the bounding
 /// boxes of the other heads.
-std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& faces) {
+std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& head_set) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
     const Positions& points = item.file.positions;
@@ -41,7 +41,7 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
   };
   const auto [low, high] = box_of(attachments.fitted_to);
   std::vector<Eigen::Vector3d> reach;
-  for (const Head& head : faces.heads) {
+  for (const Head& head : head_set.heads) {
     const auto [own_low, own_high] = box_of(head.positions);
     for (const Eigen::Vector3d& point : farthest) {
       reach.push_back(own_low +

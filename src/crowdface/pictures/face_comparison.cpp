@@ -71,8 +71,8 @@ FaceComparison::FaceComparison(const PicturedCrowd& crowd)
 }
 
 Positions FaceComparison::mesh_of(std::size_t face) const {
-  return read_face(crowd_.directory, crowd_.faces[face].id, crowd_.config.output.meshes,
-                   crowd_.inputs.faces.topology.vertex_count);
+  return read_face_positions(crowd_.directory, crowd_.faces[face].id, crowd_.config.output.meshes,
+                             crowd_.inputs.faces.topology.vertex_count);
 }
 
 /// The mesh to compare with the face; nothing if faces are not compared, or if the crowd has no
@@ -86,9 +86,9 @@ std::optional<Positions> FaceComparison::compared_mesh(std::size_t face) const {
       return mesh_of(crowd_.likeness.neighbours[face].front().face);
     case With::kFile:
       if (reference_mesh_.rows() > 0) return reference_mesh_;
-      return read_face(other_crowd_, crowd_.faces[face].id,
-                       {format_of_face(other_crowd_, crowd_.faces[face].id)},
-                       crowd_.inputs.faces.topology.vertex_count);
+      return read_face_positions(other_crowd_, crowd_.faces[face].id,
+                                 {format_of_face(other_crowd_, crowd_.faces[face].id)},
+                                 crowd_.inputs.faces.topology.vertex_count);
     case With::kNothing:
       break;
   }

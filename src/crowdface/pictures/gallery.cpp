@@ -81,9 +81,9 @@ std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
   return looks;
 }
 
-std::vector<const Positions*> positions_of(const HeadSet& faces) {
+std::vector<const Positions*> positions_of(const HeadSet& head_set) {
   std::vector<const Positions*> heads;
-  for (const Head& head : faces.heads) heads.push_back(&head.positions);
+  for (const Head& head : head_set.heads) heads.push_back(&head.positions);
   return heads;
 }
 
@@ -148,7 +148,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
       pictured_mesh_(shown),
       vertex_faces_(shown.topology()),
       frame_(frame_of(inputs, shown.body_points())) {
-  const HeadSet& faces = inputs.faces;
+  const HeadSet& head_set = inputs.faces;
   const Topology& topology = shown.topology();
   const Surfaces surfaces = shown.surfaces();
   const PicturedFace shown_mean(shown, inputs.mean);
@@ -170,7 +170,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   }
   // Reduce the mesh to the limit, and the hidden triangles to a smaller limit.
   triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
-  mesh_ = preview_of(split, triangles, surfaces.uvs);
+  mesh_ = preview_from_split_mesh(split, triangles, surfaces.uvs);
   draft_triangles_ = draft_triangles(mesh_, mean, kMaxDraftTriangles);
   for (const std::uint32_t vertex : mesh_.vertices) visibility_.push_back(open[vertex]);
   colours_ =
@@ -178,7 +178,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
     texture_places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
-  const std::vector<const Positions*> heads = positions_of(faces);
+  const std::vector<const Positions*> heads = positions_of(head_set);
   // The bounding box of all heads and the shoulders.
   box_low_ = heads.front()->colwise().minCoeff().transpose();
   box_high_ = heads.front()->colwise().maxCoeff().transpose();
@@ -293,7 +293,7 @@ std::string GalleryMeshes::shared_script() const {
   json["box"] = {to_json(box_low_), to_json(box_high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
   json["draft"] = base64(little_endian(draft_triangles_));
-  json["twins"] = base64(little_endian(mesh_.twins));
+  json["twins"] = base64(little_endian(mesh_.first_copies));
   if (!mesh_.uvs.empty()) {
     json["uvs"] = base64(little_endian(mesh_.uvs));
     json["looks"] = mesh_.material_starts;

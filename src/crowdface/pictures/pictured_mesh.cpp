@@ -30,15 +30,15 @@ std::vector<double> above_chest(const Config& config, const Inputs& inputs, cons
 }
 
 /// For each polygon corner at a vertex of the rim, the corner's position in the texture.
-std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& faces) {
+std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& head_set) {
   std::vector<TexturePlace> places;
-  const VertexFaces around(faces.topology);
+  const VertexFaces around(head_set.topology);
   for (const std::uint32_t vertex : rim) {
     for (const std::uint32_t face : around.items_of(vertex)) {
-      const auto corners = faces.topology.face(face), uvs = faces.topology.face_uvs(face);
+      const auto corners = head_set.topology.face(face), uvs = head_set.topology.face_uvs(face);
       for (std::size_t c = 0; c < uvs.size(); ++c) {
         if (corners[c] != vertex || uvs[c] == kNoIndex) continue;
-        places.push_back({face, faces.uvs.row(uvs[c]).transpose().cast<float>()});
+        places.push_back({face, head_set.uvs.row(uvs[c]).transpose().cast<float>()});
       }
     }
   }

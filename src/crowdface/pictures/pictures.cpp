@@ -81,7 +81,7 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
   for (const FacePlan& face : crowd) ids.insert(face.id);
   const std::vector<AttachmentLook> looks = inputs_.attachments.looks(crowd);
   for (const AttachmentLook& look : looks) placed.insert(look.name());
-  for (const fs::path& folder : with_numbered_folders(directory_.gallery_faces())) {
+  for (const fs::path& folder : folder_and_numbered_subfolders(directory_.gallery_faces())) {
     remove_others(folder, ids);
   }
   const fs::path attachments = directory_.gallery_attachment("").parent_path();
@@ -118,7 +118,7 @@ WrittenSheets CrowdPictures::finish(const std::vector<FacePlan>& crowd,
 
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets) {
-  std::vector<std::filesystem::path> files = files_beside_sheets(directory);
+  std::vector<std::filesystem::path> files = files_made_with_sheets(directory);
   files.insert(files.end(), sheets.files.begin(), sheets.files.end());
   files.push_back(directory.likeness());
   std::sort(files.begin(), files.end());

@@ -74,8 +74,9 @@ void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
     for (std::size_t f = 0; f < faces; ++f) {
       throw_if_interrupted();
       const FacePlan& shown_face = crowd.faces[f];
-      const Positions face = read_face(crowd.directory, shown_face.id, crowd.config.output.meshes,
-                                       crowd.inputs.faces.topology.vertex_count);
+      const Positions face =
+          read_face_positions(crowd.directory, shown_face.id, crowd.config.output.meshes,
+                              crowd.inputs.faces.topology.vertex_count);
       add_row(crowd.renders, shown, shown_face.id, face,
               crowd.shapes.shapes_of_face(shown_face.recipe, face), cells);
     }

@@ -46,7 +46,7 @@ double covered(const Image& image, const Topology& topology, const TextureCoordi
 
 /// Whether a material is mostly transparent on these polygons; this is true for shells over the
 /// eyes and for lash cards.
-bool is_see_through(const SurfaceMaterial& material, const HeadSet& faces,
+bool is_see_through(const SurfaceMaterial& material, const HeadSet& head_set,
                     const std::vector<Index>& of_material) {
   constexpr double kSolid = 0.9;
   if (material.opacity < kSolid) return true;
@@ -58,7 +58,7 @@ bool is_see_through(const SurfaceMaterial& material, const HeadSet& faces,
     const bool is_alpha = image.alpha_channel >= 0;
     if (!is_alpha && material.opacity_map.empty()) return false;
     const int channel = is_alpha ? image.alpha_channel : 0;
-    return covered(image, faces.topology, faces.uvs, of_material,
+    return covered(image, head_set.topology, head_set.uvs, of_material,
                    [&](const Image& of, int x, int y) {
                      return static_cast<double>(of.at(x, y, channel));
                    }) < kSolid;

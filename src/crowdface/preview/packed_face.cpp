@@ -21,7 +21,7 @@ void append(std::string& bytes, double value) {
 }
 
 /// The octahedral encoding of a unit vector, in [−1, 1]².
-Eigen::Vector2d unfolded(const Eigen::Vector3d& normal) {
+Eigen::Vector2d octahedral(const Eigen::Vector3d& normal) {
   const Eigen::Vector3d n = normal / normal.lpNorm<1>();
   if (n.z() >= 0) return n.head<2>();
   const auto sign = [](double value) { return value < 0 ? -1.0 : 1.0; };
@@ -72,7 +72,7 @@ std::string pack_face(
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     Eigen::Vector3d normal = normal_at(topology, positions, vertex_faces.items_of(vertices[v]));
     if (adjust_normal) normal = adjust_normal(v, normal);
-    const Eigen::Vector2d square = unfolded(normal);
+    const Eigen::Vector2d square = octahedral(normal);
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);
   }
   return bytes;

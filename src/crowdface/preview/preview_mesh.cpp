@@ -20,13 +20,13 @@ PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs
   std::vector<std::uint32_t> labels(faces, 0);
   for (std::size_t f = 0; f < shown.size(); ++f) labels[f] = shown[f] ? 0 : kNoIndex;
   const SplitMesh split = split_mesh(topology, uvs, labels);
-  return preview_of(
+  return preview_from_split_mesh(
       split, reduce_triangles(split.triangles, split.corner_positions(typical), 2 * max_vertices),
       uvs);
 }
 
-PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
-                       const TextureCoordinates& uvs) {
+PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle> triangles,
+                                    const TextureCoordinates& uvs) {
   triangles = grouped_by_material(std::move(triangles), split);
   const auto material_of_triangle = [&](const Triangle& t) { return split.corners[t[0]].material; };
   PreviewMesh mesh;
@@ -43,7 +43,7 @@ PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
         number[corner] = static_cast<std::uint32_t>(mesh.vertices.size());
         mesh.vertices.push_back(vertex);
         mesh.faces.push_back(split.face_of_corner[corner]);
-        mesh.twins.push_back(first.emplace(vertex, number[corner]).first->second);
+        mesh.first_copies.push_back(first.emplace(vertex, number[corner]).first->second);
         for (int axis = 0; axis < 2 && uvs.rows() > 0; ++axis) {
           mesh.uvs.push_back(uv == kNoIndex ? 0.0F : static_cast<float>(uvs(uv, axis)));
         }

@@ -14,7 +14,7 @@ namespace crowdface {
 struct PreviewMesh {
   std::vector<std::uint32_t> vertices;  ///< vertices of the whole mesh
   /// #vertices: the first index in `vertices` with the same vertex of the whole mesh.
-  std::vector<std::uint32_t> twins;
+  std::vector<std::uint32_t> first_copies;
   /// Indices into `vertices`, three per triangle, grouped by material.
   std::vector<std::uint32_t> triangles;
   std::vector<float> uvs;            ///< two per vertex; empty if there are no texture coordinates
@@ -34,8 +34,8 @@ PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs
 /// Builds the preview mesh from triangles that are already reduced.
 /// \param triangles  indices of corners of `split`.
 /// \param uvs        the texture coordinates that `split` was made with.
-PreviewMesh preview_of(const SplitMesh& split, std::vector<Triangle> triangles,
-                       const TextureCoordinates& uvs);
+PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle> triangles,
+                                    const TextureCoordinates& uvs);
 
 /// Largest number of triangles of the skin in draft meshes (see draft_triangles).
 inline constexpr std::size_t kMaxDraftTriangles = 12'000;

@@ -11,16 +11,16 @@
 namespace crowdface {
 namespace {
 
-/// Simplifies index triples to at most `most` triangles.
+/// Simplifies index triples to at most `max_triangles` triangles.
 /// \param options  flags of meshopt_simplify.
-void reduce(std::vector<unsigned int>& triangles, const Positions& positions, std::size_t most,
-            unsigned int options = 0) {
-  if (triangles.size() <= 3 * most) return;
+void reduce(std::vector<unsigned int>& triangles, const Positions& positions,
+            std::size_t max_triangles, unsigned int options = 0) {
+  if (triangles.size() <= 3 * max_triangles) return;
   const std::vector<float> points(positions.data(), positions.data() + positions.size());
   constexpr float kAnyError = 1e30F;  // stop at the target count, whatever the error
   triangles.resize(meshopt_simplify(triangles.data(), triangles.data(), triangles.size(),
-                                    points.data(), points.size() / 3, 3 * sizeof(float), 3 * most,
-                                    kAnyError, options, nullptr));
+                                    points.data(), points.size() / 3, 3 * sizeof(float),
+                                    3 * max_triangles, kAnyError, options, nullptr));
 }
 
 std::vector<unsigned int> corners_of(const std::vector<Triangle>& triangles) {
@@ -33,7 +33,8 @@ std::vector<unsigned int> corners_of(const std::vector<Triangle>& triangles) {
 }
 
 /// Converts indices to triangles, in an order that suits the vertex cache of a graphics card.
-std::vector<Triangle> for_drawing(std::vector<unsigned int> corners, Index vertex_count) {
+std::vector<Triangle> optimize_for_vertex_cache(std::vector<unsigned int> corners,
+                                                Index vertex_count) {
   meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(),
                               static_cast<std::size_t>(vertex_count));
   std::vector<Triangle> triangles(corners.size() / 3);
@@ -44,19 +45,19 @@ std::vector<Triangle> for_drawing(std::vector<unsigned int> corners, Index verte
 }  // namespace
 
 std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
-                                       const Positions& positions, std::size_t most,
+                                       const Positions& positions, std::size_t max_triangles,
                                        Borders borders) {
   std::vector<unsigned int> corners = corners_of(triangles);
   const unsigned int options = borders == Borders::kKeep ? +meshopt_SimplifyLockBorder : 0U;
-  reduce(corners, positions, most, options);
-  return for_drawing(std::move(corners), positions.rows());
+  reduce(corners, positions, max_triangles, options);
+  return optimize_for_vertex_cache(std::move(corners), positions.rows());
 }
 
 ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions& positions,
-                        std::size_t most) {
+                        std::size_t max_triangles) {
   ReducedMesh mesh;
   std::vector<std::uint32_t> number(static_cast<std::size_t>(positions.rows()), kNoIndex);
-  for (Triangle triangle : reduce_triangles(triangles, positions, most)) {
+  for (Triangle triangle : reduce_triangles(triangles, positions, max_triangles)) {
     for (std::uint32_t& vertex : triangle) {
       if (number[vertex] == kNoIndex) {
         number[vertex] = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -71,7 +72,7 @@ ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions&
 
 std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
                                     const Positions& positions, const std::vector<bool>& hidden,
-                                    std::size_t most, std::size_t max_hidden) {
+                                    std::size_t max_triangles, std::size_t max_hidden) {
   require(hidden.size() == triangles.size(), "reduce: ", hidden.size(), " marks, ",
           triangles.size(), " triangles");
   std::vector<Triangle> of_seen, of_unseen;
@@ -80,9 +81,10 @@ std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,
   }
   std::vector<unsigned int> seen = corners_of(of_seen), unseen = corners_of(of_unseen);
   reduce(unseen, positions, max_hidden, meshopt_SimplifyLockBorder);
-  reduce(seen, positions, most - std::min(most, unseen.size() / 3), meshopt_SimplifyLockBorder);
+  reduce(seen, positions, max_triangles - std::min(max_triangles, unseen.size() / 3),
+         meshopt_SimplifyLockBorder);
   seen.insert(seen.end(), unseen.begin(), unseen.end());
-  return for_drawing(std::move(seen), positions.rows());
+  return optimize_for_vertex_cache(std::move(seen), positions.rows());
 }
 
 }  // namespace crowdface

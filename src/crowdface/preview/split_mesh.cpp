@@ -16,7 +16,7 @@ namespace {
 
 /// For each row, the first row with equal coordinates, because some files repeat coordinates for
 /// every corner.
-std::vector<std::uint32_t> first_of_equal(const TextureCoordinates& uvs) {
+std::vector<std::uint32_t> first_equal_rows(const TextureCoordinates& uvs) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(uvs.rows()));
   std::iota(order.begin(), order.end(), 0U);
   const auto key = [&](std::uint32_t row) {
@@ -60,7 +60,7 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
                      std::span<const std::uint32_t> materials) {
   require(static_cast<Index>(materials.size()) == topology.face_count(),
           "split mesh: ", materials.size(), " materials, ", topology.face_count(), " faces");
-  const std::vector<std::uint32_t> first_uv = first_of_equal(uvs);
+  const std::vector<std::uint32_t> first_uv = first_equal_rows(uvs);
   SplitMesh split;
   std::map<std::pair<std::uint32_t, std::array<double, 2>>, std::uint32_t> known_materials;
   std::vector<SplitMesh::Corner> all;

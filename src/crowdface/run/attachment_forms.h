@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// The attachments of a crowd at one level of detail, each converted to the form that one file
 /// format needs.
-/// \tparam Form  data that all faces share, made once per attachment; writing a file adds the
-///               attachment's positions on the face
+/// \tparam Form  data of an attachment that all faces share; a file combines them with the
+///               positions on one face
 template <class Form>
 class AttachmentForms {
  public:

@@ -47,7 +47,7 @@ std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& hea
   return anchors;
 }
 
-/// The entries below the diagonal.
+/// Returns the entries below the diagonal, row by row.
 std::vector<double> below_diagonal(const Eigen::MatrixXd& distances) {
   std::vector<double> values;
   for (Index a = 0; a < distances.rows(); ++a) {
@@ -90,16 +90,16 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
     report.members = static_cast<std::uint64_t>(family.end - family.begin);
     const std::vector<FaceSpace::Point> members(crowd_plan.points.begin() + family.begin,
                                                 crowd_plan.points.begin() + family.end);
-    report.within = quartiles(pair_distances(members));
-    std::vector<double> to_founder;
+    report.member_distances = quartiles(pair_distances(members));
+    std::vector<double> founder_distances;
     double nearest = HUGE_VAL;
     for (const FaceSpace::Point& member : members) {
-      to_founder.push_back(FaceSpace::distance(member, family.founder_point));
+      founder_distances.push_back(FaceSpace::distance(member, family.founder_point));
       nearest = std::min(nearest, index.nearest(member, nearest, 0, family.begin).distance_mm);
       nearest =
           std::min(nearest, index.nearest(member, nearest, family.end, index.size()).distance_mm);
     }
-    report.to_founder = quartiles(std::move(to_founder));
+    report.founder_distances = quartiles(std::move(founder_distances));
     report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
     if (!config.families[f].parents.empty())
       report.nearer_strangers_fraction = family.nearer_strangers_fraction;
@@ -250,7 +250,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     if (remedy.binding_constraint == Reason::kTraits) {
       about_traits = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
     }
-    tell_shortfall(config, remedy, *crowd.shortfall, about_traits);
+    throw_shortfall(config, remedy, *crowd.shortfall, about_traits);
   }
   for (const auto& [face, changed] : crowd.changed) {
     crowd.points[face] = changed.point;

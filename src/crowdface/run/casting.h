@@ -39,13 +39,13 @@ struct CrowdDistances {
 struct FamilyReport {
   std::string name;
   std::uint64_t members = 0;
-  Quartiles within;      ///< distances between members
-  Quartiles to_founder;  ///< distances from the members to the founder
+  Quartiles member_distances;   ///< distances between members
+  Quartiles founder_distances;  ///< distances from the members to the founder
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_other_mm = 0;
   double silhouette = 0;
-  /// if the family has parents: the largest fraction, over all children, of strangers that are
-  /// nearer to the child than one of its parents
+  /// if the family has parents: the fraction of faces outside the family that are nearer to a child
+  /// than one of its parents is; the largest such fraction of all children
   std::optional<double> nearer_strangers_fraction;
 };
 

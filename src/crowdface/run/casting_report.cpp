@@ -28,8 +28,8 @@ Json to_json(const Quartiles& q) {
           {"max", rounded(q.max)}};
 }
 
-/// Quartiles of the distances from each face to its nearest neighbour. Without the key "pairs",
-/// because these distances are not over all pairs.
+/// Quartiles of the distances from each face to its nearest neighbour. Omits the key "pairs",
+/// because the distances are not those of all pairs.
 Json nearest_to_json(const Quartiles& q) {
   Json json = to_json(q);
   if (json.is_object()) json.erase("pairs");
@@ -126,8 +126,8 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
   for (const FamilyReport& family : crowd_plan.families) {
     json.push_back({{"name", family.name},
                     {"members", family.members},
-                    {"within_mm", to_json(family.within)},
-                    {"to_founder_mm", nearest_to_json(family.to_founder)},
+                    {"within_mm", to_json(family.member_distances)},
+                    {"to_founder_mm", nearest_to_json(family.founder_distances)},
                     {"nearest_other_mm", rounded(family.nearest_other_mm)},
                     {"silhouette", rounded(family.silhouette)}});
     if (family.nearer_strangers_fraction) {
@@ -139,22 +139,22 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
 
 Json trait_to_json(const TraitReport& report) {
   Json json = {{"heads", nearest_to_json(report.heads)}, {"crowd", nearest_to_json(report.crowd)}};
-  if (report.asked) {
-    json["population"] = {{"asked_mean", report.asked->target.mean},
-                          {"asked_deviation", report.asked->target.deviation},
-                          {"mean", rounded(report.asked->mean)},
-                          {"deviation", rounded(report.asked->deviation)},
-                          {"largest_difference", rounded(report.asked->difference)},
-                          {"asked_below_reach", rounded(report.asked->below)},
-                          {"asked_above_reach", rounded(report.asked->above)}};
+  if (report.comparison) {
+    json["population"] = {{"asked_mean", report.comparison->target.mean},
+                          {"asked_deviation", report.comparison->target.deviation},
+                          {"mean", rounded(report.comparison->mean)},
+                          {"deviation", rounded(report.comparison->deviation)},
+                          {"largest_difference", rounded(report.comparison->difference)},
+                          {"asked_below_reach", rounded(report.comparison->below)},
+                          {"asked_above_reach", rounded(report.comparison->above)}};
   }
   return json;
 }
 
 }  // namespace
 
-std::vector<std::string> near_heads(const CrowdPlan& crowd_plan,
-                                    const std::vector<std::string>& heads) {
+std::vector<std::string> near_head_warnings(const CrowdPlan& crowd_plan,
+                                            const std::vector<std::string>& heads) {
   constexpr std::size_t kMaxNamed = 8;
   std::vector<std::string> near;
   for (const FacePlan& face : crowd_plan.crowd) {

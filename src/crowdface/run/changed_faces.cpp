@@ -12,9 +12,10 @@
 namespace crowdface {
 namespace {
 
-/// Puts attachments on a face. They replace attachments of the same kinds, and attachments that
-/// exclude them or that they exclude. \param names  none: removes all attachments.
-void put_on(const Config& config, const std::vector<std::string>& names, FacePlan& face) {
+/// Puts attachments on a face, in place of attachments of the same kinds and of attachments that
+/// exclude one another. \param names  none: removes all attachments.
+void replace_attachments(const Config& config, const std::vector<std::string>& names,
+                         FacePlan& face) {
   const std::vector<Config::Attachment>& items = config.attachments.items;
   std::vector<std::string> worn;
   for (const Config::Attachment& item : items) {
@@ -77,7 +78,7 @@ class ChangedLooks {
     }
     for (const AppliedChange& applied : changed.changes) {
       const FaceChange& change = applied.change;
-      if (change.attachments) put_on(config_, *change.attachments, face);
+      if (change.attachments) replace_attachments(config_, *change.attachments, face);
       take_off(config_, change.takes_off, face);
       if (!change.colours.empty()) face.recipe.colours = written_weights(change.colours);
       if (change.hair) face.hair = rounded_colour(*hair_colour_named(*change.hair));

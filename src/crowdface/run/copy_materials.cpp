@@ -25,15 +25,15 @@ namespace fs = std::filesystem;
 /// Copies each file once: heads in one folder mostly share their files.
 class MaterialCopies {
   /// A neutral texture hair_colour_for with a hair colour, and the files that hold the result.
-  struct Dyed {
+  struct TintedTexture {
     fs::path neutral;
     HairColour colour;
     std::vector<fs::path> copies;
   };
 
  public:
-  /// \param own  kinds of textures that faces have of their own; if not empty, faces have their own
-  ///             material files, too
+  /// \param own  kinds of textures of which each face has its own; if not empty, each face also has
+  ///             its own material file
   MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, std::set<TextureKind> own)
       : directory_(directory), ledger_(ledger), own_(std::move(own)) {}
 
@@ -55,13 +55,13 @@ class MaterialCopies {
   /// Copies the material files and textures of attachments into a folder for each look. Colour
   /// textures get the colour of the look.
   void add(const std::vector<AttachmentLook>& looks) {
-    std::map<std::pair<fs::path, std::string>, Dyed> all;
+    std::map<std::pair<fs::path, std::string>, TintedTexture> all;
     for (const AttachmentLook& look : looks) {
       for (const AttachmentFile& file : files_of(look)) {
         const fs::path to =
             attachment_folder(look.item->name, look.label()) / file.file.destination;
         if (file.is_coloured) {
-          Dyed& dyed = all[{file.file.source, look.label()}];
+          TintedTexture& dyed = all[{file.file.source, look.label()}];
           dyed.neutral = file.file.source;
           dyed.colour = *look.colour;
           dyed.copies.push_back(to);
@@ -70,7 +70,7 @@ class MaterialCopies {
         }
       }
     }
-    std::vector<Dyed> textures;
+    std::vector<TintedTexture> textures;
     for (auto& [key, dyed] : all) textures.push_back(std::move(dyed));
     constexpr std::size_t kAtOnce = 32;  // textures in memory
     for (std::size_t first = 0; first < textures.size(); first += kAtOnce) {
@@ -78,7 +78,7 @@ class MaterialCopies {
       const std::size_t count = std::min(kAtOnce, textures.size() - first);
       std::vector<std::string> encoded(count);
       parallel_for_each(count, [&](std::size_t t) {
-        const Dyed& dyed = textures[first + t];
+        const TintedTexture& dyed = textures[first + t];
         try {
           encoded[t] = coloured_texture(dyed.neutral, dyed.colour);
         } catch (const InvalidInput&) {  // other code warns about unreadable textures
@@ -121,7 +121,7 @@ class MaterialCopies {
 
   void write(const fs::path& relative, std::string_view bytes) {
     const fs::path to = directory_.meshes() / relative;
-    refuse_folder_elsewhere(directory_, to.parent_path());
+    refuse_link_out_of_crowd(directory_, to.parent_path());
     make_directories(to.parent_path());
     ledger_.write(directory_.relative(to), bytes);
   }

@@ -59,10 +59,10 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
                      const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings);
-  for (const auto& [name, digest] : digests_beside_heads(job.inputs)) {
+  for (const auto& [name, digest] : other_input_digests(job.inputs)) {
     hasher.add(name).add(digest);
   }
-  hasher.add(config_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
+  hasher.add(config_text_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
   // Hash the plan, with each face's notes, and the likeness: reviews and the distance mask change
   // nothing else.
   try {
@@ -84,7 +84,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
 std::vector<FacePlan> faces_to_render(const FaceLedger& ledger,
                                       const std::vector<FacePlan>& crowd) {
   std::vector<FacePlan> faces;
-  for (const std::size_t f : find_done_faces(ledger, crowd, Shard()).todo)
+  for (const std::size_t f : find_done_faces(ledger, crowd, Shard()).missing_faces)
     faces.push_back(crowd[f]);
   return faces;
 }
@@ -102,8 +102,9 @@ void render_faces(const Job& job, const FaceFileLists& lists, const std::vector<
   Progress progress("pictures", faces.size());
   parallel_for_each(faces.size(), [&](std::size_t i) {
     throw_if_interrupted();
-    const Positions positions = read_face(lists.directory(), faces[i].id, job.config.output.meshes,
-                                          job.inputs.faces.topology.vertex_count);
+    const Positions positions =
+        read_face_positions(lists.directory(), faces[i].id, job.config.output.meshes,
+                            job.inputs.faces.topology.vertex_count);
     FinishedFace face(faces[i], positions);
     finisher.finish(face, busy);
     write_files_of(face, lists.shown_files(faces[i]));
@@ -123,7 +124,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   // If the sheets show a comparison image from a file, always make them again: the file may have
   // changed.
   const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
-  if (!may_change && ledger.proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
+  if (!may_change && ledger.find_proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
   pictures.get().show_traits(named_head_traits(job.config, job.inputs));
   if (!crowd_plan.founders.empty()) {
@@ -181,8 +182,8 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   }
   pictures.show_traits(named_head_traits(job.config, job.inputs));
   const WrittenSheets sheets = pictures.finish(crowd, likeness);
-  ledger.adopt(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
-  lock.require_still_there();
+  ledger.record_remade(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
+  lock.require_same_folder();
   log_info(concat(sheets.pages, sheets.pages == 1 ? " sheet" : " sheets", " in ",
                   directory.sheets().string()));
 }

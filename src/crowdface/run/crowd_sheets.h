@@ -16,8 +16,8 @@
 
 namespace crowdface {
 
-/// Makes the contact sheets, the gallery and their data, unless they are up to date. They depend on
-/// the faces' images and meshes, the config and the page.
+/// Makes the contact sheets, the gallery and their data, unless they are up to date. All of these
+/// depend on the faces' images and meshes, the config and the gallery's page.
 /// \param faces    results, one per face of the crowd
 /// \param builder  builds the founders of families, which have no mesh files
 /// \return the number of sheets that the faces fill.

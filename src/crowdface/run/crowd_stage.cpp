@@ -25,7 +25,7 @@ struct Rows {
 };
 
 /// Spacing of the faces along an axis: the largest extent of any head along this axis times 4/3.
-double room(const Inputs& inputs, Eigen::Index axis) {
+double face_spacing(const Inputs& inputs, Eigen::Index axis) {
   double most = 0;
   for (const Head& head : inputs.faces.heads) {
     const auto along = head.positions.col(axis);
@@ -38,11 +38,12 @@ Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
   const Axis up = config.faces.up, front = config.faces.front;
   const Eigen::Index side = 3 - up.index - front.index;
   // whether the stage keeps the heads' axes, see UsdaTemplate
-  const bool as_it_is = up.sign > 0 && up.index > 0;
+  const bool keeps_axes = up.sign > 0 && up.index > 0;
   Rows rows;
-  rows.side = Eigen::Vector3d::Unit(as_it_is ? side : 0) * room(inputs, side);
-  const Axis to_front = as_it_is ? front : Axis{2, 1};
-  rows.back = Eigen::Vector3d::Unit(to_front.index) * -to_front.sign * room(inputs, front.index);
+  rows.side = Eigen::Vector3d::Unit(keeps_axes ? side : 0) * face_spacing(inputs, side);
+  const Axis to_front = keeps_axes ? front : Axis{2, 1};
+  rows.back =
+      Eigen::Vector3d::Unit(to_front.index) * -to_front.sign * face_spacing(inputs, front.index);
   rows.columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(faces))));
   return rows;
 }
@@ -50,7 +51,7 @@ Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
 /// The text that references a face's layer: "prepend references = @./meshes/ID.usda@".
 std::string reference(const CrowdDirectory& here, const std::string& id, std::size_t level) {
   return concat("prepend references = @./",
-                here.relative(here.mesh(id, MeshFormat::kUsd, suffix_of(level, ""))), "@\n");
+                here.relative(here.mesh(id, MeshFormat::kUsd, level_suffix(level, ""))), "@\n");
 }
 
 std::string face_text(const CrowdDirectory& here, const std::string& prim, const std::string& id,

@@ -8,8 +8,9 @@
 
 namespace crowdface {
 
-/// Estimates, without casting a crowd, how many faces the job's heads allow at which minimum
-/// distance. Writes estimate.csv and estimate.svg into the crowd's folder, and no other file.
+/// Estimates, without casting a crowd, the number of faces that the job's heads allow for each of
+/// several minimum distances. Writes estimate.csv and estimate.svg into the crowd's folder, and no
+/// other file.
 /// \param cache  folder of prepared heads
 /// \return a readable table.
 std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,

@@ -17,8 +17,8 @@ namespace {
 
 /// The region weights averaged over the two profiles of each contact: #contacts by #regions, rows
 /// summing to one.
-std::vector<std::vector<double>> masks_at(const SkinContacts& contacts,
-                                          const RegionWeights& regions) {
+std::vector<std::vector<double>> contact_masks(const SkinContacts& contacts,
+                                               const RegionWeights& regions) {
   std::vector<std::vector<double>> masks;
   for (std::size_t p = 0; p < contacts.size(); ++p) {
     std::vector<double> mask(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
@@ -55,7 +55,7 @@ FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepa
 
 void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) {
   regions_ = regions;
-  contact_masks_ = masks_at(*contacts_, regions);
+  contact_masks_ = contact_masks(*contacts_, regions);
   if (config.parts.shape == PartShape::kTarget) {
     for (const Part& part : inputs_.parts.parts) {
       for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
@@ -194,13 +194,13 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
     }
     ranges.push_back(range);
   }
-  if (recipe.asymmetry != 1) allow_other_side(ranges);
+  if (recipe.asymmetry != 1) include_mirrored_ranges(ranges);
   return ranges;
 }
 
 /// Extends each range to include the range of the mirrored contact, because a face whose asymmetry
 /// is not 1 combines both sides.
-void FaceBuilder::allow_other_side(std::vector<SkinContacts::Range>& ranges) const {
+void FaceBuilder::include_mirrored_ranges(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {
     const Eigen::Vector3d image = mirror().plane.mirrored(contacts_->section(p).middle);
@@ -222,17 +222,17 @@ double FaceBuilder::gap_excess_mm(const Recipe& recipe, const Positions& face) c
   return units * mm_per_unit_;
 }
 
-std::uint64_t FaceBuilder::bytes(std::size_t faces) const {
+std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
   const auto vertices = static_cast<std::uint64_t>(inputs_.faces.topology.vertex_count);
-  std::uint64_t of_face = 3 * sizeof(double) * vertices;
+  std::uint64_t bytes_per_face = 3 * sizeof(double) * vertices;
   if (!blender_) {
-    // Per region: the difference, its rows, four vectors of the recurrence and one sum.
+    // Memory per region: the difference, its rows, four vectors of the recurrence and one sum.
     const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
-    of_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
+    bytes_per_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }
   constexpr std::uint64_t kMirrored = 3;  // the face, its mirror image, and the mesh between them
-  if (inputs_.mirror != nullptr) of_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
-  return faces * of_face;
+  if (inputs_.mirror != nullptr) bytes_per_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
+  return face_count * bytes_per_face;
 }
 
 }  // namespace crowdface

@@ -17,8 +17,8 @@
 
 namespace crowdface {
 
-/// Builds the meshes of recipes with the levels that the config asks for. To build several recipes
-/// at once takes less time than one by one and gives the same bytes.
+/// Builds the meshes of recipes with the levels that the config asks for. One call with several
+/// recipes is faster than one call per recipe and gives the same bytes.
 class FaceBuilder {
  public:
   /// \param config, inputs, prepared  must outlive the builder.
@@ -66,17 +66,18 @@ class FaceBuilder {
   double gap_excess_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory for building the given number of faces at once, including their positions, in bytes.
-  std::uint64_t bytes(std::size_t faces) const;
+  std::uint64_t memory_bytes(std::size_t face_count) const;
 
  private:
-  /// The steps after blending: asymmetry, contacts, parts, pose, mirroring, the ring at the neck.
+  /// Applies the steps after blending: asymmetry, contacts, parts, pose, mirroring, the ring at the
+  /// neck.
   void finish(const Recipe& recipe, Positions& face) const;
   /// The map that mirrors faces; computed in the first call. Thread-safe.
   const MirrorMap& mirror() const;
   /// Returns, for each contact, the allowed range of the gap: between the target's gap and the
   /// weighted mean of the sources' gaps.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
-  void allow_other_side(std::vector<SkinContacts::Range>& ranges) const;
+  void include_mirrored_ranges(std::vector<SkinContacts::Range>& ranges) const;
 
   const Config& config_;
   const Inputs& inputs_;

@@ -136,9 +136,9 @@ Positions FaceEncoders::normals_of(const Positions& positions) const {
 }
 
 FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
-  const std::string id = face.face.id + suffix_of(level, "_");
+  const std::string id = face.face.id + level_suffix(level, "_");
   FaceMesh mesh{.id = id,
-                .what = id,
+                .display_name = id,
                 .target = face.face.recipe.target,
                 .positions = &face.positions,
                 .normals = &face.normals,
@@ -159,7 +159,7 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
   if (face.normals.rows() > 0) reduced.normals = detail.restrict_rows(face.normals);
   for (const Displacements& shape : face.moves)
     reduced.moves.push_back(detail.restrict_rows(shape));
-  reduced.placed_attachments = levels_[level].of(face.placed_attachments);
+  reduced.placed_attachments = levels_[level].reduced_attachments(face.placed_attachments);
   if (face.colours.rows() > 0) reduced.colours = face.colours(detail.vertices, kAllColumns);
   mesh.positions = &reduced.positions;
   mesh.normals = &reduced.normals;
@@ -174,7 +174,7 @@ EncodedFile FaceEncoders::mesh(const FinishedFace& face, MeshFormat format, std:
   const MeshEncoder& encoder = encoders_.at(format)[level];
   if (!shape) return encoder.encode(face.meshes[level]);
   FaceMesh acting = face.meshes[level];
-  acting.what = in_shape(acting.id, inputs_, shape);
+  acting.display_name = in_shape(acting.id, inputs_, shape);
   Positions positions = face.positions, normals;
   face.moves[*shape].add_to(positions);
   if (needs_normals(format, level, acting.target)) {
@@ -192,11 +192,11 @@ EncodedFile FaceEncoders::attachment(const FinishedFace& face, const std::string
   const std::span<const PlacedAttachment> placed = face.meshes[level].placed_attachments;
   const auto one =
       std::ranges::find(placed, name, [](const auto& item) { return item.item->name; });
-  FaceMesh mesh{.id = concat(face.face.id, '_', name, suffix_of(level, "_")),
-                .what = {},
+  FaceMesh mesh{.id = concat(face.face.id, '_', name, level_suffix(level, "_")),
+                .display_name = {},
                 .positions = &one->positions,
                 .colour = one->look().label()};
-  mesh.what = in_shape(mesh.id, inputs_, shape);
+  mesh.display_name = in_shape(mesh.id, inputs_, shape);
   Positions acting;
   if (shape) {
     acting = one->positions;

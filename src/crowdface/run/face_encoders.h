@@ -36,8 +36,8 @@ struct FinishedFace {
 
   const FacePlan& face;
   const Positions& positions;
-  std::vector<Displacements> moves;  ///< one per shape; empty if no output shows shapes
-  std::vector<Index> crossing;       ///< intersecting triangles, see FaceShapes::of_face
+  std::vector<Displacements> moves;       ///< one per shape; empty if no output shows shapes
+  std::vector<Index> skin_intersections;  ///< intersecting triangles, see FaceShapes::of_face
   std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's own textures, encoded as image files; empty if no output file uses them. With
@@ -83,21 +83,21 @@ class FaceEncoders {
   const OwnTextures& textures() const { return *own_; }
 
   /// Whether GLB and USD files contain the body, as an attachment of each face.
-  bool hold_body() const { return config_.neck.write_body; }
+  bool holds_body() const { return config_.neck.write_body; }
   /// The body in the files of a face; refers to `face`.
   PlacedAttachment placed_body(const FinishedFace& face) const;
 
-  /// Computes what all files of a face share, such as the face at each level of detail. The results
-  /// refer to `face`, which must not move in memory afterwards.
+  /// Computes the data that the files of a face share, such as its mesh at each level of detail.
+  /// The results refer to `face`, which must not move in memory afterwards.
   void prepare(FinishedFace& face) const;
 
   // The following functions require a prepared face.
   EncodedFile mesh(const FinishedFace& face, MeshFormat format, std::size_t level,
                    ShapeNumber shape) const;
-  /// An attachment in an OBJ file of its own.
+  /// Encodes an attachment as a separate OBJ file.
   EncodedFile attachment(const FinishedFace& face, const std::string& name, std::size_t level,
                          ShapeNumber shape) const;
-  /// The points that follow the face, as JSON.
+  /// Encodes the points that follow the face, as JSON.
   EncodedFile points(const FinishedFace& face) const;
 
   /// Memory of this object, and the maximum memory of one face's files, in bytes.

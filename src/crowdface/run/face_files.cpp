@@ -25,17 +25,17 @@ class MeshFileList {
 
   std::vector<FaceFile> files() {
     if (options_.formats.empty()) return {};
-    const std::size_t levels = options_.all ? inputs_.levels.size() : 0;
+    const std::size_t levels = options_.all_variants ? inputs_.levels.size() : 0;
     for (std::size_t level = 0; level <= levels; ++level) add_meshes(level);
-    if (options_.all && !inputs_.points.empty()) {
-      add(kFollowingPoints, {}, "following_points",
+    if (options_.all_variants && !inputs_.points.empty()) {
+      add(kFollowingPointsFile, {}, "following_points",
           [](const FinishedFace& face) { return face.encoders->points(face); });
     }
     if (has([](const auto& format) { return format.attachments == DataStorage::kOwnFiles; })) {
       for (std::size_t level = 0; level <= levels; ++level) add_attachments(level);
     }
     if (has_own_textures(inputs_)) add_textures();
-    if (options_.all && !config_.neck.body_texture.empty()) {
+    if (options_.all_variants && !config_.neck.body_texture.empty()) {
       files_.push_back({options_.folder / kBlendedFolder / concat(face_.id, ".body.png"),
                         {},
                         {},
@@ -53,7 +53,7 @@ class MeshFileList {
   bool has(const Is& is) const {
     return any_format(options_.formats, is);
   }
-  std::size_t shapes() const { return options_.all ? inputs_.shapes.shapes.size() : 0; }
+  std::size_t shapes() const { return options_.all_variants ? inputs_.shapes.shapes.size() : 0; }
 
   /// Joins the name parts between stem and extension: "LOD1+bob+smile".
   static std::string joined_parts(const std::vector<std::string>& parts) {
@@ -88,7 +88,7 @@ class MeshFileList {
   void add_mesh(MeshFormat format, std::size_t level, ShapeNumber shape) {
     const MeshFormatTraits& traits = traits_of(format);
     const std::string end =
-        joined_parts({suffix_of(level, ""), shape ? inputs_.shapes.shapes[*shape].name : ""}) +
+        joined_parts({level_suffix(level, ""), shape ? inputs_.shapes.shapes[*shape].name : ""}) +
         std::string(traits.extension);
     const std::string section = level > 0 ? "lods" : shape ? "shapes" : "";
     add(end, section, section.empty() ? std::string(traits.report_key) : end,
@@ -98,16 +98,16 @@ class MeshFileList {
   void add_attachments(std::size_t level) {
     for (const std::string& name : face_.attachments) {
       add_attachment(name, level, {});
-      if (!options_.all) continue;
+      if (!options_.all_variants) continue;
       const auto shapes = shapes_in_files(inputs_.attachments.at(name), options_.formats, inputs_);
       for (std::size_t s = 0; s < shapes.size(); ++s) add_attachment(name, level, s);
     }
   }
 
   void add_attachment(const std::string& name, std::size_t level, ShapeNumber shape) {
-    const std::string end = concat(
-        joined_parts({suffix_of(level, ""), name, shape ? inputs_.shapes.shapes[*shape].name : ""}),
-        extension_of(MeshFormat::kObj));
+    const std::string end = concat(joined_parts({level_suffix(level, ""), name,
+                                                 shape ? inputs_.shapes.shapes[*shape].name : ""}),
+                                   extension_of(MeshFormat::kObj));
     add(end, level > 0 ? "lods" : "attachments", end, [=](const FinishedFace& face) {
       return face.encoders->attachment(face, name, level, shape);
     });
@@ -182,7 +182,7 @@ std::vector<FaceFile> FaceFileLists::all_files(const FacePlan& face) const {
 void FaceFileLists::make_folders(std::span<const FacePlan* const> faces) const {
   std::set<fs::path> made;
   for (const FacePlan* face : faces) {
-    if (!made.insert(directory_.folder_of(face->id)).second) continue;
+    if (!made.insert(directory_.numbered_subfolder(face->id)).second) continue;
     for (const FaceFile& file : all_files(*face)) make_directories(file.path.parent_path());
   }
 }

@@ -36,7 +36,8 @@ struct MeshFileOptions {
   const std::vector<MeshFormat>& formats;
   std::filesystem::path folder;  ///< folder of the meshes
   std::string stem;              ///< first part of the file names
-  bool all = true;  ///< false: only the whole mesh at rest; no levels of detail, shapes or points
+  bool all_variants =
+      true;  ///< false: only the whole mesh at rest; no levels of detail, shapes or points
 };
 /// All mesh files of a face, including its attachments, textures and material file.
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
@@ -53,8 +54,7 @@ class FaceFileLists {
 
   /// All files of a face.
   std::vector<FaceFile> all_files(const FacePlan& face) const;
-  /// Only the files that show the face, which `sheet` can make again: its image and its mesh in the
-  /// gallery.
+  /// Only the files that `sheet` can make again: the face's image and its mesh in the gallery.
   std::vector<FaceFile> shown_files(const FacePlan& face) const;
   /// Creates the folders for the files of these faces.
   void make_folders(std::span<const FacePlan* const> faces) const;
@@ -72,7 +72,7 @@ struct FaceResult {
   std::vector<FileDigest> files;    ///< one per file of FaceFileLists::all_files
   std::optional<SkinDefects> skin;  ///< compared with the target, if the mesh was judged
   /// intersecting triangles, see FaceShapes::of_face; empty if there are no shapes
-  std::vector<Index> crossing;
+  std::vector<Index> skin_intersections;
 };
 
 }  // namespace crowdface

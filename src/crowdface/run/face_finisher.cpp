@@ -59,7 +59,7 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   }
   if (with_shapes) {
     const StageTimer timer(busy.encode);
-    face.moves = shapes.shapes_of_face(recipe, single, &face.crossing);
+    face.moves = shapes.shapes_of_face(recipe, single, &face.skin_intersections);
   }
   {
     const StageTimer timer(busy.blend);
@@ -73,7 +73,7 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   }
   if (encoders != nullptr) {
     const StageTimer timer(busy.encode);
-    if (encoders->hold_body()) face.placed_attachments.push_back(encoders->placed_body(face));
+    if (encoders->holds_body()) face.placed_attachments.push_back(encoders->placed_body(face));
     encoders->prepare(face);
   }
 }

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// Computes the data of a face's files that blending does not give.
+/// Computes the data that a face's files contain in addition to the blended positions.
 struct FaceFinisher {
   const FaceTextures& textures;
   const FaceAttachments& attachments;

@@ -54,8 +54,8 @@ Json to_json(const SkinDefects& skin) {
           {"wider_mm", skin.gap_excess_mm},  {"exposed_mm2", skin.exposed_mm2}};
 }
 
-/// Parses what `to_json` wrote: the line's checksum has been verified. Throws if another version of
-/// the program wrote the line.
+/// Parses the output of `to_json`. Because the line's checksum was verified, this throws only if
+/// another version of the program wrote the line.
 SkinDefects noted_skin(const Json& json) {
   SkinDefects skin;
   skin.local.compared = json.at("compared").get<Index>();
@@ -86,8 +86,8 @@ FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& list
       lists_(lists),
       recorded_(std::move(recorded)),
       judges_skin_(skin_is_judged(job.config, job.inputs)),
-      shapes_(carried_shapes(job)),
-      common_(digest_of_common(job)) {}
+      shape_count_(carried_shapes(job)),
+      common_digest_(digest_of_common(job)) {}
 
 /// The face's ledger entry: its key, its file names, and the hashes in `result`, if any.
 LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result) const {
@@ -95,8 +95,8 @@ LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result)
   recipe.notes = {};  // no file depends on the notes of casting or on measurements
   recipe.traits = {};
   Hasher key;
-  key.add(common_).add(judges_skin_).add(shapes_ > 0);
-  key.add(format_recipe(recipe, job_.names, job_.settings));
+  key.add(common_digest_).add(judges_skin_).add(shape_count_ > 0);
+  key.add(format_plan_line(recipe, job_.names, job_.settings));
   LedgerEntry entry{item_of(face), {}, {}, {}};
   const std::vector<FaceFile> files = lists_.all_files(face);
   for (std::size_t f = 0; f < files.size(); ++f) {
@@ -107,23 +107,24 @@ LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result)
   entry.key = key.digest();
   Json note;
   if (result.skin) note = to_json(*result.skin);
-  if (!result.crossing.empty()) note["crossing"] = result.crossing;
+  if (!result.skin_intersections.empty()) note["crossing"] = result.skin_intersections;
   if (!note.is_null()) entry.note = note.dump();
   return entry;
 }
 
-std::optional<FaceResult> FaceLedger::done(const FacePlan& face) const {
+std::optional<FaceResult> FaceLedger::recorded_result(const FacePlan& face) const {
   const LedgerEntry wanted = entry_of(face, {});
-  const auto entry = ledger_.proven(wanted.item, wanted.key);
+  const auto entry = ledger_.find_proven(wanted.item, wanted.key);
   if (!entry || entry->files.size() != wanted.files.size()) return std::nullopt;
   FaceResult result;
   for (const LedgerEntry::File& file : entry->files) result.files.push_back(file.content);
   try {
-    if (judges_skin_ || shapes_ > 0) {
+    if (judges_skin_ || shape_count_ > 0) {
       const Json note = Json::parse(entry->note);
       if (judges_skin_) result.skin = noted_skin(note);
-      if (shapes_ > 0) result.crossing = note.at("crossing").get<std::vector<Index>>();
-      if (result.crossing.size() != shapes_) return std::nullopt;
+      if (shape_count_ > 0)
+        result.skin_intersections = note.at("crossing").get<std::vector<Index>>();
+      if (result.skin_intersections.size() != shape_count_) return std::nullopt;
     }
   } catch (const Json::exception&) {
     return std::nullopt;

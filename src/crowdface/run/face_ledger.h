@@ -29,7 +29,7 @@ class FaceLedger {
 
   /// Returns the recorded results of a face; nothing unless all of its files exist and are
   /// unchanged.
-  std::optional<FaceResult> done(const FacePlan& face) const;
+  std::optional<FaceResult> recorded_result(const FacePlan& face) const;
   /// Records faces whose files have all been written.
   void record(std::span<const MadeFace> faces) const;
 
@@ -41,8 +41,8 @@ class FaceLedger {
   const FaceFileLists& lists_;
   std::function<void()> recorded_;
   bool judges_skin_;
-  std::size_t shapes_;  ///< number of shapes transferred to each face
-  Digest common_;       ///< hash of everything that the files of all faces depend on
+  std::size_t shape_count_;  ///< number of shapes transferred to each face
+  Digest common_digest_;     ///< hash of everything that the files of all faces depend on
 };
 
 }  // namespace crowdface

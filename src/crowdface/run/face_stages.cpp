@@ -24,9 +24,9 @@
 namespace crowdface {
 namespace {
 
-/// Maximum number of faces blended together. A group reads the fields only once, but larger groups
-/// lose more time to allocating memory than they save in reading. Must be a multiple of the number
-/// of faces that one matrix product handles.
+/// Maximum number of faces blended together. Each group reads the fields once. Larger groups lose
+/// more time to memory allocation than they save in reading. Must be a multiple of the number of
+/// faces that one matrix product handles.
 constexpr std::size_t kMaxAtOnce = 24;
 /// Memory for rendering, per vertex of a face: normals, projected quads, and the gallery's smaller
 /// mesh. Measured at 1.2 million vertices, with a margin.
@@ -96,11 +96,11 @@ std::uint64_t faces_held(std::uint64_t at_once) {
 
 /// How many faces can be blended together within the memory.
 /// \param standing  memory that does not depend on this number
-std::size_t faces_at_once(std::uint64_t standing, std::uint64_t one_face, std::uint64_t memory) {
-  const std::uint64_t least = standing + faces_held(1) * one_face;
+std::size_t faces_at_once(std::uint64_t fixed_bytes, std::uint64_t one_face, std::uint64_t memory) {
+  const std::uint64_t least = fixed_bytes + faces_held(1) * one_face;
   if (least > memory) refuse_memory(format_bytes(least), memory);
   std::size_t at_once = kMaxAtOnce;
-  while (standing + faces_held(at_once) * one_face > memory) --at_once;
+  while (fixed_bytes + faces_held(at_once) * one_face > memory) --at_once;
   return at_once;
 }
 
@@ -176,20 +176,20 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                        const FaceAttachments& attachments, const FaceShapes& shapes,
                        const std::vector<FacePlan>& crowd, std::uint64_t memory)
     : encoders_(config, inputs, config.output.meshes, crowd,
-                directory_of(config).shared_from_mesh()),
+                directory_of(config).path_from_mesh_to_shared()),
       builder_(builder),
       textures_(textures),
       attachments_(attachments),
       shapes_(shapes) {
-  std::uint64_t standing = input_bytes(inputs) + render_bytes(config, inputs) +
-                           level_bytes(prepared) + encoders_.memory_bytes() +
-                           shapes.memory_bytes() + attachments.memory_bytes() +
-                           placed_bytes(config, inputs, crowd);
+  std::uint64_t fixed_bytes = input_bytes(inputs) + render_bytes(config, inputs) +
+                              level_bytes(prepared) + encoders_.memory_bytes() +
+                              shapes.memory_bytes() + attachments.memory_bytes() +
+                              placed_bytes(config, inputs, crowd);
   std::uint64_t of_thread = encoders_.encode_bytes() + attachments.placed_bytes();
   // Vertex colours: the face's own colours, and the colours for rendering.
   if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.has_textures()) {
-    standing += textures_.memory_bytes();
+    fixed_bytes += textures_.memory_bytes();
     of_thread += textures_.blend_bytes();
     if (config.output.contact_sheet) {
       of_thread += FaceTextureSet::memory_bytes(inputs.textures, inputs.maps,
@@ -200,18 +200,17 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     std::set<Index> targets;
     for (const FacePlan& face : crowd) targets.insert(face.recipe.target);
     check_.emplace(skin_check(config, inputs, targets));
-    standing += check_->memory_bytes();
+    fixed_bytes += check_->memory_bytes();
     of_thread += check_->compare_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
-  // Besides the files that threads encode, files wait in the queue, and up to as many bytes are
-  // being written.
-  standing += of_threads + 2 * waiting_bytes_;
-  const std::uint64_t one_face = builder.bytes(1);
-  at_once_ = faces_at_once(standing, one_face, memory);
+  // Encoded files of up to `waiting_bytes_` wait in the queue, and as many bytes may be in writing.
+  fixed_bytes += of_threads + 2 * waiting_bytes_;
+  const std::uint64_t one_face = builder.memory_bytes(1);
+  faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory);
   // If memory is left, enlarge the queue: it keeps the disk busy while faces are blended.
-  const std::uint64_t room = memory - standing - faces_held(at_once_) * one_face;
+  const std::uint64_t room = memory - fixed_bytes - faces_held(faces_per_group_) * one_face;
   waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
                               std::max(waiting_bytes_, FaceWriter::kMaxWaitingBytes));
 }
@@ -243,7 +242,7 @@ class FaceStages::Output {
         ready.push_back({std::move(file.path), std::move(bytes), result.files.back()});
       }
     }
-    result.crossing = std::move(finished.crossing);
+    result.skin_intersections = std::move(finished.skin_intersections);
     if (stages_.check_) {
       const StageTimer timer(busy_.check);
       result.skin = stages_.builder_.defects(*stages_.check_, face.recipe, positions);
@@ -270,11 +269,11 @@ void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
   FaceMemory memory;
   std::array<FaceGroup, 2> groups;
   std::size_t turn = 0;
-  for (std::size_t first = 0; first < faces.size(); first += at_once_, turn ^= 1) {
+  for (std::size_t first = 0; first < faces.size(); first += faces_per_group_, turn ^= 1) {
     FaceGroup& group = groups[turn];
     group.wait();
     throw_if_interrupted();
-    const std::size_t count = std::min(at_once_, faces.size() - first);
+    const std::size_t count = std::min(faces_per_group_, faces.size() - first);
     std::vector<const Recipe*> recipes;
     std::vector<Positions> positions;
     for (std::size_t f = 0; f < count; ++f) {

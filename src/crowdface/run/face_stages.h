@@ -58,7 +58,7 @@ class FaceStages {
   const FaceAttachments& attachments_;
   const FaceShapes& shapes_;
   std::optional<SkinCheck> check_;  ///< empty if no mesh is judged
-  std::size_t at_once_;
+  std::size_t faces_per_group_;
   std::uint64_t waiting_bytes_;  ///< maximum size of encoded files that wait to be written
 };
 

@@ -74,7 +74,8 @@ std::set<std::uint32_t> corners_of(const HeadLandmarks& landmarks,
   std::set<std::uint32_t> corners;
   for (const std::size_t trait : traits) {
     for (const std::size_t l : landmarks_of(measurements()[trait])) {
-      corners.insert(landmarks.places[l]->corners.begin(), landmarks.places[l]->corners.end());
+      corners.insert(landmarks.surface_points[l]->corners.begin(),
+                     landmarks.surface_points[l]->corners.end());
     }
   }
   return corners;
@@ -87,8 +88,8 @@ HeadLandmarks needed_landmarks(HeadLandmarks landmarks, const std::vector<std::s
     const std::vector<std::size_t> of = landmarks_of(measurements()[trait]);
     needed.insert(of.begin(), of.end());
   }
-  for (std::size_t l = 0; l < landmarks.places.size(); ++l) {
-    if (!needed.contains(l)) landmarks.places[l].reset();
+  for (std::size_t l = 0; l < landmarks.surface_points.size(); ++l) {
+    if (!needed.contains(l)) landmarks.surface_points[l].reset();
   }
   return landmarks;
 }
@@ -107,8 +108,8 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
   const std::set<std::uint32_t> corners = corners_of(landmarks_, traits_);
   std::set<std::uint32_t> all = corners;
   if (neck_ != nullptr) all.insert(neck_->seam.rim.begin(), neck_->seam.rim.end());
-  wanted_.assign(all.begin(), all.end());
-  for (const std::uint32_t v : wanted_) {
+  landmark_vertices_.assign(all.begin(), all.end());
+  for (const std::uint32_t v : landmark_vertices_) {
     if (mirror_) all.insert(mirror_->corners[v].begin(), mirror_->corners[v].end());
   }
   for (const std::uint32_t v : builder_.contact_vertices()) all.insert(v);
@@ -116,12 +117,12 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
   heads_ = heads_at(config, inputs, prepared, samples_);
 
   const FaceSamples few(corners.begin(), corners.end());
-  std::vector<FaceMeasurer::Landmark> rows(landmarks_.places.size());
+  std::vector<FaceMeasurer::Landmark> rows(landmarks_.surface_points.size());
   for (std::size_t l = 0; l < rows.size(); ++l) {
-    if (!landmarks_.places[l]) continue;
+    if (!landmarks_.surface_points[l]) continue;
     for (std::size_t c = 0; c < 3; ++c) {
-      rows[l].samples[c] = row_of(few, landmarks_.places[l]->corners[c]);
-      rows[l].shares[c] = landmarks_.places[l]->shares[c];
+      rows[l].samples[c] = row_of(few, landmarks_.surface_points[l]->corners[c]);
+      rows[l].shares[c] = landmarks_.surface_points[l]->shares[c];
     }
   }
   measurer_.emplace(heads_at(config, inputs, prepared, few), std::move(rows),
@@ -145,15 +146,15 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
   if (const auto turn = neck == Neck::kBent ? builder_.motion_to_body(recipe) : std::nullopt) {
     for (const std::uint32_t v : samples_) face.row(v) = turn->apply(row3(face, v)).transpose();
   }
-  if (recipe.mirrored) mirror_wanted(face);
+  if (recipe.mirrored) mirror_landmark_vertices(face);
   if (neck_ != nullptr && neck == Neck::kBent) neck_->seam.fit(face);
-  return landmarks_.points_on(face, mm_per_unit_);
+  return landmarks_.landmark_positions(face, mm_per_unit_);
 }
 
-void FaceTraits::mirror_wanted(Positions& face) const {
-  Positions images(static_cast<Index>(wanted_.size()), 3);
-  for (std::size_t i = 0; i < wanted_.size(); ++i) {
-    const std::uint32_t v = wanted_[i];
+void FaceTraits::mirror_landmark_vertices(Positions& face) const {
+  Positions images(static_cast<Index>(landmark_vertices_.size()), 3);
+  for (std::size_t i = 0; i < landmark_vertices_.size(); ++i) {
+    const std::uint32_t v = landmark_vertices_[i];
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
       point += mirror_->shares[v][c] * row3(face, mirror_->corners[v][c]);
@@ -165,8 +166,8 @@ void FaceTraits::mirror_wanted(Positions& face) const {
     }
     images.row(static_cast<Index>(i)) = point.transpose();
   }
-  for (std::size_t i = 0; i < wanted_.size(); ++i) {
-    face.row(wanted_[i]) = images.row(static_cast<Index>(i));
+  for (std::size_t i = 0; i < landmark_vertices_.size(); ++i) {
+    face.row(landmark_vertices_[i]) = images.row(static_cast<Index>(i));
   }
 }
 
@@ -192,7 +193,7 @@ std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, co
   require_named_traits(config, landmarks);
   std::vector<std::size_t> available;
   for (std::size_t m = 0; m < measurements().size(); ++m) {
-    if (landmarks.allow(measurements()[m])) available.push_back(m);
+    if (landmarks.can_measure(measurements()[m])) available.push_back(m);
   }
   if (available.empty()) return nullptr;
   return std::make_unique<const FaceTraits>(config, inputs, prepared, landmarks,

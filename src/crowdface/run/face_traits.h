@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// Measures faces at the landmarks of some measurements.
+/// Measures the given traits of faces, from the positions of the landmarks that the traits need.
 class FaceTraits {
  public:
   /// \param traits  indices of the measurements, all available
@@ -33,8 +33,9 @@ class FaceTraits {
   /// this step (kAsBlended). Casting uses kAsBlended, so that a body does not change the recipes.
   enum class Neck { kBent, kAsBlended };
   Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
-  /// Replaces the positions of the vertices `wanted_` by their positions on the mirrored face.
-  void mirror_wanted(Positions& face) const;
+  /// Replaces the positions of the vertices `landmark_vertices_` by their positions on the mirrored
+  /// face.
+  void mirror_landmark_vertices(Positions& face) const;
 
   std::vector<std::size_t> traits_;
   HeadLandmarks landmarks_;
@@ -43,7 +44,7 @@ class FaceTraits {
   std::shared_ptr<const MirrorMap> mirror_;
   std::shared_ptr<const HeadsOnBody> neck_;
   /// the vertices of the landmarks, and of the ring at the neck if there is one
-  std::vector<std::uint32_t> wanted_;
+  std::vector<std::uint32_t> landmark_vertices_;
   /// the vertices that the exact landmarks depend on, ascending, and the heads' data at these
   /// vertices
   FaceSamples samples_;
@@ -52,7 +53,8 @@ class FaceTraits {
   std::optional<FaceMeasurer> measurer_;
 };
 
-/// Returns the measurements that the config names, ready for measuring faces; null if it names none.
+/// Returns the measurements that the config names, ready for measuring faces; null if it names
+/// none.
 /// \throws UsageError if one of them is not available.
 std::unique_ptr<const FaceTraits> named_face_traits(const Config& config, const Inputs& inputs,
                                                     const Prepared& prepared);

@@ -16,10 +16,10 @@ constexpr std::size_t kMaxFiles = 200;
 }  // namespace
 
 FaceWriter::FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes,
-                       std::function<void()> recorded)
+                       std::function<void()> on_recorded)
     : ledger_(ledger),
       waiting_bytes_(waiting_bytes),
-      recorded_(std::move(recorded)),
+      on_recorded_(std::move(on_recorded)),
       thread_([this] { run(); }) {}
 
 FaceWriter::~FaceWriter() {
@@ -50,7 +50,7 @@ void FaceWriter::add(MadeFace face, std::vector<ReadyFile> files) {
 void FaceWriter::finish() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock,
-                [&] { return error_ != nullptr || (waiting_.faces.empty() && !is_at_work_); });
+                [&] { return error_ != nullptr || (waiting_.faces.empty() && !is_writing_); });
   if (error_) std::rethrow_exception(error_);
 }
 
@@ -59,31 +59,31 @@ void FaceWriter::run() {
   while (true) {
     changed_.wait(lock, [&] { return is_closing_ || !waiting_.faces.empty(); });
     if (waiting_.faces.empty()) return;
-    Waiting some = std::exchange(waiting_, {});
-    is_at_work_ = true;
+    Batch batch = std::exchange(waiting_, {});
+    is_writing_ = true;
     changed_.notify_all();
     lock.unlock();
     const auto start = std::chrono::steady_clock::now();
     std::exception_ptr error;
     try {
-      write(some);
+      write(batch);
     } catch (...) {
       error = std::current_exception();
     }
-    some = {};
+    batch = {};
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     lock.lock();
     busy_seconds_ += took.count();
-    is_at_work_ = false;
+    is_writing_ = false;
     error_ = error;
     changed_.notify_all();
     if (error_) return;
   }
 }
 
-void FaceWriter::write(const Waiting& some) {
+void FaceWriter::write(const Batch& batch) {
   std::vector<FileToWrite> files;
-  for (const ReadyFile& file : some.files) {
+  for (const ReadyFile& file : batch.files) {
     if (has_content(file.path, file.content)) continue;  // only other files of the face are missing
     files.push_back({file.path, file.bytes.pieces()});
     if (files.size() < kMaxFiles) continue;
@@ -91,8 +91,8 @@ void FaceWriter::write(const Waiting& some) {
     files.clear();
   }
   write_files(files);
-  ledger_.record(some.faces);
-  for (std::size_t f = 0; f < some.faces.size(); ++f) recorded_();
+  ledger_.record(batch.faces);
+  for (std::size_t f = 0; f < batch.faces.size(); ++f) on_recorded_();
 }
 
 }  // namespace crowdface

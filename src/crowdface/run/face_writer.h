@@ -31,8 +31,9 @@ class FaceWriter {
   /// \param ledger         must outlive this object.
   /// \param waiting_bytes  maximum size of the files that wait to be written; a single face may
   ///                       exceed it
-  /// \param recorded       called after each recorded face
-  FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes, std::function<void()> recorded);
+  /// \param on_recorded    called after each recorded face
+  FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes,
+             std::function<void()> on_recorded);
   ~FaceWriter();  ///< drops files whose writing has not begun
   FaceWriter(const FaceWriter&) = delete;
   FaceWriter& operator=(const FaceWriter&) = delete;
@@ -53,22 +54,22 @@ class FaceWriter {
   static constexpr std::uint64_t kMaxWaitingBytes = std::uint64_t{256} << 20U;
 
  private:
-  struct Waiting {
+  struct Batch {
     std::vector<MadeFace> faces;
     std::vector<ReadyFile> files;
     std::uint64_t bytes = 0;
   };
 
   void run();
-  void write(const Waiting& some);
+  void write(const Batch& batch);
 
   const FaceLedger& ledger_;
   std::uint64_t waiting_bytes_;
-  std::function<void()> recorded_;
+  std::function<void()> on_recorded_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  Waiting waiting_;
-  bool is_at_work_ = false, is_closing_ = false;
+  Batch waiting_;
+  bool is_writing_ = false, is_closing_ = false;
   std::exception_ptr error_;
   double busy_seconds_ = 0;
   std::thread thread_;  // last, because the thread uses the other members

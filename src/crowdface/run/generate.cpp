@@ -84,7 +84,7 @@ struct PlannedJob {
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
   CrowdPlan crowd_plan;
-  std::vector<std::string> warnings;  ///< warnings of near_heads; empty for a shard's faces
+  std::vector<std::string> warnings;  ///< warnings of near_head_warnings; empty for a shard's faces
   nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
   /// If `crowd_plan` was read from the folder: the plan files; empty if this run cast the crowd. If
   /// a shard reads the plan, `crowd_plan` holds only the shard's faces.
@@ -110,7 +110,7 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
 
 /// Returns the warnings that depend only on the config and the plan.
 std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd_plan) {
-  std::vector<std::string> warnings = near_heads(crowd_plan, job.names.heads);
+  std::vector<std::string> warnings = near_head_warnings(crowd_plan, job.names.heads);
   for (std::string& text : overridden_plan(job.config, crowd_plan.crowd)) {
     warnings.push_back(std::move(text));
   }
@@ -123,9 +123,9 @@ std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd
 std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& options,
                                         StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
-  auto planned = planned_faces(job, directory, options.shard);
+  auto planned = read_planned_faces(job, directory, options.shard);
   if (!planned) {
-    if (options.plan_from == PlanFrom::kFolderOrCasting) return nullptr;
+    if (options.plan_source == PlanSource::kFolderOrCasting) return nullptr;
     throw MissingInput(
         concat(directory.plan_marker().string(),
                ": does not record a complete plan of this config; run crowdface plan first"));
@@ -134,8 +134,8 @@ std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& o
   crowd->plan_files = std::move(planned->files);
   if (options.shard.is_whole_crowd()) {
     crowd->crowd_plan = timed(stages, "cast", [&] {
-      return cast_as_planned(job, directory, crowd->prepared, std::move(planned->faces),
-                             options.cache);
+      return restore_crowd_plan(job, directory, crowd->prepared, std::move(planned->faces),
+                                options.cache);
     });
     crowd->casting = nlohmann::ordered_json::parse(read_file(directory.casting()));
     crowd->warnings = casting_warnings(job, crowd->crowd_plan);
@@ -172,7 +172,7 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
 }
 
 /// \param inputs  null if only a plan is requested
-void tell_dry_run(const Config& config, const Inputs* inputs) {
+void log_dry_run(const Config& config, const Inputs* inputs) {
   const std::uint64_t faces = face_count(config);
   if (inputs == nullptr) {
     log_info(concat("dry run: a plan of ", faces, " faces into ", config.output.directory.string(),
@@ -205,14 +205,15 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   const CrowdPlan& crowd_plan = planned.crowd_plan;
   const std::vector<FacePlan>& crowd = crowd_plan.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard),
-                ledgers_that_matter(directory, options.shard));
-  ledger.write(directory.relative(directory.config()), config_in_folder(job.config, directory));
+                relevant_ledgers(directory, options.shard));
+  ledger.write(directory.relative(directory.config()),
+               config_text_in_folder(job.config, directory));
   const auto write = [&](const fs::path& path, const TextPieces& text) {
     return ledger.write(directory.relative(path), text);
   };
   const std::vector<Eigen::Array3d> neck_colours = planned.neck_colours(job);
   if (planned.planned()) {
-    for (const LedgerEntry::File& file : planned.plan_files) ledger.keep(file);
+    for (const LedgerEntry::File& file : planned.plan_files) ledger.record_existing(file);
     if (options.shard.is_whole_crowd()) {
       write(directory.table(), table_text(crowd, job.names, neck_colours, table_facts(job.config)));
     }
@@ -232,10 +233,11 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     Progress checking("checking faces", crowd.size());
     return find_done_faces(face_ledger, crowd, asked_for, [&] { checking.step(); });
   });
-  const std::size_t built = so_far.todo.size();
-  if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.todo);
+  const std::size_t built = so_far.missing_faces.size();
+  if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.missing_faces);
   if (!options.shard.is_whole_crowd()) {
-    progress.emplace(directory.progress(options.shard), so_far.owned, so_far.owned - built);
+    progress.emplace(directory.progress(options.shard), so_far.shard_face_count,
+                     so_far.shard_face_count - built);
   }
 
   std::vector<std::string> warnings = job.inputs.warnings;
@@ -263,7 +265,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     }
     std::vector<const FacePlan*> faces;
     std::vector<FaceResult*> results;
-    for (const std::size_t i : so_far.todo) {
+    for (const std::size_t i : so_far.missing_faces) {
       faces.push_back(&crowd[i]);
       results.push_back(&so_far.faces[i]);
     }
@@ -288,9 +290,9 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   }
   write(directory.report(), report_text(job, planned.prepared, crowd_plan, planned.casting, lists,
                                         so_far.faces, neck_colours, pages, warnings));
-  ledger.settle();
+  ledger.compact();
   gather_logs(directory);
-  remove_notes_of_shards(directory);
+  remove_shard_files(directory);
   write_file(directory.timings(),
              format_timings(stages, busy, built, planned.prepared.cached_head_count));
   ledger.require_files();
@@ -301,7 +303,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
 }
 
 /// Whether an earlier run may have made all faces of this shard.
-bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
+bool may_be_complete(const CrowdDirectory& directory, const Shard& shard) {
   return path_exists(directory.ledger()) ||
          (shard.is_whole_crowd() ? !directory.shard_ledgers().empty()
                                  : path_exists(directory.ledger(shard)));
@@ -311,7 +313,8 @@ bool goes_on(const CrowdDirectory& directory, const Shard& shard) {
 /// crowd can be rejected before anything is written.
 bool makes_faces(const Config& config, const GenerateOptions& options) {
   const CrowdDirectory directory = directory_of(config);
-  const bool is_new = options.replace == Replace::kForce || !goes_on(directory, options.shard);
+  const bool is_new =
+      options.replace == Replace::kForce || !may_be_complete(directory, options.shard);
   return is_new && face_count(config) > 0;
 }
 
@@ -341,7 +344,7 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   try {
     const std::string done =
         fill_directory(job, directory, *crowd, options, purpose, face_stages, stages, progress);
-    lock.require_still_there();
+    lock.require_same_folder();
     log_info(done);
   } catch (const std::exception& error) {
     if (progress) {
@@ -368,29 +371,29 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
     if (makes_faces(job.config, options)) {
       refuse_too_little_memory(job.config, job.inputs, memory_for(options));
     }
-    return tell_dry_run(job.config, &job.inputs);
+    return log_dry_run(job.config, &job.inputs);
   }
   retry_if_truncated([&] { run_job(job, options, Purpose::kGenerate, memory, stages); });
 }
 
-/// A run that replaces another config's crowd applies the reviews of that crowd.
-ConfigOverrides with_reviews(ConfigOverrides overrides, const GenerateOptions& options) {
+/// If the run replaces another config's crowd, applies the reviews in this crowd's folder.
+ConfigOverrides include_kept_reviews(ConfigOverrides overrides, const GenerateOptions& options) {
   overrides.keep_reviews_of_other_configs = options.replace == Replace::kForce;
   return overrides;
 }
 
 Job job_for(const fs::path& config_file, const ConfigOverrides& overrides,
             const GenerateOptions& options) {
-  return load_job(config_file, with_reviews(overrides, options), options.cache);
+  return load_job(config_file, include_kept_reviews(overrides, options), options.cache);
 }
 
 Job job_for(const Config& config, const GenerateOptions& options) {
-  return load_job(config, options.cache, with_reviews({}, options));
+  return load_job(config, options.cache, include_kept_reviews({}, options));
 }
 
 void plan_job(const Job& job, const GenerateOptions& options) {
   check_output(job, options.replace);
-  if (options.dry_run) return tell_dry_run(job.config, nullptr);
+  if (options.dry_run) return log_dry_run(job.config, nullptr);
   retry_if_truncated([&] {
     const CrowdDirectory directory = directory_of(job.config);
     StageSeconds stages;
@@ -399,7 +402,7 @@ void plan_job(const Job& job, const GenerateOptions& options) {
     open_output(job, options.replace);
     write_plan(job, directory, crowd->crowd_plan, crowd->casting, crowd->neck_colours(job),
                [](const fs::path& path, const TextPieces& text) { return write_file(path, text); });
-    lock.require_still_there();
+    lock.require_same_folder();
     log_info(concat(crowd->crowd_plan.crowd.size(), " recipes in ", directory.plan().string()));
   });
 }

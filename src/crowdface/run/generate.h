@@ -12,7 +12,7 @@
 namespace crowdface {
 
 /// Where a shard gets the plan of its faces from.
-enum class PlanFrom {
+enum class PlanSource {
   kFolderOrCasting,  ///< the folder's plan if it belongs to this job; otherwise the crowd is cast
   kFolder,           ///< only the folder's plan; without one, the shard is rejected
 };
@@ -25,7 +25,7 @@ struct GenerateOptions {
   /// same time. 0: three quarters of the memory of the machine or its control group.
   std::uint64_t memory = 0;
   Shard shard = {};  ///< only this shard's faces are made; sheets and report are left to `gather`
-  PlanFrom plan_from = PlanFrom::kFolderOrCasting;
+  PlanSource plan_source = PlanSource::kFolderOrCasting;
 };
 
 /// Runs the whole job: read, prepare, cast, blend, write, render, report. Writes nothing until all

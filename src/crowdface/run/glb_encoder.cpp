@@ -32,7 +32,7 @@ std::uint8_t byte_at(const Image& image, int x, int y, int channel) {
 }
 
 /// The unchanged bytes of an image file; nothing if glTF does not support the format.
-std::optional<GlbImage> as_it_is(const fs::path& file) {
+std::optional<GlbImage> supported_image(const fs::path& file) {
   std::string bytes = read_file(file);
   if (bytes.starts_with("\x89PNG")) return GlbImage{std::move(bytes), "image/png"};
   if (bytes.starts_with("\xff\xd8\xff")) return GlbImage{std::move(bytes), "image/jpeg"};
@@ -41,7 +41,7 @@ std::optional<GlbImage> as_it_is(const fs::path& file) {
 
 /// Combines colours with opacity as alpha. \param holes  opacity; if it has another size, the
 /// nearest texel is used
-GlbImage with_alpha(const Image* colour, const Image* holes) {
+GlbImage rgba_image(const Image* colour, const Image* holes) {
   const Image& size = colour != nullptr ? *colour : *holes;
   std::vector<std::uint8_t> pixels;
   for (int y = 0; y < size.height; ++y) {
@@ -81,10 +81,10 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
   if (!own_holes) holes = read_image(made_of.opacity_map, {.jpeg = true});
   const bool has_holes = holes || (colour && colour->alpha_channel >= 0);
   std::optional<GlbImage> image;
-  if (!holes) image = as_it_is(made_of.colour_map);
+  if (!holes) image = supported_image(made_of.colour_map);
   if (!image) {
     const Image* alpha = holes ? &*holes : has_holes ? &*colour : nullptr;
-    image = with_alpha(colour ? &*colour : nullptr, alpha);
+    image = rgba_image(colour ? &*colour : nullptr, alpha);
   }
   if (has_holes) material.alpha = Alpha::kMask;
   image->name = (has_colours ? made_of.colour_map : made_of.opacity_map).stem().string();
@@ -158,9 +158,9 @@ GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& input
           level->topology,
           level->uvs,
           look.materials,
-          at_rows(look.of_face, level->faces),
+          select_rows(look.of_face, level->faces),
           look.images,
-          at_rows(influences, level->vertices),
+          select_rows(influences, level->vertices),
           std::move(targets),
           std::move(fixed)};
 }
@@ -171,7 +171,7 @@ MeshEncoders glb_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
   std::map<const Attachment*, GlbLook> looks;
   for (const Attachment* item : source.levels.front().items(inputs.attachments)) {
-    looks.emplace(item, look_of(*item, has_texture_of_face(source, *item)));
+    looks.emplace(item, look_of(*item, has_own_texture(source, *item)));
   }
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     return part_of(item, looks.at(&item), inputs, here);

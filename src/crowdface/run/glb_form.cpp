@@ -164,12 +164,13 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   GlbOptions options = glb_options(config, inputs, shared);
   if (level.is_whole_mesh()) return options;
   const DetailLevel& detail = *level.face;
-  options.face_materials = at_rows(options.face_materials, detail.faces);
+  options.face_materials = select_rows(options.face_materials, detail.faces);
   for (std::size_t t = 0; t < options.targets.size(); ++t) {
     options.targets[t].vertices = detail.restrict_rows(inputs.shapes.shapes[t].moves).vertices;
   }
-  if (options.overlay) options.overlay->places = at_rows(options.overlay->places, detail.vertices);
-  options.skin.influences = at_rows(options.skin.influences, detail.vertices);
+  if (options.overlay)
+    options.overlay->places = select_rows(options.overlay->places, detail.vertices);
+  options.skin.influences = select_rows(options.skin.influences, detail.vertices);
   options.vertex_ids = detail.vertices;
   options.points.clear();  // only the whole mesh has points
   return options;

@@ -23,31 +23,33 @@ void take_from_file(const Config& config, const Positions& mean, HeadLandmarks& 
     }
     const std::uint32_t v = template_vertex(place, mean);
     const auto at = static_cast<std::size_t>(known - trait_landmarks().begin());
-    landmarks.places[at] = SurfacePoint{{v, v, v}, {1, 0, 0}, row3(mean, v), 0};
-    landmarks.missing[at].clear();
+    landmarks.surface_points[at] = SurfacePoint{{v, v, v}, {1, 0, 0}, row3(mean, v), 0};
+    landmarks.missing_reasons[at].clear();
   }
 }
 
 }  // namespace
 
-bool HeadLandmarks::allow(const Measurement& measurement) const {
+bool HeadLandmarks::can_measure(const Measurement& measurement) const {
   return std::ranges::all_of(landmarks_of(measurement),
-                             [&](std::size_t l) { return places[l].has_value(); });
+                             [&](std::size_t l) { return surface_points[l].has_value(); });
 }
 
-std::string HeadLandmarks::reason_against(const Measurement& measurement) const {
+std::string HeadLandmarks::missing_landmark_reason(const Measurement& measurement) const {
   for (const std::size_t l : landmarks_of(measurement)) {
-    if (!places[l]) return concat("no ", trait_landmarks()[l].name, ": ", missing[l]);
+    if (!surface_points[l])
+      return concat("no ", trait_landmarks()[l].name, ": ", missing_reasons[l]);
   }
   return {};
 }
 
-Positions HeadLandmarks::points_on(const Positions& mesh, double mm_per_unit) const {
-  Positions points = Positions::Zero(static_cast<Index>(places.size()), 3);
-  for (std::size_t l = 0; l < places.size(); ++l) {
-    if (!places[l]) continue;
+Positions HeadLandmarks::landmark_positions(const Positions& mesh, double mm_per_unit) const {
+  Positions points = Positions::Zero(static_cast<Index>(surface_points.size()), 3);
+  for (std::size_t l = 0; l < surface_points.size(); ++l) {
+    if (!surface_points[l]) continue;
     points.row(static_cast<Index>(l)) =
-        mm_per_unit * point_on(mesh, places[l]->corners, places[l]->shares).transpose();
+        mm_per_unit *
+        point_on(mesh, surface_points[l]->corners, surface_points[l]->shares).transpose();
   }
   return points;
 }
@@ -64,10 +66,10 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
   for (const TraitLandmark& landmark : trait_landmarks()) {
     const auto place = found.points.find(landmark.name);
     const auto reason = found.missing_reasons.find(landmark.name);
-    landmarks.places.push_back(place != found.points.end() ? std::optional(place->second)
-                                                           : std::nullopt);
-    landmarks.missing.push_back(place != found.points.end()             ? ""
-                                : reason != found.missing_reasons.end() ? reason->second
+    landmarks.surface_points.push_back(place != found.points.end() ? std::optional(place->second)
+                                                                   : std::nullopt);
+    landmarks.missing_reasons.push_back(place != found.points.end()             ? ""
+                                        : reason != found.missing_reasons.end() ? reason->second
                                                                         : "no face was found");
   }
   if (!config.landmarks.empty()) take_from_file(config, inputs.mean, landmarks);
@@ -101,7 +103,8 @@ std::vector<std::vector<double>> named_head_traits(const Config& config, const I
   require_named_traits(config, landmarks);
   std::vector<std::vector<double>> values;
   for (const Head& head : inputs.faces.heads) {
-    const Positions points = landmarks.points_on(head.positions, mm_per(config.faces.units));
+    const Positions points =
+        landmarks.landmark_positions(head.positions, mm_per(config.faces.units));
     std::vector<double>& own = values.emplace_back();
     for (const std::size_t trait : named) own.push_back(measure(measurements()[trait], points));
   }
@@ -111,20 +114,21 @@ std::vector<std::vector<double>> named_head_traits(const Config& config, const I
 void require_named_traits(const Config& config, const HeadLandmarks& landmarks) {
   for (const std::size_t trait : config.named_traits()) {
     const Measurement& measurement = measurements()[trait];
-    if (landmarks.allow(measurement)) continue;
+    if (landmarks.can_measure(measurement)) continue;
     throw UsageError(concat(config.file.string(), ": the measurement ", measurement.name,
                             " is not available on these heads, ",
-                            landmarks.reason_against(measurement)));
+                            landmarks.missing_landmark_reason(measurement)));
   }
 }
 
 std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
                                                 const Positions& mesh, double mm_per_unit) {
-  const Positions points = landmarks.points_on(mesh, mm_per_unit);
+  const Positions points = landmarks.landmark_positions(mesh, mm_per_unit);
   std::vector<std::optional<double>> values;
   for (const Measurement& measurement : measurements()) {
-    values.push_back(landmarks.allow(measurement) ? std::optional(measure(measurement, points))
-                                                  : std::nullopt);
+    values.push_back(landmarks.can_measure(measurement)
+                         ? std::optional(measure(measurement, points))
+                         : std::nullopt);
   }
   return values;
 }
@@ -153,9 +157,9 @@ std::string format_head_traits(const Config& config, const Inputs& inputs,
   std::string unavailable;
   for (std::size_t m = 0; m < measurements().size(); ++m) {
     const Measurement& measurement = measurements()[m];
-    if (!landmarks.allow(measurement)) {
-      unavailable +=
-          concat("  ", measurement.name, ": ", landmarks.reason_against(measurement), '\n');
+    if (!landmarks.can_measure(measurement)) {
+      unavailable += concat("  ", measurement.name, ": ",
+                            landmarks.missing_landmark_reason(measurement), '\n');
       continue;
     }
     std::vector<double> numbers = {spread.mean(m), spread.deviation(m)};

@@ -15,16 +15,17 @@ namespace crowdface {
 
 /// The landmarks of a config's heads: points on the topology that all heads and faces share.
 struct HeadLandmarks {
-  std::vector<std::optional<SurfacePoint>> places;  ///< #trait_landmarks
-  std::vector<std::string> missing;                 ///< #trait_landmarks: why there is no place
+  std::vector<std::optional<SurfacePoint>> surface_points;  ///< #trait_landmarks
+  std::vector<std::string>
+      missing_reasons;  ///< #trait_landmarks: why the landmark has no point; or empty
 
-  /// Whether the positions of all landmarks of a measurement are known.
-  bool allow(const Measurement& measurement) const;
-  /// Why a measurement is not available: "no hairline (…)". \pre `allow` is false.
-  std::string reason_against(const Measurement& measurement) const;
+  /// Returns whether the positions of all landmarks of a measurement are known.
+  bool can_measure(const Measurement& measurement) const;
+  /// Why a measurement is not available: "no hairline (…)". \pre `can_measure` is false.
+  std::string missing_landmark_reason(const Measurement& measurement) const;
   /// The landmarks on a mesh, #landmarks by 3, in millimetres. Rows of landmarks whose position is
   /// unknown are zero.
-  Positions points_on(const Positions& mesh, double mm_per_unit) const;
+  Positions landmark_positions(const Positions& mesh, double mm_per_unit) const;
 };
 
 /// Finds the landmarks on the mean of the heads, or reads them from the config's landmark file.

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// A value that is expensive to make: made when `get` is first called. Not thread-safe.
+/// A value that the first call of `get` makes, because making it is expensive. Not thread-safe.
 template <class T>
 class Lazy {
  public:

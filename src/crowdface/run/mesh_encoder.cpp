@@ -63,16 +63,16 @@ constexpr std::array<MeshEncoding, kMeshFormatCount> kEncodings = {{
     {MeshFormat::kGlb, glb_encoders,  // positions, normals, texture coordinates, ids; triangles
      [](const MeshSize& size) {
        return 3 * kVector * size.vertices + kVector * (size.corners - 2 * size.faces) +
-              (kVector + sizeof(std::uint32_t)) * size.moved;
+              (kVector + sizeof(std::uint32_t)) * size.displacements;
      }},
     {MeshFormat::kPoints, npy_encoders,
      [](const MeshSize& size) {
-       return kVector * size.vertices + (kVector + 2 * sizeof(std::uint32_t)) * size.moved;
+       return kVector * size.vertices + (kVector + 2 * sizeof(std::uint32_t)) * size.displacements;
      },
      topology_arrays},
     {MeshFormat::kUsd, usd_encoders,  // about ten characters per number, six per index
      [](const MeshSize& size) {
-       return 10 * (6 * size.vertices + 2 * size.uvs) + 12 * size.corners + 36 * size.moved;
+       return 10 * (6 * size.vertices + 2 * size.uvs) + 12 * size.corners + 36 * size.displacements;
      },
      iris_file},
 }};
@@ -87,7 +87,7 @@ static_assert(encodings_are_in_order(), "every MeshFormat has its row, in the en
 
 }  // namespace
 
-bool has_texture_of_face(const MeshSource& source, const Attachment& item) {
+bool has_own_texture(const MeshSource& source, const Attachment& item) {
   return !source.config.neck.body_texture.empty() && source.inputs.neck->is_body(item);
 }
 
@@ -109,14 +109,14 @@ MeshEncoders ply_encoders(const MeshSource& source) {
                      [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
                        const bool with_normals = has_normals(inputs, face.target);
                        return ply.encode(*face.positions, with_normals ? *face.normals : kNoRows,
-                                         face.what, *face.colours);
+                                         face.display_name, *face.colours);
                      }));
   }
   return encoders;
 }
 
 MeshEncoders npy_encoders(const MeshSource& source) {
-  return {{[](const FaceMesh& face) { return encode_npy(*face.positions, face.what); }, 0,
+  return {{[](const FaceMesh& face) { return encode_npy(*face.positions, face.display_name); }, 0,
            npy_encode_bytes(source.inputs.faces.topology.vertex_count)}};
 }
 
@@ -129,7 +129,7 @@ std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshForm
                 .shapes = inputs.shapes.shapes.size()};
   double levels = 1;
   for (const MeasuredLevel& level : inputs.levels) levels += level.level.share;
-  for (const Shape& shape : inputs.shapes.shapes) size.moved += shape.moves.vertices.size();
+  for (const Shape& shape : inputs.shapes.shapes) size.displacements += shape.moves.vertices.size();
   for (const ObjFile& file : inputs.files) size.obj_bytes += file.file.bytes().size();
   size.obj_bytes /= inputs.files.size();
   std::uint64_t bytes = 0;

@@ -28,8 +28,8 @@ inline const ColourRows kNoColours;
 /// A face, at rest or in a shape, whole or at a level of detail, with all data that a file may
 /// contain.
 struct FaceMesh {
-  std::string id;    ///< "market_0001", at a level of detail "market_0001_LOD1"
-  std::string what;  ///< what messages call the mesh
+  std::string id;            ///< "market_0001", at a level of detail "market_0001_LOD1"
+  std::string display_name;  ///< the name of the mesh in messages
   Index target = 0;
   const Positions* positions = &kNoRows;      ///< #V by 3
   const Positions* normals = &kNoRows;        ///< #V by 3; no rows if no encoder needs them
@@ -62,7 +62,7 @@ inline bool has_normals(const Inputs& inputs, Index head) {
 }
 
 /// Whether each face has a texture of its own for this item: the body, with `neck.body_texture`.
-bool has_texture_of_face(const MeshSource& source, const Attachment& item);
+bool has_own_texture(const MeshSource& source, const Attachment& item);
 
 /// Encodes faces in one format at one level of detail. Thread-safe.
 struct MeshEncoder {
@@ -108,8 +108,8 @@ MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
 /// Element counts of a face's files, for estimates.
 struct MeshSize {
   std::uint64_t vertices = 0, faces = 0, corners = 0, uvs = 0;
-  std::uint64_t moved = 0;      ///< number of displacements in all shapes
-  std::uint64_t obj_bytes = 0;  ///< size of a head's file
+  std::uint64_t displacements = 0;  ///< number of displacements in all shapes
+  std::uint64_t obj_bytes = 0;      ///< size of a head's file
   std::uint64_t shapes = 0;
 };
 /// Approximate size of a face in these formats.

@@ -31,8 +31,8 @@ bool candidates_are_built(const Config& config);
 FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
                              const FaceBuilder& builder);
 
-/// Warns about faces whose whole mesh exceeds a limit although their samples did not. \return the
-/// warning.
+/// Warns about faces whose whole mesh exceeds a limit, although their sampled vertices do not
+/// exceed it. \return the warning.
 std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
                                        const std::vector<FacePlan>& crowd,
                                        const std::vector<FaceResult>& files);

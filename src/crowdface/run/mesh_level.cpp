@@ -42,7 +42,8 @@ const DetailLevel* MeshLevel::find(const Attachment& item) const {
   return found == attachments.end() ? nullptr : &found->second;
 }
 
-std::vector<PlacedAttachment> MeshLevel::of(std::span<const PlacedAttachment> placed) const {
+std::vector<PlacedAttachment> MeshLevel::reduced_attachments(
+    std::span<const PlacedAttachment> placed) const {
   std::vector<PlacedAttachment> reduced;
   for (const PlacedAttachment& one : placed) {
     const DetailLevel& level = attachments.at(one.item);
@@ -75,7 +76,7 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   if (body != nullptr) items.push_back(body);
   std::vector<std::vector<DetailLevel>> of_items(items.size());
   parallel_for_each(items.size(), [&](std::size_t i) {
-    // The body keeps every vertex of the ring at the neck, where faces join it.
+    // The body keeps every vertex of the ring at the neck, where faces join the body.
     const Borders borders = items[i] == body ? Borders::kKeep : Borders::kCollapse;
     of_items[i] = levels_of(*items[i], inputs.levels, borders);
   });

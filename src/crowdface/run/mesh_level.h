@@ -41,25 +41,25 @@ struct MeshLevel {
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
   /// A face's attachments, reduced to this level.
-  std::vector<PlacedAttachment> of(std::span<const PlacedAttachment> placed) const;
+  std::vector<PlacedAttachment> reduced_attachments(std::span<const PlacedAttachment> placed) const;
 };
 
 /// The text `before` and the level, such as "LOD2"; empty for level 0, the whole mesh.
-inline std::string suffix_of(std::size_t level, std::string_view before) {
+inline std::string level_suffix(std::size_t level, std::string_view before) {
   return level == 0 ? std::string() : concat(before, "LOD", level);
 }
 
 /// Selects the values of a level's polygons or vertices from the values of the whole mesh.
 /// \param rows  index into `whole` for each polygon or vertex of the level
 template <class T>
-std::vector<T> at_rows(const std::vector<T>& whole, std::span<const std::uint32_t> rows) {
+std::vector<T> select_rows(const std::vector<T>& whole, std::span<const std::uint32_t> rows) {
   std::vector<T> some;
   for (const std::uint32_t row : rows) some.push_back(whole[row]);
   return some;
 }
 /// Selects rows of grouped values; returns an empty result if `whole` is empty.
 template <class T>
-CompressedRows<T> at_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
+CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
   CompressedRows<T> some;
   if (whole.group_count() == 0) return some;
   for (const std::uint32_t row : rows) some.add_group(whole.items_of(row));

@@ -60,7 +60,7 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
 
 /// `mtllib` lines that replace a target's own line if that line does not name the written material
 /// files.
-std::map<Index, std::string> other_libraries(const MeshSource& source) {
+std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.targets) {
     const ObjFile& file = source.inputs.files[static_cast<std::size_t>(target)];
@@ -72,8 +72,9 @@ std::map<Index, std::string> other_libraries(const MeshSource& source) {
   return lines;
 }
 
-/// Lines after the `mtllib` line of targets whose first polygons have no material, although their
-/// material files define a single one: a `usemtl` line. Programs ignore the material without it.
+/// A `usemtl` line, written after the `mtllib` line, for each target whose first polygons have no
+/// material although its material files define exactly one. Without this line, programs ignore the
+/// material.
 std::map<Index, std::string> material_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.targets) {
@@ -104,7 +105,7 @@ MeshEncoder whole_encoder(const MeshSource& source) {
   const auto [memory, encode] = sizes_of(
       *forms, [](const auto& each) -> auto& { return each.second; });
   return {[forms](const FaceMesh& face) {
-            return forms->at(face.target).encode(*face.positions, face.what, *face.colours);
+            return forms->at(face.target).encode(*face.positions, face.display_name, *face.colours);
           },
           memory, encode};
 }
@@ -139,7 +140,8 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
               head += concat("mtllib ", library, '\n');
             }
             EncodedFile plain = forms->obj[forms->of_target.at(face.target)].encode(
-                concat(head, "o ", face.id, '\n'), *face.positions, *face.normals, face.what);
+                concat(head, "o ", face.id, '\n'), *face.positions, *face.normals,
+                face.display_name);
             if (face.colours->rows() == 0) return plain;
             return EncodedFile(with_colours(plain.text(), *face.colours));
           },
@@ -150,7 +152,7 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
 
 MeshEncoders obj_encoders(const MeshSource& source) {
   MeshEncoders encoders;
-  const std::map<Index, std::string> others = other_libraries(source);
+  const std::map<Index, std::string> others = replacing_library_lines(source);
   const std::map<Index, std::string> materials = material_lines(source);
   for (const MeshLevel& level : source.levels) {
     MeshEncoder encoder =
@@ -182,7 +184,7 @@ MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
   if (level == nullptr) {
     return make_encoder(std::make_shared<const ObjTemplate>(item.file, item.file.topology),
                         [libraries_of](const ObjTemplate& obj, const FaceMesh& mesh) {
-                          EncodedFile file = obj.encode(*mesh.positions, mesh.what);
+                          EncodedFile file = obj.encode(*mesh.positions, mesh.display_name);
                           const std::string libraries = libraries_of(mesh);
                           if (!libraries.empty()) file.replace_line("mtllib", libraries);
                           return file;
@@ -201,7 +203,7 @@ MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
                         const std::string libraries = libraries_of(mesh);
                         return obj.encode(
                             concat(libraries, libraries.empty() ? "" : "\n", "o ", mesh.id, '\n'),
-                            *mesh.positions, normals, mesh.what);
+                            *mesh.positions, normals, mesh.display_name);
                       });
 }
 

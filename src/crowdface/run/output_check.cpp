@@ -39,7 +39,7 @@ void refuse_to_write_over_config(const Config& config, const CrowdDirectory& dir
   throw_if_system_error(directory.config(), error);
   if (!is_same) return;
   if (path_exists(directory.plan())) return;  // the config belongs to a crowd
-  if (read_file(config.file) == config_in_folder(config, directory)) return;
+  if (read_file(config.file) == config_text_in_folder(config, directory)) return;
   throw UsageError(concat(config.file.string(),
                           ": the crowd's own config would overwrite this file; choose another "
                           "folder with --out, or rename the file"));
@@ -68,7 +68,7 @@ void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) 
   if (!report.is_object() || !report.contains("inputs")) return;
   const auto& recorded = report["inputs"];
   std::vector<std::string> changed;
-  for (const auto& [name, digest] : digests_beside_heads(inputs)) {
+  for (const auto& [name, digest] : other_input_digests(inputs)) {
     if (recorded.contains(name) && recorded[name] != digest.hex()) changed.push_back(name);
   }
   if (changed.empty()) return;

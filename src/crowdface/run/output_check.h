@@ -10,8 +10,8 @@ namespace crowdface {
 /// its own inputs, or files that could not be made again. \throws UsageError, CannotCreate.
 void check_output(const Job& job, Replace replace);
 
-/// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
-/// checks of check_output whose result may have changed since, because of another run.
+/// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats the
+/// checks of check_output whose result another run may have changed since.
 /// \throws UsageError, CannotCreate, IoError.
 void open_output(const Job& job, Replace replace);
 

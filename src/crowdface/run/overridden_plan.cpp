@@ -169,8 +169,8 @@ class OverriddenPlan {
     not_in_group_.add(face.id, concat(target, ", ", *face.group));
   }
 
-  /// Finds keys that the config's `changes` set for a face and that a review's later change sets to
-  /// another value.
+  /// Finds keys that the config's `changes` set for a face, but to which a later change in a review
+  /// gives another value.
   void find_replaced(const FaceChange& later) {
     for (const FaceChange& change : config_.changes) {
       if (change.id != later.id) continue;

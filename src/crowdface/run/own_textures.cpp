@@ -158,7 +158,7 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
     : config_(config), inputs_(inputs), pictures_(face_picture_names(inputs)) {
   for (const FacePlan& face : crowd) {
     const Index target = face.recipe.target;
-    if (of_target_.contains(target)) continue;
+    if (materials_of_target_.contains(target)) continue;
     const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
     Materials materials{MergedMaterials(file.material_path(), file.material_libraries, shared), {}};
     std::size_t first = 0;
@@ -171,7 +171,7 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
     };
     add(inputs.textures);
     for (const HeadTextures& maps : inputs.maps) add(maps);
-    of_target_.emplace(target, std::move(materials));
+    materials_of_target_.emplace(target, std::move(materials));
   }
 }
 
@@ -195,7 +195,7 @@ std::vector<std::string_view> OwnTextures::glb_images(const Encoded& encoded) co
 }
 
 EncodedFile OwnTextures::material_file(const FacePlan& face) const {
-  const Materials& materials = of_target_.at(face.recipe.target);
+  const Materials& materials = materials_of_target_.at(face.recipe.target);
   MergedMaterials::Replacements textures;
   for (const auto& [kind, pictures] : materials.pictures) {
     for (const auto& [material, index] : pictures) {

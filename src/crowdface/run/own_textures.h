@@ -33,9 +33,9 @@ struct GlbPicture {
 };
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
 
-/// Paths of the images of glb_pictures relative to a face's mesh: "./blended/ID.png". If an image
-/// is written in several formats, the path of the first. Empty if faces have no textures of their
-/// own.
+/// Paths of the images of glb_pictures relative to a face's mesh: "./blended/ID.png". The path of
+/// the first format if an image is written in several formats. Empty if faces have no textures of
+/// their own.
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id);
 
@@ -77,7 +77,7 @@ class OwnTextures {
   const Config& config_;
   const Inputs& inputs_;
   std::vector<PictureName> pictures_;
-  std::map<Index, Materials> of_target_;
+  std::map<Index, Materials> materials_of_target_;
 };
 
 }  // namespace crowdface

@@ -122,8 +122,8 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
 constexpr std::uint64_t kMaxInOneFolder = 10'000;
 constexpr std::uint64_t kFacesPerFolder = 1'000;
 
-/// Takes the distances of the faces in the folder from their config.yaml: these faces stay as they
-/// are if the config has a smaller `min_distance`.
+/// Copies the minimum distances of the existing faces from the folder's config.yaml, so that these
+/// faces do not change if the config has a smaller `min_distance`.
 /// \return  the config with these distances; unchanged if there are none.
 Config with_kept_distances(Config config, const std::string& before) {
   DiversityOptions& diversity = config.diversity;
@@ -296,7 +296,7 @@ CrowdDirectory directory_of(const Config& config) {
   return {config.output.directory, config.output.faces_per_folder.value_or(0)};
 }
 
-std::string config_in_folder(Config config, const CrowdDirectory& directory) {
+std::string config_text_in_folder(Config config, const CrowdDirectory& directory) {
   for (std::size_t i = 0; i < config.review.files.size(); ++i) {
     config.review.files[i] = directory.review(i + 1);
   }
@@ -304,7 +304,7 @@ std::string config_in_folder(Config config, const CrowdDirectory& directory) {
 }
 
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) {
-  std::string text = config_in_folder(config, directory);
+  std::string text = config_text_in_folder(config, directory);
   return {text, config.review.texts,
           [text](const std::string& other) { return config_differences(other, text); },
           config.review.original_texts, config.review.ignores_kept_reviews};

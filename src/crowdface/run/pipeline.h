@@ -45,7 +45,7 @@ std::uint64_t face_count(const Config& config);
 CrowdDirectory directory_of(const Config& config);
 
 /// The text of the config for the crowd's folder; its reviews are the copies in this folder.
-std::string config_in_folder(Config config, const CrowdDirectory& directory);
+std::string config_text_in_folder(Config config, const CrowdDirectory& directory);
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
 /// Converts a smoothness into a number of iterations on these heads.

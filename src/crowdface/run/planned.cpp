@@ -51,7 +51,7 @@ std::vector<FacePlan> read_faces(const Job& job, const std::filesystem::path& pl
     faces.resize(first + lines.size());
     parallel_for_each(lines.size(), kBlock, [&](std::size_t i) {
       const auto& [number, line] = lines[i];
-      faces[first + i] = parse_recipe(line, job.names, concat(plan.string(), ":", number)).face;
+      faces[first + i] = parse_plan_line(line, job.names, concat(plan.string(), ":", number)).face;
     });
     lines.clear();
   };
@@ -102,8 +102,8 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
   write_file(directory.plan_marker(), mark.dump() + "\n");
 }
 
-std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,
-                                          const Shard& shard) {
+std::optional<PlannedFaces> read_planned_faces(const Job& job, const CrowdDirectory& directory,
+                                               const Shard& shard) {
   if (!is_file(directory.plan_marker()) || !is_file(directory.plan())) return std::nullopt;
   const auto mark = parse_shallow_json(read_file(directory.plan_marker()));
   if (!mark.is_object() || !mark.contains("files")) return std::nullopt;
@@ -130,8 +130,9 @@ std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& direct
   return founders;
 }
 
-CrowdPlan cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
-                          std::vector<FacePlan> crowd, const std::filesystem::path& cache) {
+CrowdPlan restore_crowd_plan(const Job& job, const CrowdDirectory& directory,
+                             const Prepared& prepared, std::vector<FacePlan> crowd,
+                             const std::filesystem::path& cache) {
   const FaceSpace space = casting_space(job.config, job.inputs, prepared, cache).space;
   const CastingOptions casting = casting_options(job.config, job.inputs, space.head_distances());
   CrowdPlan crowd_plan;

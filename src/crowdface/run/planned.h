@@ -40,8 +40,8 @@ struct PlannedFaces {
 /// \return nothing if there is no plan, if it changed since `write_plan`, or if it belongs to
 ///         another job; for the whole crowd also if one of the other files changed.
 /// \throws InvalidInput if a line is not a valid plan entry.
-std::optional<PlannedFaces> planned_faces(const Job& job, const CrowdDirectory& directory,
-                                          const Shard& shard);
+std::optional<PlannedFaces> read_planned_faces(const Job& job, const CrowdDirectory& directory,
+                                               const Shard& shard);
 
 /// The founders of families recorded in the folder; empty if it has no such file.
 std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& directory);
@@ -49,7 +49,8 @@ std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& direct
 /// Restores the result of casting from a plan. The result has everything that later stages need,
 /// but not the distances, rejections and family reports, which are stored in casting.json.
 /// \param cache  see casting_space
-CrowdPlan cast_as_planned(const Job& job, const CrowdDirectory& directory, const Prepared& prepared,
-                          std::vector<FacePlan> crowd, const std::filesystem::path& cache);
+CrowdPlan restore_crowd_plan(const Job& job, const CrowdDirectory& directory,
+                             const Prepared& prepared, std::vector<FacePlan> crowd,
+                             const std::filesystem::path& cache);
 
 }  // namespace crowdface

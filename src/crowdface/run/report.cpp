@@ -149,7 +149,7 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   if (neck_colour != nullptr) {
     const Eigen::Array3d& light = *neck_colour;
     face["neck"] = {{"linear", {rounded(light[0]), rounded(light[1]), rounded(light[2])}},
-                    {"srgb", hex_of_light(light)}};
+                    {"srgb", srgb_hex(light)}};
   }
   return face;
 }
@@ -162,9 +162,9 @@ Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results)
     std::size_t faces = 0;
     Index most = 0;
     for (const FaceResult& face : results) {
-      if (s >= face.crossing.size() || face.crossing[s] == 0) continue;
+      if (s >= face.skin_intersections.size() || face.skin_intersections[s] == 0) continue;
       ++faces;
-      most = std::max(most, face.crossing[s]);
+      most = std::max(most, face.skin_intersections[s]);
     }
     shapes[set.shapes[s].name] = {{"faces_with_crossing_skin", faces},
                                   {"most_crossing_triangles", most}};
@@ -218,7 +218,7 @@ Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_pl
   if (job.inputs.neck) report["neck"] = neck_to_json(job);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
-  for (const auto& [name, digest] : digests_beside_heads(job.inputs)) {
+  for (const auto& [name, digest] : other_input_digests(job.inputs)) {
     report["inputs"][name] = digest.hex();
   }
   report["distances"] = distances_to_json(casting["distances"]);
@@ -260,7 +260,7 @@ Json read_report_summary(const std::filesystem::path& file) {
   return parse_shallow_json(concat(whole.substr(0, whole.find(kBeforeFaces)), "\n}"));
 }
 
-std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs) {
+std::vector<std::pair<std::string, Digest>> other_input_digests(const Inputs& inputs) {
   std::vector<std::pair<std::string, Digest>> digests = {
       {"materials", materials_digest(inputs)},
       {"textures", inputs.textures.digest},

@@ -35,7 +35,7 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan
 nlohmann::ordered_json read_report_summary(const std::filesystem::path& file);
 
 /// Hashes of all inputs of the faces except heads and masks, with their keys in report.json.
-std::vector<std::pair<std::string, Digest>> digests_beside_heads(const Inputs& inputs);
+std::vector<std::pair<std::string, Digest>> other_input_digests(const Inputs& inputs);
 
 /// Duration of each stage in seconds, in execution order.
 using StageSeconds = std::vector<std::pair<std::string, double>>;

@@ -23,7 +23,7 @@ FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePla
   parallel_for_each(crowd.size(), [&](std::size_t i) {
     throw_if_interrupted();
     if (!shard.owns(i)) return;
-    if (auto result = ledger.done(crowd[i])) {
+    if (auto result = ledger.recorded_result(crowd[i])) {
       so_far.faces[i] = std::move(*result);
     } else {
       missing[i] = 1;
@@ -31,26 +31,26 @@ FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePla
     if (checked) checked();
   });
   for (std::size_t i = 0; i < crowd.size(); ++i) {
-    if (shard.owns(i)) ++so_far.owned;
-    if (missing[i] != 0) so_far.todo.push_back(i);
+    if (shard.owns(i)) ++so_far.shard_face_count;
+    if (missing[i] != 0) so_far.missing_faces.push_back(i);
   }
   return so_far;
 }
 
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
-                          const std::vector<std::size_t>& todo) {
-  if (todo.empty()) return;
+                          const std::vector<std::size_t>& missing_faces) {
+  if (missing_faces.empty()) return;
   constexpr std::size_t kNamed = 8;
   std::vector<std::string> names;
-  for (const std::size_t i : todo) {
+  for (const std::size_t i : missing_faces) {
     if (names.size() == kNamed) {
       names.emplace_back("…");
       break;
     }
     names.push_back(concat(crowd[i].id, " (number ", i + 1, " of the plan)"));
   }
-  throw MissingInput(concat(directory.root.string(), ": ", todo.size(), " of ", crowd.size(),
-                            " faces are missing or altered: ", join(names),
+  throw MissingInput(concat(directory.root.string(), ": ", missing_faces.size(), " of ",
+                            crowd.size(), " faces are missing or altered: ", join(names),
                             "; run their shards again, or generate without --shard"));
 }
 
@@ -58,7 +58,7 @@ void write_shared_files(const Config& config, const Inputs& inputs, const CrowdD
                         Ledger& ledger) {
   for (const MeshFormat format : config.output.meshes) {
     const auto shared = shared_files(format, config, inputs);
-    if (!shared || ledger.proven(shared->item, shared->key)) continue;
+    if (!shared || ledger.find_proven(shared->item, shared->key)) continue;
     std::vector<std::string> names;
     for (const fs::path& file : shared->write(directory.meshes())) {
       names.push_back(directory.relative(file));
@@ -67,7 +67,7 @@ void write_shared_files(const Config& config, const Inputs& inputs, const CrowdD
   }
 }
 
-std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const Shard& shard) {
+std::vector<fs::path> relevant_ledgers(const CrowdDirectory& directory, const Shard& shard) {
   std::vector<fs::path> ledgers = directory.ledgers();
   if (shard.is_whole_crowd()) return ledgers;
   const std::string same_count = concat("of", shard.count, ".jsonl");
@@ -77,7 +77,7 @@ std::vector<fs::path> ledgers_that_matter(const CrowdDirectory& directory, const
   return ledgers;
 }
 
-void remove_notes_of_shards(const CrowdDirectory& directory) {
+void remove_shard_files(const CrowdDirectory& directory) {
   for (const fs::path& path : directory.all_progress()) remove_if_exists(path);
   remove_if_exists(directory.plan_marker());
 }

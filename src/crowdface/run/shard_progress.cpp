@@ -23,7 +23,7 @@ std::string machine_name() {
 ShardProgress::ShardProgress(std::filesystem::path file, std::size_t faces, std::size_t done)
     : file_(std::move(file)) {
   notes_.faces = faces;
-  notes_.done = done;
+  notes_.finished_faces = done;
   notes_.machine = machine_name();
   write();
 }
@@ -31,8 +31,8 @@ ShardProgress::ShardProgress(std::filesystem::path file, std::size_t faces, std:
 void ShardProgress::step() {
   constexpr std::chrono::seconds kBetween(5);
   const std::lock_guard lock(mutex_);
-  ++notes_.done;
-  ++notes_.made;
+  ++notes_.finished_faces;
+  ++notes_.faces_made;
   if (Clock::now() - written_ >= kBetween) write();
 }
 

@@ -117,8 +117,8 @@ void ScarcityWarning::face_joined(const Rejections& rejected) {
   }
 }
 
-void tell_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall,
-                    const std::vector<std::string>& about_traits) {
+void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall,
+                     const std::vector<std::string>& about_traits) {
   const std::uint64_t rejected = shortfall.rejections.total();
   const std::uint64_t by_main = shortfall.rejections.of(remedy.binding_constraint);
   std::string message = concat(config.file.string(), ": ");

@@ -31,8 +31,8 @@ class ScarcityWarning {
 /// \throws Unsatisfiable; the message names the binding constraint, the number of faces cast, and a
 ///     change that would help.
 /// \param about_traits  if limits on measurements bind: a line for each limit, from trait_advice
-[[noreturn]] void tell_shortfall(const Config& config, const Remedy& remedy,
-                                 const Shortfall& shortfall,
-                                 const std::vector<std::string>& about_traits = {});
+[[noreturn]] void throw_shortfall(const Config& config, const Remedy& remedy,
+                                  const Shortfall& shortfall,
+                                  const std::vector<std::string>& about_traits = {});
 
 }  // namespace crowdface

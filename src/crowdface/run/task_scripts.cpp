@@ -206,7 +206,7 @@ std::string slurm_script(const TaskJob& job, const EngineOptions& options) {
   if (!options.time.empty()) common.push_back("--time=" + options.time);
   if (job.memory > 0)
     common.push_back(concat("--mem=", (job.memory + (1U << 20U) - 1) >> 20U, "M"));
-  common.insert(common.end(), options.more.begin(), options.more.end());
+  common.insert(common.end(), options.extra_arguments.begin(), options.extra_arguments.end());
   std::string script(kHead);
   script += "set -euo pipefail\n";
   script += assign("folder", job.directory.task_folder().string()) + assign("crowd", job.crowd);
@@ -224,21 +224,21 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
   script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
   script += concat(
       "hosts=(", options.hosts.empty() ? "" : "--sshlogin " + shell_word(join(options.hosts, ",")),
-      ")\nmore=(", shell_words(options.more), ")\n");
+      ")\nmore=(", shell_words(options.extra_arguments), ")\n");
   return script + std::string(kParallel);
 }
 
 }  // namespace
 
-std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
-                             std::uint64_t processors) {
+std::uint64_t suitable_shard_count(const Config& config, const Inputs& inputs, std::uint64_t faces,
+                                   std::uint64_t processors) {
   constexpr double kSeconds = 600;
   constexpr std::uint64_t kMax = 1000;  // default limit of Slurm's job arrays
   const double all = face_seconds(config, inputs) * static_cast<double>(faces);
   return tasks_for(all / static_cast<double>(processors), kSeconds, std::min(kMax, faces));
 }
 
-std::uint64_t fitting_prepares(const Inputs& inputs, std::uint64_t processors) {
+std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processors) {
   constexpr double kSeconds = 60, kVertex = 1.1e-5;
   const std::uint64_t heads = inputs.faces.heads.size();
   const double all = kVertex * static_cast<double>(inputs.faces.topology.vertex_count) *
@@ -253,8 +253,8 @@ std::string_view name_of(Engine engine) {
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
                                          const EngineOptions& options) {
   const std::filesystem::path folder = job.directory.task_folder();
-  refuse_folder_elsewhere(job.directory, folder);
-  refuse_folder_elsewhere(job.directory, folder / "log");
+  refuse_link_out_of_crowd(job.directory, folder);
+  refuse_link_out_of_crowd(job.directory, folder / "log");
   make_directories(folder / "log");
   write_file(script_of(job), task_script(job));
   const nlohmann::ordered_json notes = {{"engine", name_of(engine)},

@@ -38,15 +38,15 @@ struct EngineOptions {
   std::string partition, time;       ///< Slurm; empty: the site's default
   std::uint64_t grace_seconds = 60;  ///< time between the termination signal and the time limit
   std::vector<std::string> hosts;    ///< GNU parallel: ssh hosts; empty: this machine
-  std::vector<std::string> more;     ///< further arguments for the engine, passed unchanged
+  std::vector<std::string> extra_arguments;  ///< further arguments for the engine, passed unchanged
 };
 
-/// Returns a number of tasks from measured times (docs/farm.md): a task that makes faces then takes
-/// about ten minutes, a task that prepares heads about one minute.
+/// Return the number of tasks for which, by measured times (docs/farm.md), each task that makes
+/// faces takes about ten minutes, or each task that prepares heads about one minute.
 /// \param faces  number of faces in the crowd
-std::uint64_t fitting_shards(const Config& config, const Inputs& inputs, std::uint64_t faces,
-                             std::uint64_t processors);
-std::uint64_t fitting_prepares(const Inputs& inputs, std::uint64_t processors);
+std::uint64_t suitable_shard_count(const Config& config, const Inputs& inputs, std::uint64_t faces,
+                                   std::uint64_t processors);
+std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processors);
 
 /// Writes `submit/` in the crowd's folder: `task.sh STAGE NUMBER` runs one task on the machine that
 /// starts the script; `submit.sh` hands all tasks to the engine.

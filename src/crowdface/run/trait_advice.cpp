@@ -31,7 +31,7 @@ std::string farthest_heads(const Config& config, const std::vector<double>& of_h
   return join(names);
 }
 
-/// A random face of the group, family or recipe that ran short; its limits are those of this kind.
+/// Samples a face of the group, family or recipe that ran short, with the limits that apply to it.
 FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
                              std::uint32_t attempt) {
   const auto hand = std::ranges::find(casting.recipes, shortfall.recipe, &ManualRecipe::id);
@@ -91,8 +91,8 @@ std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs
     }
     std::vector<double> of_heads;
     for (const Head& head : inputs.faces.heads) {
-      of_heads.push_back(
-          measure(measurement, landmarks.points_on(head.positions, mm_per(config.faces.units))));
+      of_heads.push_back(measure(
+          measurement, landmarks.landmark_positions(head.positions, mm_per(config.faces.units))));
     }
     const double percent = 100.0 * static_cast<double>(drawn.size() - above - below) /
                            static_cast<double>(drawn.size());

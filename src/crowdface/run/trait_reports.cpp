@@ -53,12 +53,12 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
       const auto count = static_cast<double>(sampled.size());
       for (const double value : sampled) mean += value / count;
       for (const double value : sampled) squares += (value - mean) * (value - mean);
-      report.asked = {*target,
-                      mean,
-                      std::sqrt(squares / std::max(count - 1, 1.0)),
+      report.comparison = {*target,
+                           mean,
+                           std::sqrt(squares / std::max(count - 1, 1.0)),
                       kolmogorov_smirnov_distance(*target, sampled),
                       normal_fraction_below(*target, low),
-                      1 - normal_fraction_below(*target, high)};
+                           1 - normal_fraction_below(*target, high)};
     }
     reports.push_back(report);
   }
@@ -69,16 +69,18 @@ std::vector<std::string> population_warnings(const std::vector<TraitReport>& rep
   constexpr double kTooFar = 0.08, kPercent = 100;
   std::vector<std::string> warnings;
   for (const TraitReport& report : reports) {
-    if (!report.asked || report.asked->difference <= kTooFar) continue;
-    const TraitReport::Asked& asked = *report.asked;
+    if (!report.comparison || report.comparison->difference <= kTooFar) continue;
+    const TraitReport::Comparison& comparison = *report.comparison;
     const Measurement& of = measurements()[report.trait];
-    warnings.push_back(concat(
-        "population: ", of.name, " has the mean ", format_trait(of, asked.mean),
-        " and the standard deviation ", format_trait(of, asked.deviation), ", ",
-        format_trait(of, asked.target.mean), " and ", format_trait(of, asked.target.deviation),
-        " were asked for; of the asked distribution, ", format_fixed(kPercent * asked.below, 0),
-        " % lie below and ", format_fixed(kPercent * asked.above, 0),
-        " % above all faces that can be drawn from these heads"));
+    warnings.push_back(concat("population: ", of.name, " has the mean ",
+                              format_trait(of, comparison.mean), " and the standard deviation ",
+                              format_trait(of, comparison.deviation), ", ",
+                              format_trait(of, comparison.target.mean), " and ",
+                              format_trait(of, comparison.target.deviation),
+                              " were asked for; of the asked distribution, ",
+                              format_fixed(kPercent * comparison.below, 0), " % lie below and ",
+                              format_fixed(kPercent * comparison.above, 0),
+                              " % above all faces that can be drawn from these heads"));
   }
   return warnings;
 }

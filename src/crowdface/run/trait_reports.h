@@ -20,12 +20,12 @@ struct TraitReport {
   /// the requested cumulative distribution and the sampled faces' (Kolmogorov and Smirnov).
   /// `below`, `above`: fractions of the requested distribution below and above all values of random
   /// faces.
-  struct Asked {
+  struct Comparison {
     TraitTarget target;
     double mean = 0, deviation = 0;  ///< mean and standard deviation of the sampled faces
     double difference = 0, below = 0, above = 0;
   };
-  std::optional<Asked> asked;
+  std::optional<Comparison> comparison;
 };
 /// \param crowd  measured faces, see measure_faces
 std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,

@@ -49,7 +49,7 @@ struct PrimLook {
 
 PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource& source) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
-  if (has_texture_of_face(source, item)) {
+  if (has_own_texture(source, item)) {
     PrimLook look{std::move(prim), {}, std::move(named.material_of_face)};
     for (const std::string& name : named.names) {
       look.materials.push_back({name, {}});
@@ -103,7 +103,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
       return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets,
                       std::move(fixed));
     }
-    return UsdaPart(prim, here->topology, here->uvs, materials, at_rows(of_face, here->faces),
+    return UsdaPart(prim, here->topology, here->uvs, materials, select_rows(of_face, here->faces),
                     targets, std::move(fixed));
   };
   using Form = MeshWithAttachments<UsdaTemplate, UsdaPart>;

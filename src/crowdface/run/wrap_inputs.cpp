@@ -60,11 +60,11 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
     if (const std::string other = first_difference(inputs.file.topology, head.topology);
         !other.empty()) {
       problems.add(ExitCode::kBadData, concat(path.string(), ": expected the topology of ",
-                                              options.shape, ": ", other));
+                                              options.template_file, ": ", other));
       continue;
     }
     digest.add(hash_file(path).digest);
-    heads.emplace_back(head.positions * inputs.mm);
+    heads.emplace_back(head.positions * inputs.mm_per_unit);
   }
   problems.throw_if_any();
   inputs.model = make_shape_model(heads);
@@ -112,7 +112,7 @@ std::optional<PoseHint> pose_hint(const WrapOptions& options) {
 
 }  // namespace
 
-LengthUnit unit_of(const std::string& option, const std::string& text) {
+LengthUnit parse_unit(const std::string& option, const std::string& text) {
   const auto unit = parse_length_unit(text);
   if (!unit)
     throw UsageError(concat(
@@ -120,7 +120,8 @@ LengthUnit unit_of(const std::string& option, const std::string& text) {
   return *unit;
 }
 
-std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::string>& endings) {
+std::vector<fs::path> list_files_with_extensions(const fs::path& folder,
+                                                 const std::vector<std::string>& endings) {
   std::error_code error;
   std::vector<fs::path> files = list_files(
       folder,
@@ -134,9 +135,9 @@ std::vector<fs::path> files_of(const fs::path& folder, const std::vector<std::st
   return files;
 }
 
-std::vector<fs::path> scans_in(const fs::path& folder) {
+std::vector<fs::path> list_scans(const fs::path& folder) {
   std::vector<std::string> endings(mesh_extensions().begin(), mesh_extensions().end());
-  std::vector<fs::path> scans = files_of(folder, endings);
+  std::vector<fs::path> scans = list_files_with_extensions(folder, endings);
   if (scans.empty()) {
     refuse_file(folder, concat("expected scans (", join(endings), "), found none"));
   }
@@ -153,17 +154,17 @@ std::vector<fs::path> scans_in(const fs::path& folder) {
 
 WrapInputs read_wrap_inputs(const WrapOptions& options) {
   WrapInputs inputs;
-  inputs.file = read_mesh_as_obj(options.shape);
+  inputs.file = read_mesh_as_obj(options.template_file);
   for (const std::string& note : inputs.file.notes) {
-    log_warning(concat(options.shape, ": ", note));
+    log_warning(concat(options.template_file, ": ", note));
   }
   Hasher digest;
-  digest.add(kWrapVersion).add(hash_file(options.shape).digest);
-  const LengthUnit unit =
-      options.units.empty() ? guess_unit(inputs.file.positions) : unit_of("--units", options.units);
-  inputs.mm = mm_per(unit);
+  digest.add(kWrapVersion).add(hash_file(options.template_file).digest);
+  const LengthUnit unit = options.units.empty() ? guess_unit(inputs.file.positions)
+                                                : parse_unit("--units", options.units);
+  inputs.mm_per_unit = mm_per(unit);
   inputs.frame = {axis_of("--up", options.up), axis_of("--front", options.front)};
-  Positions positions = inputs.file.positions * inputs.mm;
+  Positions positions = inputs.file.positions * inputs.mm_per_unit;
   if (!options.model.empty()) read_model(options, inputs, positions, digest);
   inputs.shape =
       make_template(inputs.file.topology, positions,
@@ -177,7 +178,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   if (options.landmarks == kNoLandmarks) {
     digest.add("--landmarks none");
   } else {
-    inputs.proposed = proposed;
+    inputs.detected_landmarks = proposed;
   }
   if (!options.landmarks.empty() && options.landmarks != kNoLandmarks) {
     inputs.landmarks = read_landmarks(
@@ -204,7 +205,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
     }
   }
   inputs.digest = digest.digest();
-  log_info(concat(options.shape, ": ", inputs.shape.skin.vertex_count(), " of ",
+  log_info(concat(options.template_file, ": ", inputs.shape.skin.vertex_count(), " of ",
                   inputs.file.topology.vertex_count,
                   " vertices are skin; assumed unit: ", name_of(unit)));
   return inputs;

@@ -21,9 +21,9 @@ namespace crowdface {
 /// The options of `crowdface wrap`, as the user typed them; `crowdface wrap --help` explains them.
 /// Empty: not given.
 struct WrapOptions {
-  std::string shape;  ///< the template
-  std::string scan;   ///< a scan; `out` is then the head to write
-  std::string batch;  ///< a folder of scans; `out` is then a folder
+  std::string template_file;  ///< the template
+  std::string scan;           ///< a scan; `out` is then the head to write
+  std::string batch;          ///< a folder of scans; `out` is then a folder
   std::string out, landmarks, template_landmarks, model, ignore;
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string texture;  ///< texels per side
@@ -32,13 +32,13 @@ struct WrapOptions {
   Shard shard;          ///< the part of the batch to wrap
 };
 
-/// In place of the file of `--landmarks`: reads no landmarks and detects none.
+/// Value of `--landmarks` with which no landmarks are read or detected.
 inline constexpr const char* kNoLandmarks = "none";
 
 /// The inputs that all scans of a run share.
 struct WrapInputs {
-  ObjFile file;    ///< the template
-  double mm = 10;  ///< millimetres per unit of the template
+  ObjFile file;             ///< the template
+  double mm_per_unit = 10;  ///< millimetres per unit of the template
   HeadFrame frame;
   std::optional<PoseHint> hint;
   WrapTemplate shape;
@@ -46,25 +46,25 @@ struct WrapInputs {
   std::optional<ShapeModel> model;  ///< statistical shape model in the template's topology
   std::size_t model_heads = 0;      ///< number of heads of the shape model
   LandmarkFile landmarks;
-  std::map<std::string, std::uint32_t> proposed;  ///< detected landmarks: name, template vertex
-  std::vector<FaceFeature> features;              ///< features of the template's face
-  int texture_size = 0;                           ///< texels per side of baked textures; 0: none
-  Digest digest;                                  ///< digest of all inputs in this struct
+  std::map<std::string, std::uint32_t> detected_landmarks;  ///< by name: template vertex
+  std::vector<FaceFeature> features;                        ///< features of the template's face
+  int texture_size = 0;  ///< texels per side of baked textures; 0: none
+  Digest digest;         ///< digest of all inputs in this struct
 };
 
 /// \throws Error that names the faulty file or option.
 WrapInputs read_wrap_inputs(const WrapOptions& options);
 
 /// Parses a length unit. \throws UsageError naming the option.
-LengthUnit unit_of(const std::string& option, const std::string& text);
+LengthUnit parse_unit(const std::string& option, const std::string& text);
 
 /// Lists the files in a folder with one of these extensions, sorted by name.
 /// \param endings  lower-case extensions, such as ".obj". \throws MissingInput.
-std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
-                                            const std::vector<std::string>& endings);
+std::vector<std::filesystem::path> list_files_with_extensions(
+    const std::filesystem::path& folder, const std::vector<std::string>& endings);
 
 /// Lists the scans in a folder, sorted by name. \throws MissingInput; UsageError if two scans would
 /// give heads with the same name; InvalidInput if there are none.
-std::vector<std::filesystem::path> scans_in(const std::filesystem::path& folder);
+std::vector<std::filesystem::path> list_scans(const std::filesystem::path& folder);
 
 }  // namespace crowdface

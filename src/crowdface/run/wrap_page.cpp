@@ -14,7 +14,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::string_view kHead = R"(<!doctype html>
+constexpr std::string_view kPageHead = R"(<!doctype html>
 <html lang="en">
 <meta charset="utf-8">
 <title>Wrapped scans</title>
@@ -106,7 +106,7 @@ std::string wrap_page(const std::vector<WrappedScan>& scans) {
   std::vector<ScanRow> rows;
   for (const WrappedScan& scan : scans) rows.push_back(row_of(scan));
   std::ranges::sort(rows, {}, &ScanRow::key);
-  std::string page(kHead);
+  std::string page(kPageHead);
   for (const ScanRow& row : rows) {
     page += concat("<section>\n<h2>", escaped(row.name), "</h2>\n<p>");
     if (!row.has_head) page += "No head. ";

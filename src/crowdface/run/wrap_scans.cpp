@@ -57,7 +57,7 @@ std::vector<Task> tasks_without_textures(const WrapOptions& options) {
     return {make_task(options.scan, head, head.parent_path())};
   }
   std::vector<Task> tasks;
-  for (const fs::path& scan : scans_in(options.batch)) {
+  for (const fs::path& scan : list_scans(options.batch)) {
     tasks.push_back(make_task(scan, fs::path(options.out) / concat(scan.stem().string(), ".obj"),
                               fs::path(options.out) / "reports"));
   }
@@ -84,7 +84,7 @@ std::vector<Task> tasks_of(const WrapOptions& options, const LandmarkFile& given
 }
 
 void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<Task>& tasks) {
-  std::vector<fs::path> inputs = {options.shape, options.ignore};
+  std::vector<fs::path> inputs = {options.template_file, options.ignore};
   if (options.landmarks != kNoLandmarks) inputs.emplace_back(options.landmarks);
   if (!options.model.empty()) {
     for (fs::path& head : list_heads(options.model)) inputs.push_back(std::move(head));
@@ -154,7 +154,8 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
                     name_of(orientation.front), " with ", name_of(orientation.up), " up"));
   }
   std::vector<std::string> found;
-  for (WrapLandmark& landmark : find_landmarks(shared.shape, shared.proposed, scan, *hint)) {
+  for (WrapLandmark& landmark :
+       find_landmarks(shared.shape, shared.detected_landmarks, scan, *hint)) {
     if (std::ranges::any_of(landmarks, [&](const auto& l) { return l.name == landmark.name; })) {
       continue;
     }
@@ -173,7 +174,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
 double output_scale(const WrapOptions& options, const Similarity& pose) {
   if (options.scan_units.empty()) return 1;
   const auto scale_in = [&](const std::string& unit) {
-    return pose.scale * mm_per(unit_of("--scan-units", unit));
+    return pose.scale * mm_per(parse_unit("--scan-units", unit));
   };
   const auto fits = [](double scale) {
     constexpr double kMax = 1.5;
@@ -192,8 +193,8 @@ double output_scale(const WrapOptions& options, const Similarity& pose) {
 
 /// Leave-one-out check: returns the distance of each landmark from the position that the other
 /// landmarks predict; empty for fewer than five landmarks.
-std::map<std::string, double> left_out(const WrapInputs& shared,
-                                       const std::vector<WrapLandmark>& landmarks) {
+std::map<std::string, double> leave_one_out_distances(const WrapInputs& shared,
+                                                      const std::vector<WrapLandmark>& landmarks) {
   constexpr std::size_t kMin = 5;
   std::map<std::string, double> result;
   std::vector<PickedLandmark> picked;
@@ -254,8 +255,12 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   const double scale = output_scale(options, result.pose);
   const std::vector<std::string> warnings =
       wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);
-  WrapFacts facts{options.shape, task.scan.string(),         inputs.hex(), {},
-                  scale,         left_out(shared, landmarks)};
+  WrapFacts facts{options.template_file,
+                  task.scan.string(),
+                  inputs.hex(),
+                  {},
+                  scale,
+                  leave_one_out_distances(shared, landmarks)};
   if (!options.no_pictures) {
     write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
                                           task.scan.filename().string()));
@@ -265,9 +270,9 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
                format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
     throw InvalidInput(concat(task.scan.string(), ": --strict: ", join(doubts, "; ")));
   }
-  EncodedFile head =
-      encode_obj_like(shared.file, shared.file.topology,
-                      Positions(result.positions * (scale / shared.mm)), task.head.string());
+  EncodedFile head = encode_obj_like(shared.file, shared.file.topology,
+                                     Positions(result.positions * (scale / shared.mm_per_unit)),
+                                     task.head.string());
   if (textures != nullptr) {
     const ScanColours colours(std::move(mesh), task.scan);
     for (const std::string& warning : colours.warnings()) log_warning(warning);

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 /// Name of the material of templates whose polygons have none.
 constexpr const char* kSkinMaterial = "skin";
 
-/// "anna.colour.png", or with its part and tile "anna.colour.PART.1001.png".
+/// Returns the file name of a map: "anna.colour.png", or with part and tile
+/// "anna.colour.PART.1001.png".
 std::string map_name(const std::string& head, std::string_view kind, const PictureName& picture,
                      std::string_view tile) {
   return concat(head, '.', kind, picture.part.empty() ? "" : ".", picture.part,

@@ -52,7 +52,7 @@ void write_face(const Job& job, const FaceTextures& textures, const FacePlan& fa
   if (shared && shared->is_named) shared->write(folder);
   const std::vector<FaceFile> files = mesh_files(
       job.config, job.inputs, face,
-      {.formats = formats, .folder = folder, .stem = file.stem().string(), .all = false});
+      {.formats = formats, .folder = folder, .stem = file.stem().string(), .all_variants = false});
   for (const FaceFile& one : files) make_directories(one.path.parent_path());
   write_files_of(finished, files);
 }

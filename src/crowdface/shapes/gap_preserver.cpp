@@ -15,10 +15,10 @@ constexpr double kMaxChange = 1e-3;
 
 }  // namespace
 
-GapPreserver::GapPreserver(const HeadSet& faces, const Adjacency& adjacency,
+GapPreserver::GapPreserver(const HeadSet& head_set, const Adjacency& adjacency,
                            std::span<const std::uint32_t> skin)
-    : contacts_(faces, adjacency, skin),
-      max_gap_change_(kMaxChange * extent_of(faces.heads.front().positions, skin)) {}
+    : contacts_(head_set, adjacency, skin),
+      max_gap_change_(kMaxChange * extent_of(head_set.heads.front().positions, skin)) {}
 
 bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const {
   for (std::size_t p = 0; p < contacts_.size(); ++p) {

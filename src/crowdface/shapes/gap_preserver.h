@@ -15,7 +15,7 @@ namespace crowdface {
 class GapPreserver {
  public:
   /// \param skin  Vertices of the skin, ascending.
-  GapPreserver(const HeadSet& faces, const Adjacency& adjacency,
+  GapPreserver(const HeadSet& head_set, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
   /// Returns whether a shape that moves these vertices (ascending) moves skin that nearly touches

@@ -278,10 +278,11 @@ void CarriedShape::follow_lids(const Positions& carried) {
 
 }  // namespace
 
-ShapeTransfer::ShapeTransfer(const HeadSet& faces, const Adjacency& adjacency,
+ShapeTransfer::ShapeTransfer(const HeadSet& head_set, const Adjacency& adjacency,
                              const PartList& parts, const HeadAxes& axes, const ShapeSet& shapes,
                              const RegionWeights& regions)
-    : prepared_(std::make_unique<PreparedShapes>(faces, adjacency, parts, axes, shapes, regions)) {}
+    : prepared_(
+          std::make_unique<PreparedShapes>(head_set, adjacency, parts, axes, shapes, regions)) {}
 
 ShapeTransfer::~ShapeTransfer() = default;
 

@@ -32,11 +32,11 @@ struct PreparedShapes;
 /// contains only vertices that the shape moves.
 class ShapeTransfer {
  public:
-  /// \param faces    At least one head; must outlive this object.
+  /// \param head_set    At least one head; must outlive this object.
   /// \param parts    If there are no parts, everything is skin.
   /// \param shapes   Must outlive this object.
   /// \param regions  Region weights α, #V by #regions; needed if each head has its own shapes.
-  ShapeTransfer(const HeadSet& faces, const Adjacency& adjacency, const PartList& parts,
+  ShapeTransfer(const HeadSet& head_set, const Adjacency& adjacency, const PartList& parts,
                 const HeadAxes& axes, const ShapeSet& shapes, const RegionWeights& regions = {});
   ~ShapeTransfer();
 
