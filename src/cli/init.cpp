@@ -163,7 +163,7 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
   try {
     const Orientation orientation = analysis.orientation.value_or(Orientation{{1, 1}, {2, 1}});
     analysis.masks = propose_masks(*set, mean, orientation, parse_bands("brow,nose,mouth"),
-                               mask_texels(set->topology.vertex_count));
+                                   mask_texels(set->topology.vertex_count));
   } catch (const InvalidInput& error) {
     log_warning(concat("no regions: ", error.what()));
   }

@@ -126,9 +126,10 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
     if (meshes[c] == nullptr) continue;
     pictures.insert(cut.curly);
     add_mesh(cut.name, meshes[c], picture_name(cut.curly));
-    section += item_line(cut.name, "hair",
-                         concat("tags: [", cut.female ? "female" : "male", ", ",
-                                form_tag(cut.curly, cut.has_bald_crown), "]", age_condition(cut), ", tint: hair"));
+    section += item_line(
+        cut.name, "hair",
+        concat("tags: [", cut.female ? "female" : "male", ", ",
+               form_tag(cut.curly, cut.has_bald_crown), "]", age_condition(cut), ", tint: hair"));
   }
   for (const bool curly : pictures) {
     files.push_back({folder / "textures" / picture_name(curly), [curly] {

@@ -180,7 +180,7 @@ Positions FittedSkin::normals(const Positions& face) const {
 }
 
 NearestSkinPoint FittedSkin::nearest_skin(const Positions& face, const Positions& normals,
-                                     std::uint32_t start, const Eigen::Vector3d& point) const {
+                                          std::uint32_t start, const Eigen::Vector3d& point) const {
   const SurfacePoint place = nearest_point_from(
       topology_, vertex_faces_, face,
       walk_to_nearest_vertex(topology_, vertex_faces_, face, start, point), point);

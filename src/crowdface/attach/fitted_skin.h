@@ -66,8 +66,8 @@ class FittedSkin {
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from `normals`.
   /// \param start    A vertex of the skin near the point.
-  NearestSkinPoint nearest_skin(const Positions& face, const Positions& normals, std::uint32_t start,
-                           const Eigen::Vector3d& point) const;
+  NearestSkinPoint nearest_skin(const Positions& face, const Positions& normals,
+                                std::uint32_t start, const Eigen::Vector3d& point) const;
 
  private:
   /// A level of detail of the skin: one vertex in each occupied cell of a grid.

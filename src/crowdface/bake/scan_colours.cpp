@@ -71,8 +71,8 @@ std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
 
 }  // namespace
 
-MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind, const Topology& topology,
-                        const TextureCoordinates& uvs) {
+MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
+                        const Topology& topology, const TextureCoordinates& uvs) {
   MeshMaps maps;
   maps.texture_of_face = textures.of_face;
   if (textures.files.empty()) return maps;

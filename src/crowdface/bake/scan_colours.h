@@ -27,8 +27,8 @@ struct MeshMaps {
 
 /// Reads texture files, and marks the texels that the polygons cover.
 /// \throws InvalidInput naming a damaged file.
-MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind, const Topology& topology,
-                        const TextureCoordinates& uvs);
+MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
+                        const Topology& topology, const TextureCoordinates& uvs);
 
 /// A point of a scan, and the parallelogram around it that one texel shows.
 struct ScanArea {

@@ -40,8 +40,8 @@ Columns band_differences(const HeadSet& heads, const std::vector<SmoothedBand>& 
       if (bands[i].is_coarsest) coarser = target.middleRows(begin, end - begin);
       Positions mean = Positions::Zero(end - begin, 3);
       for (const SourceWeight& source : band.weights) {
-        mean += source.weight *
-                positions_of(heads, source.head).middleRows(begin, end - begin);  // C̄_k
+        mean +=
+            source.weight * positions_of(heads, source.head).middleRows(begin, end - begin);  // C̄_k
       }
       mean *= band.extrapolation;
       difference.block(begin, 3 * static_cast<Index>(i), end - begin, 3) = coarser - mean;
@@ -58,9 +58,8 @@ Positions target_positions(const HeadSet& heads, const Recipe& recipe) {
       recipe, [&](Index head) -> const Positions& { return positions_of(heads, head); });
 }
 
-void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter,
-                 const RegionWeights& regions, std::span<const Recipe* const> recipes,
-                 std::span<Positions> results) {
+void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const RegionWeights& regions,
+                 std::span<const Recipe* const> recipes, std::span<Positions> results) {
   std::vector<std::vector<SmoothedBand>> bands;
   std::vector<Columns> differences;
   std::vector<FilterInput<double>> inputs;

@@ -30,8 +30,7 @@ Positions blend_exact(const HeadSet& heads, const ChebyshevFilter& filter,
 /// Blends several faces in one filter pass. The results are bit-identical to blending the faces one
 /// by one.
 /// \param results  receives the positions for each recipe.
-void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter,
-                 const RegionWeights& regions, std::span<const Recipe* const> recipes,
-                 std::span<Positions> results);
+void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const RegionWeights& regions,
+                 std::span<const Recipe* const> recipes, std::span<Positions> results);
 
 }  // namespace crowdface

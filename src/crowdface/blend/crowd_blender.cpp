@@ -57,10 +57,7 @@ class AlignedFloats {
 
 CrowdBlender::CrowdBlender(const HeadSet& heads, std::vector<HeadLevels> levels,
                            FieldPatches patches, const RegionWeights& regions)
-    : heads_(heads),
-      levels_(std::move(levels)),
-      patches_(std::move(patches)),
-      regions_(regions) {
+    : heads_(heads), levels_(std::move(levels)), patches_(std::move(patches)), regions_(regions) {
   const Index vertices = heads.topology.vertex_count;
   require(levels_.size() == heads.heads.size() && patches_.head_count() == levels_.size(),
           "blend: fitted levels of ", levels_.size(), " heads, patches of ", patches_.head_count(),

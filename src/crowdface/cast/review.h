@@ -47,8 +47,8 @@ struct FaceChange {
 
   bool needs_redraw() const { return group || !locked.empty() || !traits.empty(); }
   bool is_empty() const {
-    return !age && !age_step && !variant_of && !needs_redraw() && !attachments && takes_off.empty() &&
-           !hair && colours.empty();
+    return !age && !age_step && !variant_of && !needs_redraw() && !attachments &&
+           takes_off.empty() && !hair && colours.empty();
   }
 };
 

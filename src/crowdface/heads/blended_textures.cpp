@@ -276,8 +276,8 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) of_row[row] = maps.at(needed(h, row, p));
       if (of_row.size() == 1) map = of_row.begin()->second;
       if (of_row.size() > 1) {
-        map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face,
-                      of_row, out_of_memory);
+        map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row,
+                      out_of_memory);
       }
       if (map) continue;
       const PictureName& name = result.names[p];

@@ -88,8 +88,7 @@ RigidMotion motion_of_mirror_image(const RigidMotion& motion, const MirrorPlane&
         multiply3(motion.rotation, directions.mirrored(Eigen::Vector3d::Unit(c)));
     rotation.col(c) = directions.mirrored(moved);
   }
-  return {
-      .rotation = rotation,
+  return {.rotation = rotation,
           .pivot = plane.mirrored(motion.pivot),
           .moved_pivot = plane.mirrored(motion.moved_pivot)};
 }

@@ -243,8 +243,7 @@ void place_heads(const Config& config, Inputs& inputs) {
   warn_of_bent(config, heads, inputs);
   const Vector3d middle = ring_middle(goal.body.rim_positions);
   Positions mean = turned_mean(head_set, heads, middle);
-  Seam seam{
-      rim,
+  Seam seam{rim,
             goal.body.rim_positions,
             {},
             NeckBend(head_set.topology, inputs.adjacency, mean, rim, falloff)};

@@ -137,8 +137,8 @@ struct PartFollower::State {
 
 PartFollower::PartFollower(const HeadSet& heads, const PartList& parts, const HeadAxes& axes,
                            PartShape shape) {
-  auto state = std::make_unique<State>(
-      State{heads, VertexFaces(heads.topology), shape, 0, {}, {}, {}, {}});
+  auto state =
+      std::make_unique<State>(State{heads, VertexFaces(heads.topology), shape, 0, {}, {}, {}, {}});
   for (const ComponentShape& component : parts.shapes) {
     state->extent = std::max(state->extent, component.extent);
   }

@@ -68,9 +68,10 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
     const auto reason = found.missing_reasons.find(landmark.name);
     landmarks.surface_points.push_back(place != found.points.end() ? std::optional(place->second)
                                                                    : std::nullopt);
-    landmarks.missing_reasons.push_back(place != found.points.end()             ? ""
-                                        : reason != found.missing_reasons.end() ? reason->second
-                                                                        : "no face was found");
+    landmarks.missing_reasons.push_back(place != found.points.end() ? ""
+                                        : reason != found.missing_reasons.end()
+                                            ? reason->second
+                                            : "no face was found");
   }
   if (!config.landmarks.empty()) take_from_file(config, inputs.mean, landmarks);
   return landmarks;

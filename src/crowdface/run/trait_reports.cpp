@@ -56,8 +56,8 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
       report.comparison = {*target,
                            mean,
                            std::sqrt(squares / std::max(count - 1, 1.0)),
-                      kolmogorov_smirnov_distance(*target, sampled),
-                      normal_fraction_below(*target, low),
+                           kolmogorov_smirnov_distance(*target, sampled),
+                           normal_fraction_below(*target, low),
                            1 - normal_fraction_below(*target, high)};
     }
     reports.push_back(report);

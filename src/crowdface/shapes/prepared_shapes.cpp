@@ -249,8 +249,8 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
     const Eigen::Vector3d point = row3(shape_set.neutral, v);
     const auto nearest = grid.nearest(point, reach);
     if (nearest.vertex == kNoIndex) continue;
-    const SurfacePoint place =
-        nearest_point_around(faces.topology, vertex_faces, shape_set.neutral, nearest.vertex, point);
+    const SurfacePoint place = nearest_point_around(faces.topology, vertex_faces, shape_set.neutral,
+                                                    nearest.vertex, point);
     LidFollower follower{row, {}, place.shares};
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {

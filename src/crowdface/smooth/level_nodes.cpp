@@ -133,8 +133,7 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   const Spectrum wanted = displacement(level);
   std::vector<double> share;
   share.reserve(directions_.size());
-  for (const Spectrum& direction : directions_)
-    share.push_back(fixed_order_dot(wanted, direction));
+  for (const Spectrum& direction : directions_) share.push_back(fixed_order_dot(wanted, direction));
   for (std::size_t p = choice_order_.size(); p-- > 0;) {
     const double weight = share[p] / triangle_[p][p];
     for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangle_[p][q];

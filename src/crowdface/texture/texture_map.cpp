@@ -114,7 +114,8 @@ std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
 void move_to_disk(TextureMap& map, const std::filesystem::path& folder) {
   const std::string_view bytes(reinterpret_cast<const char*>(map.planes.data()),
                                map.planes.size() * sizeof(Density));
-  map.disk_file = std::make_shared<const MappedFile>(MappedFile::from_temporary_copy(bytes, folder));
+  map.disk_file =
+      std::make_shared<const MappedFile>(MappedFile::from_temporary_copy(bytes, folder));
   map.planes = std::vector<Density>();  // frees the memory, unlike assigning {}
 }
 

@@ -17,8 +17,8 @@ namespace crowdface {
 /// Distances between a landmark of the template and the same landmark of the scan.
 struct LandmarkResidual {
   std::string name;
-  double pose_distance_mm = 0;        ///< distance after the similarity
-  double final_distance_mm = 0;       ///< distance after the wrap
+  double pose_distance_mm = 0;     ///< distance after the similarity
+  double final_distance_mm = 0;    ///< distance after the wrap
   bool is_found_by_shape = false;  ///< see `WrapLandmark::is_found_by_shape`
   /// whether the final distance is far above the other landmarks' distances; then the landmark is
   /// probably misplaced

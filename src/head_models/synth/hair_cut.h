@@ -14,16 +14,16 @@ struct HairCut {
   bool female = false;
   bool curly = false;
   bool has_bald_crown = false;  ///< the crown is bald
-  double receding = 0;      ///< of the hairline, 0 … 1; if above 0, young people do not wear the cut
-  double parting = 0;           ///< x of the parting
-  double sideways = 1;          ///< component of the combing direction away from the parting
-  double back = 0;     ///< component of the combing direction to the back (negative: forward)
-  double length = 5;   ///< length on top
-  double sides = 5;    ///< length above and behind the ears; 0: no hair there
-  double hem = -30;    ///< height y at which hair is cut
-  double fringe = 99;  ///< height y of the fringe over the forehead; 99: no fringe
-  double volume = 1;   ///< factor of the distance from the scalp
-  double wave = 0;     ///< amplitude of waves in the locks
+  double receding = 0;  ///< of the hairline, 0 … 1; if above 0, young people do not wear the cut
+  double parting = 0;   ///< x of the parting
+  double sideways = 1;  ///< component of the combing direction away from the parting
+  double back = 0;      ///< component of the combing direction to the back (negative: forward)
+  double length = 5;    ///< length on top
+  double sides = 5;     ///< length above and behind the ears; 0: no hair there
+  double hem = -30;     ///< height y at which hair is cut
+  double fringe = 99;   ///< height y of the fringe over the forehead; 99: no fringe
+  double volume = 1;    ///< factor of the distance from the scalp
+  double wave = 0;      ///< amplitude of waves in the locks
   /// 1: combed locks; more than 1: that many layers of curls in random directions
   int layers = 1;
   bool is_tied = false;  ///< tied at the back: lies on the head until behind the ears
