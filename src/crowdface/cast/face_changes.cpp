@@ -44,12 +44,15 @@ FaceKind kind_called(const std::optional<std::string>& group, const CastingOptio
 /// Returns the names of the keys that a change has.
 std::vector<std::string> changed_keys(const AppliedChange& applied) {
   const FaceChange& change = applied.change;
-  const std::pair<const char*, bool> keys[] = {
-      {"age", change.age || change.age_step},   {"variant_of", change.variant_of.has_value()},
-      {"group", change.group.has_value()},      {"lock", !change.locked.empty()},
-      {"traits", !change.traits.empty()},       {"wears", change.attachments.has_value()},
-      {"takes_off", !change.takes_off.empty()}, {"hair", change.hair.has_value()},
-      {"colours", !change.colours.empty()}};
+  const std::pair<const char*, bool> keys[] = {{"age", change.age || change.age_step},
+                                               {"variant_of", change.variant_of.has_value()},
+                                               {"group", change.group.has_value()},
+                                               {"lock", !change.locked.empty()},
+                                               {"traits", !change.traits.empty()},
+                                               {"wears", change.attachments.has_value()},
+                                               {"takes_off", !change.removed_attachments.empty()},
+                                               {"hair", change.hair.has_value()},
+                                               {"colours", !change.colours.empty()}};
   std::vector<std::string> names;
   for (const auto& [name, is_there] : keys) {
     if (is_there) names.emplace_back(name);

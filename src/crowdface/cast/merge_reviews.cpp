@@ -94,7 +94,7 @@ class Merging {
     merge("lock", change.id, other.locked, change.locked);
     merge("traits", change.id, other.traits, change.traits);
     merge("wears", change.id, other.attachments, change.attachments);
-    merge("takes_off", change.id, other.takes_off, change.takes_off);
+    merge("takes_off", change.id, other.removed_attachments, change.removed_attachments);
     merge("hair", change.id, other.hair, change.hair);
     merge("colours", change.id, other.colours, change.colours);
   }

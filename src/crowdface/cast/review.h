@@ -41,14 +41,14 @@ struct FaceChange {
   /// nothing.
   std::optional<std::vector<std::string>> attachments;
   /// Kinds and names of attachments that the face does not wear.
-  std::vector<std::string> takes_off;
+  std::vector<std::string> removed_attachments;
   std::optional<std::string> hair;    ///< name of a hair colour
   std::vector<WeightedHead> colours;  ///< heads that lend textures; empty: no change
 
   bool needs_redraw() const { return group || !locked.empty() || !traits.empty(); }
   bool is_empty() const {
     return !age && !age_step && !variant_of && !needs_redraw() && !attachments &&
-           takes_off.empty() && !hair && colours.empty();
+           removed_attachments.empty() && !hair && colours.empty();
   }
 };
 

@@ -83,16 +83,16 @@ void read_takes_off(const YamlNode& node, FaceChange& change, ConfigDraft& draft
                             concat("no attachment or kind is called ", quoted((*words)[i]),
                                    suggestion((*words)[i], known)));
   }
-  change.takes_off = *words;
+  change.removed_attachments = *words;
 }
 
 /// Adds a complaint about each attachment that the face both takes off and wears.
 void check_takes_off(const FaceChange& change, const YamlNode& node, ConfigDraft& draft) {
-  if (!change.wears) return;
+  if (!change.attachments) return;
   for (const Config::Attachment& item : draft.config.attachments.items) {
-    if (!contains(*change.wears, item.name)) continue;
+    if (!contains(*change.attachments, item.name)) continue;
     for (const std::string& word : {item.name, item.kind}) {
-      if (!contains(change.takes_off, word)) continue;
+      if (!contains(change.removed_attachments, word)) continue;
       draft.complaints.add_at(node.find("takes_off")->value,
                               concat(quoted(word), " contradicts wears: [", item.name, ']'));
     }
@@ -160,11 +160,11 @@ const Keys<FaceChange>& change_keys() {
           .with_accepted_values("list of attachments"),
       Key<FaceChange>{"takes_off", read_takes_off,
                       [](const FaceChange& change, const WriteContext& context) {
-                        return change.takes_off.empty()
+                        return change.removed_attachments.empty()
                                    ? ""
-                                   : list(name(), "").write(change.takes_off, context);
+                                   : list(name(), "").write(change.removed_attachments, context);
                       }}
-          .taking("list of kinds or attachments"),
+          .with_accepted_values("list of kinds or attachments"),
       key("hair", &FaceChange::hair, hair_colour()),
       colours_key(&FaceChange::colours),
       Key<FaceChange>{

@@ -79,7 +79,7 @@ class ChangedLooks {
     for (const AppliedChange& applied : changed.changes) {
       const FaceChange& change = applied.change;
       if (change.attachments) replace_attachments(config_, *change.attachments, face);
-      take_off(config_, change.takes_off, face);
+      take_off(config_, change.removed_attachments, face);
       if (!change.colours.empty()) face.recipe.colours = written_weights(change.colours);
       if (change.hair) face.hair = rounded_colour(*hair_colour_named(*change.hair));
     }

@@ -183,7 +183,7 @@ class OverriddenPlan {
       check("variant_of", change.variant_of, later.variant_of);
       check("group", change.group, later.group);
       check("wears", change.attachments, later.attachments);
-      check("takes_off", change.takes_off, later.takes_off);
+      check("takes_off", change.removed_attachments, later.removed_attachments);
       check("hair", change.hair, later.hair);
       check("colours", change.colours, later.colours);
     }

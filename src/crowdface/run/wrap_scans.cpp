@@ -149,7 +149,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   } else {
     if (!face) return landmarks;
     hint = PoseHint{face->axes.up, face->axes.front, face};
-    const Orientation orientation = all_orientations()[face->view];
+    const Orientation orientation = all_orientations()[face->axes_index];
     log_info(concat(task.scan.string(), ": found a face that looks along ",
                     name_of(orientation.front), " with ", name_of(orientation.up), " up"));
   }
@@ -224,7 +224,7 @@ std::string likely_causes(const WrapInputs& shared, const Scan& scan,
   if (!shared.hint) return part;
   const auto face = find_scan_face(scan, std::nullopt);
   if (!face) return part;
-  const Orientation found = all_orientations()[face->view];
+  const Orientation found = all_orientations()[face->axes_index];
   if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
     return part;
   return concat(part, part.empty() ? "; the scan seems to look" : "; or it looks", " along ",
