@@ -183,7 +183,7 @@ void bind_job(py::module_& module) {
                        std::optional<std::string> out, std::vector<std::string> review,
                        bool without_reviews) {
              Source source{std::move(file), std::move(text), {}};
-             source.overrides.set = std::move(set);
+             source.overrides.assignments = std::move(set);
              source.overrides.out = std::move(out);
              source.overrides.review = std::move(review);
              source.overrides.without_reviews = without_reviews;

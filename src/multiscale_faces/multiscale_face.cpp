@@ -114,8 +114,8 @@ void add_displacements(MultiscaleFace& face) {
   face.displacements.clear();
   const SplineLattice& base = face.surfaces[static_cast<std::size_t>(face.base)];
   Columns before = Columns::Zero(grid.rows(), 1);
-  // (u, v) at which each sample's normal meets the surface of the previous level. The search on the
-  // next surface starts there.
+  // (u, v) at which each sample's normal meets the surface of the previous level. The search on this
+  // level's surface starts there.
   TextureCoordinates met = grid;
   std::vector<char> missed(static_cast<std::size_t>(grid.rows()));
   for (std::size_t level = static_cast<std::size_t>(face.base) + 1; level < face.surfaces.size();

@@ -240,10 +240,12 @@ TEST(Tiles, HoldEveryRingTheyNeed) {
     EXPECT_EQ(tile.first, next) << "every row in one tile";
     next += tile.count;
     const auto vertex_of = [&](std::uint32_t local) {
-      return tiling.order[local < tile.count ? tile.first + local : tile.halo[local - tile.count]];
+      return tiling
+          .vertex_of_row[local < tile.count ? tile.first + local : tile.halo[local - tile.count]];
     };
     std::set<std::uint32_t> reached;  // the rows that two more steps can still be computed on
-    for (std::uint32_t r = 0; r < tile.count; ++r) reached.insert(tiling.order[tile.first + r]);
+    for (std::uint32_t r = 0; r < tile.count; ++r)
+      reached.insert(tiling.vertex_of_row[tile.first + r]);
     for (std::size_t ring = 0; ring < 3; ++ring) {
       std::set<std::uint32_t> computed;
       for (std::size_t r = 0; r < tile.run_counts[ring]; ++r) {
@@ -254,7 +256,8 @@ TEST(Tiles, HoldEveryRingTheyNeed) {
           const auto expected = smoothing.neighbours(vertex);
           ASSERT_EQ(run.valence, expected.size());
           for (std::uint32_t n = 0; n < run.valence; ++n) {
-            EXPECT_EQ(vertex_of(tile.rings[run.ring + i * run.valence + n]), expected[n]);
+            EXPECT_EQ(vertex_of(tile.rings[run.first_neighbour + i * run.valence + n]),
+                      expected[n]);
           }
         }
       }

@@ -201,7 +201,7 @@ TEST(ScanFile, LashesOfAHeadWithEyesAreLeftOut) {
   const Part* eye = nullptr;
   for (const Part& part : shape.parts.parts) eye = part.is_eyeball ? &part : eye;
   ASSERT_NE(eye, nullptr);
-  const Eigen::Vector3d centre = shape.parts.shapes[eye->ball].centre / 10;
+  const Eigen::Vector3d centre = shape.parts.shapes[eye->ball_component].centre / 10;
   // A strip of the skin above the eye, a third of a millimetre off it.
   Scan dressed = head;
   std::vector<Triangle> strip;

@@ -43,7 +43,7 @@ class BakeTemplate {
   /// #V: for each vertex of the template, its row in the skin, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
 
-  /// A vertex's picture and its position in this picture.
+  /// The picture into which a vertex is baked, and the vertex's position in it.
   struct PictureVertex {
     std::uint32_t picture = kNoIndex;  ///< kNoIndex: the vertex is in no picture
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();

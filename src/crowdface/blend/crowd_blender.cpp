@@ -106,7 +106,7 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   return {sums.begin(), sums.end()};
 }
 
-/// Faces that are blended together, with the coefficients of all heads' fields for each face.
+/// A batch of faces, with the coefficients of all heads' fields for each face.
 class CrowdBlender::Crowd {
  public:
   Crowd(const CrowdBlender& blender, std::span<const Recipe* const> recipes,

@@ -115,8 +115,8 @@ Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
 ///
 /// - Partition: the target is face 0 and lends its own detail, whether or not it is in `sources`;
 /// the weights sum to one.
-/// - Printed: the target's ω_0 occurs only in the denominator. The result omits ω_0, so the
-///   returned weights sum to less than one.
+/// - Printed (as in the paper): the target's ω_0 occurs only in the denominator and is not
+///   returned, so the returned weights sum to less than one.
 ///
 /// \param anchors      #heads
 /// \param sources      heads that lend detail, ascending.

@@ -234,9 +234,9 @@ class Redrawing {
 
 }  // namespace
 
-void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge, std::size_t number,
-                  CastingResult& cast) {
-  const Review& review = crowd_options.reviews[number];
+void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge,
+                  std::size_t review_index, CastingResult& cast) {
+  const Review& review = crowd_options.reviews[review_index];
   CastingOptions casting = crowd_options;
   casting.diversity.min_distance_mm =
       review.min_distance_mm.value_or(casting.diversity.min_distance_mm);
@@ -262,7 +262,7 @@ void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge, s
     reapply_changes(casting, judge, static_cast<std::size_t>(redraw.face), cast);
   }
   changes.insert(changes.end(), review.changes.begin(), review.changes.end());
-  apply_changes(casting, judge, changes, concat("review ", number + 1), cast);
+  apply_changes(casting, judge, changes, concat("review ", review_index + 1), cast);
 }
 
 }  // namespace crowdface

@@ -15,9 +15,9 @@ namespace crowdface {
 /// - A face may have been redrawn by a change of an earlier review (FaceChange::needs_redraw). A
 ///   rejection of this face that locks parts then counts as a change with these locked parts.
 ///
-/// \param number  index of the review in `crowd_options.reviews`.
+/// \param review_index  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.
-void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge, std::size_t number,
-                  CastingResult& cast);
+void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge,
+                  std::size_t review_index, CastingResult& cast);
 
 }  // namespace crowdface

@@ -25,7 +25,7 @@ class CapacityForecast {
 
  private:
   /// Statistics of the candidates for the faces n + 1 to 2·n, with n = `face_count`.
-  struct FaceRange {
+  struct PlanSection {
     std::uint64_t face_count = 16;
     std::uint64_t too_near = 0;
     double too_near_fractions = 0;  ///< sum over the faces: fraction of candidates too near
@@ -33,7 +33,7 @@ class CapacityForecast {
     double middle_face() const { return 1.5 * static_cast<double>(face_count); }
   };
   std::uint64_t placed_ = 0;
-  FaceRange current_, previous_,
+  PlanSection current_, previous_,
       before_previous_;  ///< current range, and the two complete ranges before it
 };
 

@@ -131,7 +131,7 @@ struct BandDistributions {
   std::string name;  ///< name of the region, and of the band except the first
   std::size_t band = 0;
   RegionSampling sampling;
-  ManualRecipe::Band hand;
+  ManualRecipe::Band manual;
 };
 
 BandDistributions band_draw(const CastingOptions& casting, const SamplingOptions& all,
@@ -145,14 +145,14 @@ BandDistributions band_draw(const CastingOptions& casting, const SamplingOptions
     draw.sampling.extrapolation = own.extrapolation.value_or(draw.sampling.extrapolation);
     if (b > 0) draw.name += concat('/', band.name);
   }
-  if (!region.bands.empty()) draw.hand = region.bands[b];
-  ManualRecipe::Band& hand = draw.hand;
-  if (!hand.position && hand.weights.empty()) {
-    hand.position = region.position;
-    hand.weights = region.weights;
+  if (!region.bands.empty()) draw.manual = region.bands[b];
+  ManualRecipe::Band& manual = draw.manual;
+  if (!manual.position && manual.weights.empty()) {
+    manual.position = region.position;
+    manual.weights = region.weights;
   }
-  if (!hand.smoothness && b == 0) hand.smoothness = region.smoothness;
-  if (!hand.extrapolation) hand.extrapolation = region.extrapolation;
+  if (!manual.smoothness && b == 0) manual.smoothness = region.smoothness;
+  if (!manual.extrapolation) manual.extrapolation = region.extrapolation;
   return draw;
 }
 
@@ -162,7 +162,7 @@ BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Inde
                        const FaceRandom& draws, const BandDistributions& draw) {
   const SamplingOptions& all = *kind.sampling;
   const std::vector<Index>& sources = sources_of(kind, draw.band);
-  const ManualRecipe::Band& hand = draw.hand;
+  const ManualRecipe::Band& manual = draw.manual;
   BandRecipe recipe;
   const auto take = [&](const PlanePoint& position) {
     recipe.position = position;
@@ -173,10 +173,10 @@ BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Inde
     take(
         random_position(casting, draw.sampling.position, sources, target, draws, draw.name, retry));
   };
-  if (!hand.weights.empty()) {
-    recipe.weights = written_weights(hand.weights);
-  } else if (hand.position) {
-    take(*hand.position);
+  if (!manual.weights.empty()) {
+    recipe.weights = written_weights(manual.weights);
+  } else if (manual.position) {
+    take(*manual.position);
   } else {
     take_random(0);
     for (std::uint32_t retry = 1;
@@ -185,21 +185,22 @@ BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Inde
       take_random(retry);
     }
   }
-  draw_smoothness(hand.smoothness.value_or(draw.sampling.smoothness), casting.scale, draws,
+  draw_smoothness(manual.smoothness.value_or(draw.sampling.smoothness), casting.scale, draws,
                   draw.name, recipe);
-  recipe.extrapolation = draws.in(hand.extrapolation.value_or(draw.sampling.extrapolation),
+  recipe.extrapolation = draws.in(manual.extrapolation.value_or(draw.sampling.extrapolation),
                                   "extrapolation", draw.name);
   return recipe;
 }
 
 RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, std::size_t k,
-                         Index target, const FaceRandom& draws, const ManualRecipe::Region& hand) {
+                         Index target, const FaceRandom& draws,
+                         const ManualRecipe::Region& manual) {
   const SamplingOptions& all = *kind.sampling;
   RegionRecipe recipe;
   recipe.finer_bands.resize(band_count(all) - 1);
   for (std::size_t b = 0; b < band_count(all); ++b) {
     band_of(recipe, b) =
-        random_band(casting, kind, target, draws, band_draw(casting, all, k, b, hand));
+        random_band(casting, kind, target, draws, band_draw(casting, all, k, b, manual));
   }
   restore_level_order(recipe);
   return recipe;
@@ -232,30 +233,31 @@ FaceKind kind_of_group(const CastingOptions& casting, std::optional<std::size_t>
   return {&own.sampling, own.sampling.targets, own.name};
 }
 
-FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
                           const FaceRandomKey& key, const FaceKind& kind) {
   const FaceRandom draws(casting.seed, key);
   const SamplingOptions& sampling = *kind.sampling;
   FacePlan face;
-  face.id = hand.id;
+  face.id = manual.id;
   face.group = kind.group;
   face.notes.attempt = key.attempt;
-  require(hand.target || !kind.targets.empty(), "a recipe is drawn on targets, and there is none");
+  require(manual.target || !kind.targets.empty(),
+          "a recipe is drawn on targets, and there is none");
   face.recipe.target =
-      hand.target
-          ? *hand.target
+      manual.target
+          ? *manual.target
           : weighted_choice(kind.targets, draws.unit("target", ""), &WeightedHead::weight).head;
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
     const ManualRecipe::Region& region =
-        k < hand.regions.size() ? hand.regions[k] : ManualRecipe::Region{};
+        k < manual.regions.size() ? manual.regions[k] : ManualRecipe::Region{};
     face.recipe.regions.push_back(draw_region(casting, kind, k, face.recipe.target, draws, region));
   }
-  if (!hand.colours.empty()) face.recipe.colours = written_weights(hand.colours);
-  apply_age(face, draws.in(hand.age.value_or(sampling.age), "age", ""),
+  if (!manual.colours.empty()) face.recipe.colours = written_weights(manual.colours);
+  apply_age(face, draws.in(manual.age.value_or(sampling.age), "age", ""),
             {casting.anchors, casting.tags}, sampling);
-  face.recipe.asymmetry = draws.in(hand.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
-  face.recipe.mirrored = hand.mirrored.value_or(sampling.mirror == Mirroring::kRandom &&
-                                                draws.unit("mirror", "") < 0.5);
+  face.recipe.asymmetry = draws.in(manual.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
+  face.recipe.mirrored = manual.mirrored.value_or(sampling.mirror == Mirroring::kRandom &&
+                                                  draws.unit("mirror", "") < 0.5);
   return face;
 }
 
@@ -268,9 +270,9 @@ FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::ui
   return face;
 }
 
-FacePlan completed_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+FacePlan completed_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
                              std::uint32_t attempt) {
-  return random_face_plan(casting, hand, {0, attempt, concat("recipe/", hand.id)},
+  return random_face_plan(casting, manual, {0, attempt, concat("recipe/", manual.id)},
                           kind_of_group(casting));
 }
 

@@ -76,10 +76,10 @@ struct FaceRandomKey {
   std::string owner = {};
 };
 
-/// Chooses at random everything that `hand` does not specify; for a sampled face, `hand` specifies
+/// Chooses at random everything that `manual` does not specify; for a sampled face, `manual` specifies
 /// nothing. A pure function of its arguments, so a face does not depend on the crowd's size or on
 /// the order of the calls.
-FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
                           const FaceRandomKey& key, const FaceKind& kind);
 
 /// Returns candidate number `attempt` for sampled face number `index`, which counts from 1.
@@ -89,7 +89,7 @@ FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::ui
 /// Completes a hand-written recipe. Random numbers depend on the recipe's id.
 ///
 /// \throws BrokenPrecondition if its weights cannot be normalised.
-FacePlan completed_face_plan(const CastingOptions& casting, const ManualRecipe& hand,
+FacePlan completed_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
                              std::uint32_t attempt = 0);
 
 }  // namespace crowdface

@@ -51,7 +51,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
   compute_head_shapes_and_fields();
   find_directions(bands);
   directions_transposed_ = tables_.directions.transpose();
-  if (heads_.alpha.cols() == 1) return;
+  if (heads_.region_weights.cols() == 1) return;
   find_region_shares();
   find_region_metrics(basis);
 }
@@ -62,14 +62,14 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, Fac
   choose_weighted_samples(weights);
   compute_head_shapes_and_fields();
   directions_transposed_ = tables_.directions.transpose();
-  if (heads_.alpha.cols() > 1) find_region_shares();
+  if (heads_.region_weights.cols() > 1) find_region_shares();
 }
 
 bool FaceSpace::tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
   const std::size_t orientation_count = heads.mirror_images == nullptr ? 1 : 2;
   const FunctionRows rows{static_cast<Index>(orientation_count * heads.heads.size()),
                           tables.levels.cols()};
-  const Index regions = heads.alpha.cols(), rank = tables.directions.rows();
+  const Index regions = heads.region_weights.cols(), rank = tables.directions.rows();
   return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
          tables.functions.rows() == rows.count(regions) &&
          tables.directions.cols() == 3 * tables.functions.cols() &&
@@ -132,7 +132,7 @@ void FaceSpace::write_function(const Value& value, float* row) const {
 ///               each mode's rows are multiplied by its peak.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
-  const Index size = weight_square_roots_.size(), regions = heads_.alpha.cols();
+  const Index size = weight_square_roots_.size(), regions = heads_.region_weights.cols();
   FloatRows functions(rows.count(regions), size);
   for (Index c = 0; c < 3; ++c) {
     write_function([&](Index i) { return heads_.mean(sample_at(i), c); }, functions.row(c).data());
@@ -144,7 +144,7 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
   }
   parallel_for_each(regions * rows.heads, [&](Index kh) {
     const Index k = kh / rows.heads, h = kh % rows.heads;
-    const Columns& alpha = heads_in_orientation_of(h).alpha;
+    const Columns& alpha = heads_in_orientation_of(h).region_weights;
     for (Index r = 0; r < rows.modes; ++r) {
       float* const first = functions.row(rows.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {
@@ -193,7 +193,7 @@ void FaceSpace::compute_head_shapes_and_fields() {
     shapes_.push_back(mean_shape_ + shape_at(rows.of_head(h)));
   }
   const auto levels = static_cast<Index>(heads_.levels.size());
-  const Index fields = heads_.alpha.cols() * rows.heads, size = mean_shape_.size();
+  const Index fields = heads_.region_weights.cols() * rows.heads, size = mean_shape_.size();
   fields_.assign(static_cast<std::size_t>(fields * levels * size), 0.F);
   parallel_for_each(fields, [&](Index kh) {
     for (Index r = 0; r < rows.modes; ++r) {
@@ -326,11 +326,12 @@ double FaceSpace::distance(const Point& a, const Point& b) {
 }
 
 void FaceSpace::find_region_shares() {
-  for (Index k = 0; k < heads_.alpha.cols(); ++k) {
+  for (Index k = 0; k < heads_.region_weights.cols(); ++k) {
     double share = 0;
     for (Index i = 0; i < weight_square_roots_.size(); ++i) {
       share += static_cast<double>(weight_square_roots_[i]) *
-               static_cast<double>(weight_square_roots_[i]) * heads_.alpha(sample_at(i), k);
+               static_cast<double>(weight_square_roots_[i]) *
+               heads_.region_weights(sample_at(i), k);
     }
     region_shares_.push_back(share);
   }
@@ -342,10 +343,10 @@ void FaceSpace::find_region_shares() {
 void FaceSpace::find_region_metrics(const FloatRows& basis) {
   const FloatRows& directions = tables_.directions;
   const Index functions = basis.rows(), rank = directions.rows();
-  for (Index k = 0; k < heads_.alpha.cols(); ++k) {
+  for (Index k = 0; k < heads_.region_weights.cols(); ++k) {
     FloatRows masked = basis;  // its values contain √w_s
     for (Index i = 0; i < basis.cols(); ++i) {
-      const double alpha = heads_.alpha(sample_at(i), k);
+      const double alpha = heads_.region_weights(sample_at(i), k);
       const auto root = static_cast<float>(std::sqrt(std::max(alpha, 0.0)));
       for (Index p = 0; p < functions; ++p) masked(p, i) *= root;
     }

@@ -28,7 +28,7 @@ class PopulationBalance {
   static constexpr std::size_t kBins = 256;
   struct Trait {
     TraitTarget target;
-    /// number of faces up to each bin minus the requested number
+    /// for each bin: the number of faces in this and all lower bins, minus the number requested
     std::vector<double> excess;
     /// for each bin: the sum of the squared differences if a face in this bin joins the crowd
     std::vector<double> squared_differences;

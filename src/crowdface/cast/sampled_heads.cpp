@@ -13,10 +13,10 @@ namespace {
 
 void find_stretches(SampledHeads& sampled) {
   constexpr Index kGap = 8;  // bridge short gaps, which cost less than another range
-  for (Index k = 0; k < sampled.alpha.cols(); ++k) {
+  for (Index k = 0; k < sampled.region_weights.cols(); ++k) {
     auto& sample_ranges = sampled.sample_ranges.emplace_back();
-    for (Index s = 0; s < sampled.alpha.rows(); ++s) {
-      if (sampled.alpha(s, k) == 0) continue;
+    for (Index s = 0; s < sampled.region_weights.rows(); ++s) {
+      if (sampled.region_weights(s, k) == 0) continue;
       if (sample_ranges.empty() || s > sample_ranges.back().second + kGap)
         sample_ranges.emplace_back(s, s);
       sample_ranges.back().second = s + 1;
@@ -71,7 +71,7 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
     }
     for (const auto& [begin, end] : heads.sample_ranges[k]) {
       for (Index s = begin; s < end; ++s) {
-        const double alpha = heads.alpha(s, static_cast<Index>(k));
+        const double alpha = heads.region_weights(s, static_cast<Index>(k));
         for (Index c = 0; c < 3; ++c) {
           face(s, c) += alpha * static_cast<double>(change[static_cast<std::size_t>(3 * s + c)]);
         }
@@ -105,9 +105,9 @@ SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
   take_samples(
       head_set, samples, [](const Head& head) -> const Positions& { return head.positions; },
       sampled);
-  sampled.alpha.resize(count, regions.alpha.cols());
+  sampled.region_weights.resize(count, regions.alpha.cols());
   for (Index s = 0; s < count; ++s) {
-    sampled.alpha.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
+    sampled.region_weights.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
   }
   find_stretches(sampled);
   return sampled;
@@ -125,7 +125,7 @@ std::shared_ptr<const SampledHeads> sample_mirror_images(
   take_samples(
       head_set, samples, [&](const Head& head) { return mirrored(mirror, head.positions); },
       *images);
-  images->alpha = Columns::Zero(count, regions.alpha.cols());
+  images->region_weights = Columns::Zero(count, regions.alpha.cols());
   images->owned_trajectories.resize(head_set.heads.size());
   for (Trajectory& own : images->owned_trajectories) {
     own.resize(static_cast<Index>(heads.levels.size()), 3 * count);
@@ -134,7 +134,8 @@ std::shared_ptr<const SampledHeads> sample_mirror_images(
   for (Index s = 0; s < count; ++s) {
     const std::uint32_t v = samples[static_cast<std::size_t>(s)];
     for (std::size_t c = 0; c < 3; ++c) {
-      images->alpha.row(s) += mirror.shares[v][c] * regions.alpha.row(mirror.corners[v][c]);
+      images->region_weights.row(s) +=
+          mirror.shares[v][c] * regions.alpha.row(mirror.corners[v][c]);
     }
   }
   parallel_for_each(images->owned_trajectories.size(), [&](std::size_t h) {

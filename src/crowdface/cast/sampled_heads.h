@@ -16,7 +16,7 @@ namespace crowdface {
 struct SampledHeads {
   std::vector<Positions> heads;  ///< #S by 3 each, in millimetres
   Positions mean;                ///< #S by 3
-  Columns alpha;                 ///< #S by #regions
+  Columns region_weights;        ///< #S by #regions
   std::span<const Trajectory> trajectories;
   /// For each region, the ranges of samples [begin, end) with nonzero weight. Regions are patches,
   /// and samples are ordered along a curve, so there are few ranges.

@@ -19,7 +19,7 @@ Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64
   };
   Recipe recipe;
   recipe.target = head_at(draw("training/target", 0)[0]);
-  for (Index k = 0; k < heads.alpha.cols(); ++k) {
+  for (Index k = 0; k < heads.region_weights.cols(); ++k) {
     RegionRecipe region;
     region.finer_bands.resize(bands - 1);
     auto most = static_cast<double>(heads.levels.back());

@@ -17,10 +17,10 @@ namespace crowdface {
 /// The context in which values are written as YAML.
 struct WriteContext {
   /// The keys to write: all keys, or the keys that face_settings or plan_settings needs.
-  enum class Part { kAll, kFaces, kPlan };
+  enum class WrittenKeys { kAll, kFaces, kPlan };
   const Config& config;
   std::filesystem::path folder;  ///< absolute; written paths are relative to this folder
-  Part part = Part::kAll;
+  WrittenKeys written_keys = WrittenKeys::kAll;
 
   /// Returns the head's name as a YAML scalar.
   std::string head(Eigen::Index index) const;

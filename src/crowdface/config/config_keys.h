@@ -124,16 +124,17 @@ bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section
   return node.kind == YamlNode::Kind::kMap;
 }
 
-/// Returns "key: value" for each key of `context.part` whose text is not empty. Unless all keys are
+/// Returns "key: value" for each key of `context.written_keys` whose text is not empty. Unless all keys are
 /// written, skips keys at their default.
 template <class Section>
 std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& section,
                                     const WriteContext& context) {
   std::vector<std::string> entries;
   for (const Key<Section>& key : keys) {
-    const bool is_whole = context.part == WriteContext::Part::kAll;
-    if (context.part == WriteContext::Part::kFaces && !key.affects_face_files) continue;
-    if (context.part == WriteContext::Part::kPlan && !key.affects_recipes) continue;
+    const bool is_whole = context.written_keys == WriteContext::WrittenKeys::kAll;
+    if (context.written_keys == WriteContext::WrittenKeys::kFaces && !key.affects_face_files)
+      continue;
+    if (context.written_keys == WriteContext::WrittenKeys::kPlan && !key.affects_recipes) continue;
     const std::string value = key.write(section, context);
     const bool left_out = !is_whole && value == key.write(Section{}, context);
     if (!value.empty() && !left_out) entries.push_back(entry(key.name, value));

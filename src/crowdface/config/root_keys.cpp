@@ -317,13 +317,14 @@ std::string effective_config(const Config& config, const std::filesystem::path& 
 
 std::string face_settings(const Config& config) {
   return block_map(write_keys(
-      root_keys(), config, {.config = config, .folder = {}, .part = WriteContext::Part::kFaces}));
+      root_keys(), config,
+      {.config = config, .folder = {}, .written_keys = WriteContext::WrittenKeys::kFaces}));
 }
 
 std::string plan_settings(const Config& config, const std::filesystem::path& directory) {
   WriteContext context = {config, std::filesystem::absolute(directory / "").lexically_normal()};
   const std::string changes = changes_key().write(config, context);
-  context.part = WriteContext::Part::kPlan;
+  context.written_keys = WriteContext::WrittenKeys::kPlan;
   return block_map(write_keys(root_keys(), config, context)) + changes;
 }
 

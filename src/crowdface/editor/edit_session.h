@@ -75,8 +75,8 @@ class EditSession {
   /// How much light reaches the preview's vertices on the mean head: the square root of the visible
   /// fraction of the sky, as a BinaryAnswer. Waits for the computation.
   std::string light() const;
-  /// Positions of a head at the preview's vertices, its fields and their functions, as a
-  /// BinaryAnswer.
+  /// A BinaryAnswer with a head's positions at the preview's vertices, the head's fields, and the
+  /// functions of these fields.
   std::string head(Index head) const;
 
   /// The masks for blending; zero at components that are not skin.

@@ -107,11 +107,11 @@ void UsdaMesh::add_shapes(EncodedFile& file, const PrimPaths& place,
   if (shapes_.empty()) return;
   std::vector<std::string> targets;
   for (const std::string& shape : shapes_) {
-    targets.push_back(concat('<', place.face, '/', place.name, '/', shape, '>'));
+    targets.push_back(concat('<', place.face_prim, '/', place.name, '/', shape, '>'));
   }
   file.add(concat("            uniform token[] skel:blendShapes = ", usda_list(tokens_),
                   "\n            rel skel:blendShapeTargets = ", usda_list(targets),
-                  "\n            rel skel:skeleton = <", place.face, "/skeleton>\n"));
+                  "\n            rel skel:skeleton = <", place.face_prim, "/skeleton>\n"));
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
     require_finite(moves[s].moves, moves[s].moves.rows(), what);
     file.add(concat("\n            def BlendShape \"", shapes_[s],

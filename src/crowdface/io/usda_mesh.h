@@ -41,7 +41,7 @@ class UsdaMesh {
 
   /// Paths and names of a prim and its related prims in one layer.
   struct PrimPaths {
-    std::string face;       ///< path of the parent prim, which contains the skeleton
+    std::string face_prim;  ///< path of the parent prim, which contains the skeleton
     std::string name;       ///< name of the Mesh prim
     std::string materials;  ///< path of the prim that contains the materials
   };

@@ -20,7 +20,7 @@ constexpr std::string_view kNotice =
     "<!doctype html><title>crowdface</title><p>This page has not been built: run "
     "scripts/build_gallery.sh, then start crowdface again.";
 
-std::string_view type_of(std::string_view name) {
+std::string_view media_type(std::string_view name) {
   if (name.ends_with(".html")) return "text/html; charset=utf-8";
   if (name.ends_with(".js")) return "text/javascript; charset=utf-8";
   if (name.ends_with(".css")) return "text/css; charset=utf-8";
@@ -82,9 +82,9 @@ std::optional<HttpAnswer> PageFiles::file(std::string_view name) const {
   }
   if (!folder_ || !path_exists(*folder_ / name)) {
     if (name != html) return std::nullopt;
-    return HttpAnswer{.type = std::string(type_of(name)), .bytes = std::string(kNotice)};
+    return HttpAnswer{.type = std::string(media_type(name)), .bytes = std::string(kNotice)};
   }
-  return HttpAnswer{.type = std::string(type_of(name)), .bytes = read_file(*folder_ / name)};
+  return HttpAnswer{.type = std::string(media_type(name)), .bytes = read_file(*folder_ / name)};
 }
 
 HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request) {

@@ -23,14 +23,14 @@ class BinaryAnswer {
   template <class T>
   void add(std::string_view name, std::span<const T> values) {
     static_assert(std::endian::native == std::endian::little);
-    add(name, type_of<T>(), values.size(),
+    add(name, element_type_name<T>(), values.size(),
         {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   }
   std::string bytes() const;
 
  private:
   template <class T>
-  static constexpr std::string_view type_of() {
+  static constexpr std::string_view element_type_name() {
     if constexpr (std::is_same_v<T, float>) return "f32";
     if constexpr (std::is_same_v<T, std::uint32_t>) return "u32";
     if constexpr (std::is_same_v<T, std::int16_t>) return "i16";

@@ -79,7 +79,7 @@ class PickableMesh {
 
   Positions positions_;
   std::vector<Triangle> skin_;
-  /// Triangles of skin, then of others, as quads whose last corner repeats.
+  /// Triangles of the skin, then those of all other parts, as quads whose last corner repeats.
   std::vector<Quad> quads_;
   Positions normals_;
   Eigen::AlignedBox3d box_;  ///< bounding box of the skin

@@ -15,7 +15,7 @@ namespace crowdface {
 struct RegionWeights {
   using Alpha = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Alpha alpha;  ///< #V by #R, not negative, rows sum to one
-  /// Number of needed vertices that faces use but no mask covers; such vertices belong to the last
+  /// Number of vertices that belong to a polygon but that no mask covers. They belong to the last
   /// region.
   Index uncovered_vertices = 0;
 };

@@ -56,7 +56,7 @@ Json asked_to_json(const DiversityOptions& diversity) {
           {"max_weight", diversity.max_weight}};
 }
 
-/// The number of faces in each group, and the distances between them.
+/// The number of faces in each group, and the distances between the faces of a group.
 Json groups_to_json(const std::vector<Group>& groups, const CrowdPlan& crowd_plan) {
   Json json = Json::object();
   for (const Group& group : groups) {

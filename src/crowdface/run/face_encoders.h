@@ -107,7 +107,7 @@ class FaceEncoders {
  private:
   /// Whether files of this format have vertex normals at this level of detail.
   bool needs_normals(MeshFormat format, std::size_t level, Index target) const;
-  /// Vertex normals; at the neck's ring, the normals that all faces share.
+  /// Vertex normals; at the neck's ring, the normals that are equal in the whole crowd.
   Positions normals_of(const Positions& positions) const;
   FaceMesh mesh_on(std::size_t level, FinishedFace& face) const;
 

@@ -24,8 +24,8 @@
 namespace crowdface {
 namespace {
 
-/// Maximum number of faces blended together. Each group reads the fields once. Larger groups lose
-/// more time to memory allocation than they save in reading. Must be a multiple of the number of
+/// Maximum number of faces in one batch of the blender, which reads the fields once for each batch.
+/// Larger batches lose more time to memory allocation than they save in reading. Must be a multiple of the number of
 /// faces that one matrix product handles.
 constexpr std::size_t kMaxAtOnce = 24;
 /// Memory for rendering, per vertex of a face: normals, projected quads, and the gallery's smaller

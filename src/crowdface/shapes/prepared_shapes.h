@@ -63,8 +63,8 @@ std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
 
 /// One shape: the vertices and parts that it moves, and the data for its corrections on a face.
 struct PreparedShape {
-  /// only for a corrective shape: the shape with which it is applied. Lips and intersections are
-  /// corrected in the sum of both shapes.
+  /// only for a corrective shape: the shape with which it is always applied. Lips and intersections
+  /// are repaired after both shapes have been added.
   std::optional<std::size_t> companion;
   std::vector<std::uint32_t>
       vertex_indices;  ///< #rows: indices into PreparedShapes::moved_vertices

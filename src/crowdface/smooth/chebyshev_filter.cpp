@@ -129,13 +129,13 @@ class Recurrence {
 class ProbeRows {
  public:
   ProbeRows(const Tiling& tiling, Probes& probes) : probes_(probes), of_tile_(tiling.tiles.size()) {
-    std::vector<std::size_t> tile_of_row(tiling.order.size());
+    std::vector<std::size_t> tile_of_row(tiling.vertex_of_row.size());
     for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
       const Tile& tile = tiling.tiles[t];
       std::fill_n(tile_of_row.begin() + tile.first, tile.count, t);
     }
     for (std::size_t p = 0; p < probes.vertices.size(); ++p) {
-      const std::uint32_t row = tiling.row[probes.vertices[p]];
+      const std::uint32_t row = tiling.row_of_vertex[probes.vertices[p]];
       const std::size_t tile = tile_of_row[row];
       of_tile_[tile].push_back({p, row - tiling.tiles[tile].first});
     }
@@ -202,7 +202,7 @@ ChebyshevFilter::ChebyshevFilter(const SmoothingOperator& smoothing, const Posit
 
 template <class T>
 std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) const {
-  return rows_in_order<T>(tiling_.order, x, group);
+  return rows_in_order<T>(tiling_.vertex_of_row, x, group);
 }
 
 template <class T>

@@ -38,12 +38,12 @@ class ChebyshevFilter {
   ///                   vertices into tiles; they affect only its speed.
   ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions);
 
-  Index vertex_count() const { return static_cast<Index>(tiling_.order.size()); }
+  Index vertex_count() const { return static_cast<Index>(tiling_.vertex_of_row.size()); }
   OperatorKind kind() const { return kind_; }
   /// #V: the vertex of each row.
-  std::span<const std::uint32_t> vertex_of_row() const { return tiling_.order; }
+  std::span<const std::uint32_t> vertex_of_row() const { return tiling_.vertex_of_row; }
   /// #V: the row of each vertex.
-  std::span<const std::uint32_t> row_of_vertex() const { return tiling_.row; }
+  std::span<const std::uint32_t> row_of_vertex() const { return tiling_.row_of_vertex; }
 
   /// Columns 3·group to 3·group + 2 of x, as rows in the filter's row order.
   template <class T>

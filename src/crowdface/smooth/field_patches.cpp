@@ -102,7 +102,7 @@ class PatchMaker {
     }
   }
 
-  /// Chooses the skeleton by a pivoted Cholesky factorization of the Gram matrix of the vertices.
+  /// Chooses the skeleton, from which all rows are interpolated, by a pivoted Cholesky factorization of the Gram matrix of the vertices.
   /// The pivot is the vertex with the largest error; the remaining diagonal holds the squared error
   /// of each vertex. Stops when all errors are within the tolerance.
   void choose_skeleton(std::span<const std::uint32_t> vertices, std::size_t fields) {

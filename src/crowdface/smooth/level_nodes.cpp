@@ -113,9 +113,9 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
         static_cast<std::size_t>(std::ranges::lower_bound(levels_, level) - levels_.begin()));
     const Spectrum node = displacement(level);
     std::vector<double> row;
-    for (std::size_t q = 0; q <= triangle_.size(); ++q)
+    for (std::size_t q = 0; q <= triangular_factor_.size(); ++q)
       row.push_back(fixed_order_dot(node, directions_[q]));
-    triangle_.push_back(std::move(row));
+    triangular_factor_.push_back(std::move(row));
   }
 }
 
@@ -135,8 +135,8 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   share.reserve(directions_.size());
   for (const Spectrum& direction : directions_) share.push_back(fixed_order_dot(wanted, direction));
   for (std::size_t p = choice_order_.size(); p-- > 0;) {
-    const double weight = share[p] / triangle_[p][p];
-    for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangle_[p][q];
+    const double weight = share[p] / triangular_factor_[p][p];
+    for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangular_factor_[p][q];
     result[choice_order_[p]] = weight;
   }
   return result;

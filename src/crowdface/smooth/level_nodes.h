@@ -41,8 +41,8 @@ class LevelNodes {
   std::vector<std::uint64_t> levels_;
   std::vector<Spectrum> directions_;  ///< orthonormal; one for each node, in the order of choice
   std::vector<std::size_t> choice_order_;  ///< indices into levels_ in the order of choice
-  /// Node p in the order of choice is Σ_q triangle_[p][q] directions_[q].
-  std::vector<std::vector<double>> triangle_;
+  /// Node p in the order of choice is Σ_q triangular_factor_[p][q] directions_[q].
+  std::vector<std::vector<double>> triangular_factor_;
 };
 
 }  // namespace crowdface

@@ -70,11 +70,11 @@ void order_within(const Tile& tile, const SmoothingOperator& smoothing,
 class TileBuilder {
  public:
   TileBuilder(const SmoothingOperator& smoothing, Tiling& tiling)
-      : smoothing_(smoothing), tiling_(tiling), local_(tiling.order.size(), kNowhere) {}
+      : smoothing_(smoothing), tiling_(tiling), local_(tiling.vertex_of_row.size(), kNowhere) {}
 
   void build(Tile& tile) {
-    vertices_.assign(tiling_.order.begin() + tile.first,
-                     tiling_.order.begin() + tile.first + tile.count);
+    vertices_.assign(tiling_.vertex_of_row.begin() + tile.first,
+                     tiling_.vertex_of_row.begin() + tile.first + tile.count);
     number(0);
     std::size_t begin = 0;
     for (int ring = 0; ring < tiling_.ring_count; ++ring) {
@@ -87,7 +87,7 @@ class TileBuilder {
       begin = end;
     }
     for (std::size_t l = tile.count; l < vertices_.size(); ++l) {
-      tile.halo.push_back(tiling_.row[vertices_[l]]);
+      tile.halo.push_back(tiling_.row_of_vertex[vertices_[l]]);
     }
     for (const std::uint32_t v : vertices_) local_[v] = kNowhere;
   }
@@ -173,7 +173,7 @@ Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& posit
   Tiling tiling;
   tiling.ring_count = ring_count;
   if (vertices == 0) return tiling;
-  tiling.order = hilbert_order(positions);
+  tiling.vertex_of_row = hilbert_order(positions);
   const Index tile_count = (vertices + tile_rows - 1) / tile_rows;
   for (Index t = 0; t < tile_count; ++t) {
     Tile tile;
@@ -181,21 +181,21 @@ Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& posit
     tile.count = static_cast<std::uint32_t>(vertices * (t + 1) / tile_count) - tile.first;
     tiling.tiles.push_back(std::move(tile));
   }
-  std::vector<std::uint32_t> tile_of(tiling.order.size());
+  std::vector<std::uint32_t> tile_of(tiling.vertex_of_row.size());
   for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
     const Tile& tile = tiling.tiles[t];
     for (std::uint32_t r = tile.first; r < tile.first + tile.count; ++r) {
-      tile_of[tiling.order[r]] = static_cast<std::uint32_t>(t);
+      tile_of[tiling.vertex_of_row[r]] = static_cast<std::uint32_t>(t);
     }
   }
-  std::vector<bool> seen(tiling.order.size());
+  std::vector<bool> seen(tiling.vertex_of_row.size());
   for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
     order_within(tiling.tiles[t], smoothing, tile_of, static_cast<std::uint32_t>(t), seen,
-                 tiling.order);
+                 tiling.vertex_of_row);
   }
-  tiling.row.resize(tiling.order.size());
-  for (std::size_t r = 0; r < tiling.order.size(); ++r) {
-    tiling.row[tiling.order[r]] = static_cast<std::uint32_t>(r);
+  tiling.row_of_vertex.resize(tiling.vertex_of_row.size());
+  for (std::size_t r = 0; r < tiling.vertex_of_row.size(); ++r) {
+    tiling.row_of_vertex[tiling.vertex_of_row[r]] = static_cast<std::uint32_t>(r);
   }
   constexpr Index kTilesPerTask = 32;  // large tasks, because each allocates an array of #V
   parallel_blocks(tile_count, kTilesPerTask, [&](Index begin, Index end) {

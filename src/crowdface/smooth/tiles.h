@@ -38,8 +38,8 @@ struct Tile {
 /// A mesh cut into tiles. Rows are ordered tile by tile. The cut affects the speed of computations,
 /// not their results.
 struct Tiling {
-  std::vector<std::uint32_t> order;  ///< #V: the vertex of each row
-  std::vector<std::uint32_t> row;    ///< #V: the row of each vertex
+  std::vector<std::uint32_t> vertex_of_row;  ///< #V
+  std::vector<std::uint32_t> row_of_vertex;  ///< #V
   std::vector<Tile> tiles;
   int ring_count = 0;  ///< number of neighbour rings in each tile's halo
 };

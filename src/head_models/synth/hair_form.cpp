@@ -45,8 +45,8 @@ double from_edge(const HairCut& cut, double within) {
   constexpr double kTips = 0.02, kSpan = 0.75;
   const double closed = within + kRim - kFade;
   if (closed <= 0) return kTips + kSpan * std::max(0.0, 1 + closed / kFade);
-  // Farther inside, straight hair shows strands without end; for curls, the coordinate v varies
-  // too, so that curls differ in both directions.
+  // Farther inside, straight hair shows the part of the texture without strand tips; for curls, the
+  // coordinate v varies too, so that curls differ in both directions.
   return kTips + kSpan - (cut.layers > 1 ? 0.25 * triangle_wave(closed / 1.2) : 0);
 }
 
