@@ -164,7 +164,7 @@ TEST_F(Changes, TakeOffKindsAndAttachmentsOfOneFace) {
 // A change replaces earlier changes of the same key only.
 TEST_F(Changes, TakeOffWhatTheConfigPutsOn) {
   ConfigOverrides overrides = with_review("later.yaml", "changes: {mob_0003: {takes_off: [hair]}}");
-  overrides.set = with("{mob_0003: {wears: [braid, round]}}").set;
+  overrides.assignments = with("{mob_0003: {wears: [braid, round]}}").assignments;
   testing::run(folder_, overrides);
   EXPECT_EQ(line("mob_0003").at("attachments"), json({"round"}));
   EXPECT_EQ(line("mob_0003").at("changed"), json({"config: wears", "review 1: takes_off"}));

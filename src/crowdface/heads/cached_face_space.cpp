@@ -22,7 +22,7 @@ void add_heads(Hasher& hasher, const SampledHeads& heads) {
   for (const Positions& head : heads.heads) add_matrix(hasher, head);
   for (const Trajectory& trajectory : heads.trajectories) add_matrix(hasher, trajectory);
   add_matrix(hasher, heads.mean);
-  add_matrix(hasher, heads.alpha);
+  add_matrix(hasher, heads.region_weights);
   hasher.add_array(std::span(heads.levels)).add(heads.mirror_images != nullptr);
   if (heads.mirror_images != nullptr) add_heads(hasher, *heads.mirror_images);
 }
@@ -51,7 +51,7 @@ FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
   if (cache.path.empty()) return FaceSpace(std::move(heads), weights, bands);
   const CacheKey key{"face-space", face_space_digest(heads, weights, bands)};
   FaceSpaceTables room;
-  if (heads.alpha.cols() > 1) room.metrics.resize(static_cast<std::size_t>(heads.alpha.cols()));
+  if (heads.region_weights.cols() > 1) room.metrics.resize(static_cast<std::size_t>(heads.region_weights.cols()));
   auto tables = find_cached(
       cache, key, kFaceSpaceArrays,
       [&](const FaceSpaceTables& found, const CacheEntry&) {

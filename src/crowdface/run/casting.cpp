@@ -64,7 +64,7 @@ CrowdDistances measure_distances(const FaceSpace& space, const Eigen::MatrixXd& 
   if (distances.heads.median > 0) {
     distances.ratio = distances.crowd.median / distances.heads.median;
   }
-  const Index regions = space.sampled_heads().alpha.cols();
+  const Index regions = space.sampled_heads().region_weights.cols();
   for (Index k = 0; regions > 1 && k < regions; ++k) {
     distances.regions.push_back(quartiles(pair_distances(space, k, crowd_plan.points)));
   }
