@@ -340,7 +340,7 @@ TEST_F(WrongHead, SectionsAreCheckedToo) {
               HasSubstr("3:27: faces.files: expected a list"));
   EXPECT_THAT(with_faces("{units: cm, files: [heads/ann.obj]}"), HasSubstr("found 1 files"));
   EXPECT_THAT(with_faces("{units: cm, files: [a.max, b.obj]}"), HasSubstr("ends in .obj"));
-  EXPECT_THAT(with_faces("{units: feet, directory: heads}"),
+  EXPECT_THAT(with_faces("{units: yards, directory: heads}"),
               HasSubstr("3:16: faces.units: expected mm or cm or m or in"));
   EXPECT_THAT(with_faces("{units: cm, directory: heads, up: W}"),
               HasSubstr("3:42: faces.up: expected an axis"));

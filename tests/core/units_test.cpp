@@ -19,10 +19,16 @@ TEST(LengthUnit, MayBeAnyLength) {
   EXPECT_EQ(parse_length_unit("cm"), LengthUnit::kCentimetre);
   EXPECT_EQ(parse_length_unit("243.84 cm"), LengthUnit{2438.4});
   EXPECT_EQ(parse_length_unit("10 mm"), LengthUnit::kCentimetre);
-  for (const char* bad : {"feet", "0 mm", "-1 cm", "1e30 m", ""}) {
+  for (const char* text : {"ft", "foot", "feet", "1 ft", "12 in"}) {
+    const auto unit = parse_length_unit(text);
+    ASSERT_TRUE(unit) << text;
+    EXPECT_NEAR(mm_per(*unit), 304.8, 1e-9) << text;
+  }
+  EXPECT_EQ(name_of(*parse_length_unit("feet")), "ft");
+  for (const char* bad : {"yards", "0 mm", "-1 cm", "1e30 m", ""}) {
     EXPECT_EQ(parse_length_unit(bad), std::nullopt) << bad;
   }
-  for (const char* text : {"mm", "in", "243.84 cm", "0.3 mm"}) {
+  for (const char* text : {"mm", "in", "ft", "243.84 cm", "0.3 mm"}) {
     const LengthUnit unit = *parse_length_unit(text);
     EXPECT_EQ(parse_length_unit(name_of(unit)), unit) << text;
   }

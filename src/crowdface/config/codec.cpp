@@ -170,7 +170,7 @@ Codec<LengthUnit> length_unit() {
         if (!unit) out.expected(node, "mm or cm or m or in, or a length such as \"243.84 cm\"");
         return unit;
       },
-      [](LengthUnit unit) { return name_of(unit); }, "`mm`, `cm`, `m`, `in`, or a length");
+      [](LengthUnit unit) { return name_of(unit); }, "`mm`, `cm`, `m`, `in`, `ft`, or a length");
 }
 
 Codec<double> length(double high_mm) {

@@ -11,11 +11,23 @@ namespace crowdface {
 
 namespace {
 
-constexpr std::array<std::string_view, kLengthUnits.size()> kNames = {"mm", "cm", "m", "in"};
+struct NamedUnit {
+  std::string_view name;
+  LengthUnit unit;
+};
+constexpr LengthUnit kFoot{304.8};
+/// A unit is written with the first of its names.
+constexpr std::array<NamedUnit, 7> kNamedUnits = {{{"mm", LengthUnit::kMillimetre},
+                                                   {"cm", LengthUnit::kCentimetre},
+                                                   {"m", LengthUnit::kMetre},
+                                                   {"in", LengthUnit::kInch},
+                                                   {"ft", kFoot},
+                                                   {"foot", kFoot},
+                                                   {"feet", kFoot}}};
 
 std::optional<LengthUnit> unit_called(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (name == kNames[i]) return kLengthUnits[i];
+  for (const NamedUnit& known : kNamedUnits) {
+    if (name == known.name) return known.unit;
   }
   return std::nullopt;
 }
@@ -23,8 +35,8 @@ std::optional<LengthUnit> unit_called(std::string_view name) {
 }  // namespace
 
 std::string name_of(LengthUnit unit) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (unit == kLengthUnits[i]) return std::string(kNames[i]);
+  for (const NamedUnit& known : kNamedUnits) {
+    if (unit == known.unit) return std::string(known.name);
   }
   return concat(unit.mm, " mm");
 }

@@ -51,7 +51,8 @@ FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
   if (cache.path.empty()) return FaceSpace(std::move(heads), weights, bands);
   const CacheKey key{"face-space", face_space_digest(heads, weights, bands)};
   FaceSpaceTables room;
-  if (heads.region_weights.cols() > 1) room.metrics.resize(static_cast<std::size_t>(heads.region_weights.cols()));
+  if (heads.region_weights.cols() > 1)
+    room.metrics.resize(static_cast<std::size_t>(heads.region_weights.cols()));
   auto tables = find_cached(
       cache, key, kFaceSpaceArrays,
       [&](const FaceSpaceTables& found, const CacheEntry&) {

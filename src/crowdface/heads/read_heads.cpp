@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "crowdface/core/descriptor.h"
@@ -106,17 +107,21 @@ bool is_worth_keeping(const ObjFile& file) {
 /// mirrored if its polygons were flipped although they matched another head's polygons before.
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
-    if (!head || !head->mesh) continue;
-    const auto note = std::ranges::find(head->file.notes, kReversedFacesNote);
-    if (note == head->file.notes.end()) continue;
+    if (!head || !head->mesh || !head->has_reversed_faces) continue;
     Topology as_read = head->mesh->topology;
     reverse_faces(as_read);
     const auto other = std::ranges::find_if(files, [&](const auto& file) {
       return file && file->mesh && first_difference(file->mesh->topology, as_read).empty();
     });
     if (other == files.end()) continue;
-    head->file.notes.erase(note);
+    head->has_reversed_faces = false;
     give_mesh(*head, **other, obj_colours(head->file.file.bytes(), head->file.positions.rows()));
+  }
+}
+
+void note_reversed_faces(std::vector<std::optional<HeadFile>>& files) {
+  for (std::optional<HeadFile>& head : files) {
+    if (head && head->has_reversed_faces) head->file.notes.emplace_back(kReversedFacesNote);
   }
 }
 
@@ -160,8 +165,15 @@ struct HeadReading {
 /// Moves the data that was read to the head and to the head's mesh.
 void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
-  file =
-      shelf.winding() == Winding::kOutward ? with_outward_faces(std::move(read)) : std::move(read);
+  reading.head.has_reversed_faces =
+      shelf.winding() == Winding::kOutward && is_inside_out(read.topology, read.positions);
+  if (reading.head.has_reversed_faces) {
+    // Whether the head was inside out or is mirrored is known only after all heads are read.
+    std::vector<std::string> notes = std::move(read.notes);
+    read = with_outward_faces(std::move(read));
+    read.notes = std::move(notes);
+  }
+  file = std::move(read);
   HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
                 std::exchange(file.corner_normals, {})};
   file.uvs.resize(0, 2);
@@ -320,6 +332,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
     if (error) problems.add(*error);
   }
   restore_mirrored(files);
+  note_reversed_faces(files);
   tell_notes(files);
   return files;
 }
