@@ -45,10 +45,10 @@ SampledHeads sampled_heads(std::uint32_t seed, bool mirrored) {
     sampled.owned_trajectories.push_back(trajectory);
   }
   sampled.trajectories = sampled.owned_trajectories;
-  sampled.alpha = Columns(kSamples, 2);
+  sampled.region_weights = Columns(kSamples, 2);
   for (Index s = 0; s < kSamples; ++s) {
-    sampled.alpha(s, 0) = static_cast<double>(s) / kSamples;
-    sampled.alpha(s, 1) = 1 - sampled.alpha(s, 0);
+    sampled.region_weights(s, 0) = static_cast<double>(s) / kSamples;
+    sampled.region_weights(s, 1) = 1 - sampled.region_weights(s, 0);
   }
   sampled.mm_per_unit = 10;
   if (mirrored)
