@@ -108,7 +108,7 @@ graph() {
           }
         }
       }
-      print "```\n\nAn arrow that others imply is left out."
+      print "```\n\nThe graph leaves out arrows that other arrows imply."
     }'
 }
 

@@ -56,8 +56,9 @@ std::vector<double> below_diagonal(const Eigen::MatrixXd& distances) {
   return values;
 }
 
-CrowdDistances measure_distances(const FaceSpace& space, const Eigen::MatrixXd& head_distances,
-                                 const CastingResult& crowd_plan) {
+CrowdDistances measure_crowd_distances(const FaceSpace& space,
+                                       const Eigen::MatrixXd& head_distances,
+                                       const CastingResult& crowd_plan) {
   CrowdDistances distances;
   distances.heads = quartiles(below_diagonal(head_distances));
   distances.crowd = quartiles(pair_distances(crowd_plan.points));
@@ -258,7 +259,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     crowd.crowd[face].notes.changes = changed.face.notes.changes;
   }
   CrowdPlan result;
-  result.distances = measure_distances(space, head_distances, crowd);
+  result.distances = measure_crowd_distances(space, head_distances, crowd);
   result.families = report_families(config, crowd);
   result.anchors = casting.anchors;
   result.crowd = std::move(crowd.crowd);
