@@ -18,7 +18,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kUvTolerance = 1e-4;
+constexpr double kSameUv = 1e-4;
 
 /// Describes the first corner whose texture coordinates differ; empty if there is none. Compares
 /// coordinates instead of indices, because programs renumber them on export.
@@ -35,7 +35,7 @@ std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found)
           found.topology.corner_uvs.empty() ? kNoIndex : found.topology.corner_uvs[c];
       if (a == kNoIndex && b == kNoIndex) continue;
       if (a != kNoIndex && b != kNoIndex &&
-          (expected.uvs.row(a) - found.uvs.row(b)).cwiseAbs().maxCoeff() <= kUvTolerance) {
+          (expected.uvs.row(a) - found.uvs.row(b)).cwiseAbs().maxCoeff() <= kSameUv) {
         continue;
       }
       return concat("face ", f + 1, ", corner ", c - begin + 1,

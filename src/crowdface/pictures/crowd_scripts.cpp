@@ -15,6 +15,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 #include "crowdface/crowd/face_json.h"
+#include "crowdface/pictures/change_choices.h"
 #include "crowdface/pictures/pictures.h"
 #include "crowdface/traits/measurements.h"
 
