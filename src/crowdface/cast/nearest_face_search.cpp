@@ -22,7 +22,7 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
   for (const PointBlocks* blocks : points) {
     for (Index at = 0; at < blocks->size(); ++at) sources.emplace_back(blocks, at);
   }
-  Columns leading(static_cast<Index>(sources.size()), LeadingBox::kDimensions);
+  Columns leading(static_cast<Index>(sources.size()), LeadingCoordinatesBox::kDimensions);
   std::vector<std::uint32_t> rows(sources.size());
   std::iota(rows.begin(), rows.end(), 0U);
   for (const std::uint32_t row : rows) {
@@ -40,13 +40,13 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
   }
   for (const auto& [begin, end, second] : tree_.nodes) {
     Bounds bounds{{}, points_.number(begin), points_.number(begin)};
-    for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
+    for (std::size_t d = 0; d < LeadingCoordinatesBox::kDimensions; ++d) {
       bounds.box.low[d] = bounds.box.high[d] = points_.value(begin, static_cast<Index>(d));
     }
     for (Index at = begin; at < end; ++at) {
       bounds.min_number = std::min(bounds.min_number, points_.number(at));
       bounds.max_number = std::max(bounds.max_number, points_.number(at));
-      for (std::size_t d = 0; d < LeadingBox::kDimensions; ++d) {
+      for (std::size_t d = 0; d < LeadingCoordinatesBox::kDimensions; ++d) {
         const float value = points_.value(at, static_cast<Index>(d));
         bounds.box.low[d] = std::min(bounds.box.low[d], value);
         bounds.box.high[d] = std::max(bounds.box.high[d], value);

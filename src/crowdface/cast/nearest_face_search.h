@@ -25,7 +25,7 @@ class PointTree {
 
   /// Bounds of the points of a node.
   struct Bounds {
-    LeadingBox box;
+    LeadingCoordinatesBox box;
     Index min_number, max_number;  ///< of the node's points
   };
   /// Visits the blocks of leaves. Visits the child node nearer to the query first.

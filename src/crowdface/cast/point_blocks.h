@@ -26,7 +26,7 @@ struct NearestPoint {
 };
 
 /// Bounding box in the leading coordinates; missing coordinates are zero.
-struct LeadingBox {
+struct LeadingCoordinatesBox {
   static constexpr std::size_t kDimensions = 8;
   std::array<float, kDimensions> low, high;
 

@@ -122,7 +122,7 @@ HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
 }
 
 HttpAnswer EditApi::attachment(const HttpRequest&, const std::string& rest) {
-  auto look = attachments_.look(rest);
+  auto look = attachments_.appearance_json(rest);
   if (!look) return error_answer(404, "there is no such attachment");
   return {200, "application/json", std::move(*look)};
 }

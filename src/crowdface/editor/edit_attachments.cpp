@@ -30,7 +30,7 @@ Json EditAttachments::kinds() const {
   return kinds;
 }
 
-std::optional<std::string> EditAttachments::look(const std::string& name) const {
+std::optional<std::string> EditAttachments::appearance_json(const std::string& name) const {
   const std::size_t plus = std::min(name.find('+'), name.size());
   for (const Attachment& item : job_.inputs.attachments.items) {
     if (item.name != name.substr(0, plus)) continue;

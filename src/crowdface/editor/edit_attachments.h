@@ -30,7 +30,7 @@ class EditAttachments {
   nlohmann::ordered_json kinds() const;
   /// Appearance of an attachment as JSON; nothing if no attachment has this name.
   /// \param name  see AttachmentLook::name.
-  std::optional<std::string> look(const std::string& name) const;
+  std::optional<std::string> appearance_json(const std::string& name) const;
 
   /// The attachments of a face. Nothing while an attachment is being bound to the heads for the
   /// first time, which takes seconds if there are expressions.

@@ -23,11 +23,11 @@ inline double linear_of_srgb(double value) {
 /// Vertex colours in linear light, as GLB and USD store them.
 inline Positions linear_light(const ColourRows& colours) {
   constexpr double kMaxByte = 255;
-  Positions light(colours.rows(), 3);
+  Positions linear(colours.rows(), 3);
   for (Index i = 0; i < colours.size(); ++i) {
-    light.data()[i] = linear_of_srgb(colours.data()[i] / kMaxByte);
+    linear.data()[i] = linear_of_srgb(colours.data()[i] / kMaxByte);
   }
-  return light;
+  return linear;
 }
 
 }  // namespace crowdface
