@@ -11,7 +11,7 @@ const Positions& positions_of(const HeadSet& heads, Index head) {
   return heads.heads[static_cast<std::size_t>(head)].positions;
 }
 
-/// One band of one region.
+/// One band of detail in one region.
 struct SmoothedBand {
   Index region = 0;
   const BandRecipe* band = nullptr;
@@ -28,8 +28,9 @@ std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
   return bands;
 }
 
-/// The differences G_kb of level_shares for all bands of all regions, side by side: #V by 3·#bands.
-/// With one band per region, they are D_k = B − e_k Σ_i ω̂_ki C_i.
+/// Returns the differences G_kb (see level_shares) of all bands of all regions, as adjacent blocks
+/// of columns: #V by 3·#bands. If each region has one band, the differences are D_k = B − e_k Σ_i
+/// ω̂_ki C_i.
 Columns band_differences(const HeadSet& heads, const std::vector<SmoothedBand>& bands,
                          const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));
@@ -74,7 +75,7 @@ void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const Regi
                         {power_series(filter.kind(), bands[f][b].band->iterations)}});
     }
   }
-  // Smooth the band differences of all faces in one filter pass.
+  // Smooth the band differences of all faces together, in one pass of the filter.
   const auto smoothed = filter.run<double>(inputs);
   const auto* of_face = smoothed.data();
   for (std::size_t f = 0; f < recipes.size(); of_face += bands[f].size(), ++f) {

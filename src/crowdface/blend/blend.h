@@ -10,26 +10,30 @@
 
 namespace crowdface {
 
-/// Returns B, #V by 3: the positions of the target, or the weighted mean of the heads of a mixture.
+/// Returns B, #V by 3: the positions of the target or, if the target is a mixture, the weighted
+/// mean of the heads in the mixture.
 Positions target_positions(const HeadSet& heads, const Recipe& recipe);
 
-/// Blends the face of a recipe with exact levels, before mirroring (Eq. 7 in the form below;
-/// level_shares generalises it to several bands). Applies the filter once per band and region. With
-/// C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k C̄_k,
+/// Blends the face of a recipe with exact smoothing levels, before mirroring. Applies the filter
+/// once for each band of each region. The formula is Eq. 7, in the second form below; level_shares
+/// generalises it to several bands. With C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k C̄_k,
 ///
-/// A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ] = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
+///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ]
+///       = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
 ///
-/// The right-hand form keeps a vertex bit-identical to B if the vertex is fixed or if D_k = 0 there
-/// (the target blended with itself). For a mixture, B is the weighted mean of its heads.
-/// \param regions  α, #V by #regions, rows summing to one; the regions of the recipe.
+/// The second form keeps a vertex bit-identical to B if the vertex is fixed or if D_k = 0 there
+/// (when the target is blended with itself). For a mixture, B is the weighted mean of its heads.
+///
+/// \param regions  α, #V by #regions, where rows sum to one; the regions of the recipe.
 /// \return         #V by 3, in the unit of the heads.
 /// \throws BrokenPrecondition if recipe, regions and heads do not fit together.
 Positions blend_exact(const HeadSet& heads, const ChebyshevFilter& filter,
                       const RegionWeights& regions, const Recipe& recipe);
 
-/// Blends several faces in one filter pass. The results are bit-identical to blending the faces one
-/// by one.
-/// \param results  receives the positions for each recipe.
+/// Blends several faces in one pass of the filter. The results have the same bits as if each face
+/// were blended alone.
+///
+/// \param results  receives the positions of the face of each recipe.
 void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const RegionWeights& regions,
                  std::span<const Recipe* const> recipes, std::span<Positions> results);
 

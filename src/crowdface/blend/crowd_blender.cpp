@@ -23,7 +23,7 @@ bool blends_alike(const BandRecipe& a, const BandRecipe& b) {
          a.extrapolation == b.extrapolation;
 }
 
-/// Whether two region recipes give the same result for faces with the same target.
+/// Returns whether two region recipes give the same result for faces that have the same target.
 bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
   if (band_count(a) != band_count(b)) return false;
   for (std::size_t i = 0; i < band_count(a); ++i) {
@@ -32,10 +32,10 @@ bool blends_alike(const RegionRecipe& a, const RegionRecipe& b) {
   return true;
 }
 
-/// A buffer of floats aligned to cache lines.
+/// A buffer of floats whose memory is aligned to cache lines.
 class AlignedFloats {
  public:
-  /// Resizes the buffer; its content becomes unspecified.
+  /// Resizes the buffer. Its content is undefined afterwards.
   float* resize(std::size_t count) {
     lines_.resize(count / kPatchPadding + 1);
     return lines_.front().values;
@@ -88,9 +88,9 @@ void CrowdBlender::find_regions() {
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
   std::vector<double> sums(field_count(), 0.0);
   for (const LevelShares& at : level_shares(recipe, region)) {
-    // A head may be both target and source, or lend detail to adjacent bands. Add its weights
-    // before multiplying by the functions, so that weights that cancel give exactly zero and a
-    // target blended with itself does not change.
+    // A head may be both target and source, or lend detail to adjacent bands. Add up the head's
+    // weights before multiplying by the functions. Then weights that cancel give exactly zero, and
+    // a target that is blended with itself does not change.
     std::vector<double> shares(levels_.size(), 0.0);
     for (const SourceWeight& part : at.shares) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
@@ -106,7 +106,8 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   return {sums.begin(), sums.end()};
 }
 
-/// A batch of faces, with the coefficients of all heads' fields for each face.
+/// A batch of faces that are computed in one pass. For each face, contains the coefficients of all
+/// heads' fields.
 class CrowdBlender::Crowd {
  public:
   Crowd(const CrowdBlender& blender, std::span<const Recipe* const> recipes,
@@ -136,29 +137,33 @@ class CrowdBlender::Crowd {
   const float* coefficients(std::size_t region, std::size_t face) const {
     return coefficients_[region * size() + face].data();
   }
-  /// Whether the field has a non-zero coefficient in any of the kMaxColumns faces from `first` on.
+  /// Returns whether the field has a non-zero coefficient in at least one of kMaxColumns faces,
+  /// beginning with face `first`.
   bool uses(std::size_t region, std::size_t first, std::size_t field) const {
     return used_[region][first / kMaxColumns][field] != 0;
   }
-  /// Whether the field has a non-zero coefficient in any face.
+  /// Returns whether the field has a non-zero coefficient in at least one face.
   bool uses(std::size_t region, std::size_t field) const {
     return used_by_any_face_[region][field] != 0;
   }
-  /// The heads that at least one face has as target or in its mixture.
+  /// The heads that are the target, or part of the target's mixture, of at least one face.
   const std::set<Index>& targets() const { return targets_; }
 
  private:
   std::span<const Recipe* const> recipes_;
   std::span<Positions> results_;
-  /// for each field: whether its coefficient is non-zero
+  /// for each field: whether the field's coefficient is non-zero
   using NonzeroFlags = std::vector<std::uint8_t>;
-  std::vector<std::vector<float>> coefficients_;  ///< #regions by #faces
-  std::vector<std::vector<NonzeroFlags>> used_;   ///< #regions by #faces/kMaxColumns
-  std::vector<NonzeroFlags> used_by_any_face_;    ///< #regions
+  /// #regions by #faces: the coefficients of all fields
+  std::vector<std::vector<float>> coefficients_;
+  /// #regions by #faces/kMaxColumns: which fields are used by each group of kMaxColumns faces
+  std::vector<std::vector<NonzeroFlags>> used_;
+  /// #regions: which fields are used by at least one face
+  std::vector<NonzeroFlags> used_by_any_face_;
   std::set<Index> targets_;
 };
 
-/// Blends all faces patch by patch. Each thread needs its own instance.
+/// Computes all faces of the batch in one patch at a time. Each thread needs its own instance.
 class CrowdBlender::PatchBlender {
  public:
   /// \param blender, crowd  must outlive this object.
@@ -185,7 +190,7 @@ class CrowdBlender::PatchBlender {
   }
 
  private:
-  /// Finds which fields are stored in which rows of the patch, for all heads.
+  /// Finds for each row of the patch which field the row contains, for all heads.
   void find_fields() {
     fields_.clear();
     for (std::size_t h = 0; h < patch_.counts.size(); ++h) {
@@ -194,9 +199,9 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Adds the products to a single face. Multiplies the quantized values directly, for several
-  /// regions at once, because unpacking would take longer than it saves. The coefficients include
-  /// the quantization steps.
+  /// Adds the products of fields and coefficients to a single face. Multiplies the quantized values
+  /// directly, for several regions at once, because unpacking these values would take longer than
+  /// it saves. The coefficients are multiplied by the quantization steps.
   void add_to_single_face() {
     for (std::size_t first = 0; first < regions_.size(); first += kMaxColumns) {
       const auto regions = regions_.subspan(first, std::min(kMaxColumns, regions_.size() - first));
@@ -226,8 +231,8 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Adds the products to several faces. Unpacks the fields once, and multiplies them by the
-  /// coefficients of kMaxColumns faces at a time.
+  /// Adds the products of fields and coefficients to several faces. Unpacks the fields once, then
+  /// multiplies the fields by the coefficients of kMaxColumns faces at a time.
   void add_to_all_faces() {
     float* unpacked = unpacked_values_.resize(blender_.field_count() * patch_.values());
     for (std::size_t row = 0; row < fields_.size(); ++row) {
@@ -256,19 +261,22 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Copies α of a region at the patch's vertices to alpha_.
+  /// Copies α of a region to `alpha_`, at the vertices of the patch.
   void copy_alpha(std::uint32_t region) {
     for (std::size_t i = 0; i < patch_.vertices.size(); ++i) {
       alpha_[i] = static_cast<float>(blender_.regions_.alpha(patch_.vertices[i], region));
     }
   }
 
-  /// Interpolates the sums at the skeleton to all vertices of the patch, multiplies them by α and
-  /// adds them to the faces (Eq. 7).
+  /// Interpolates sums from the skeleton vertices (from which all vertices of the patch are
+  /// interpolated) to all vertices. Multiplies the interpolated sums by α and adds the products to
+  /// the faces (Eq. 7).
+  ///
   /// \param at_skeleton  `count` by values(): x of all skeleton vertices, then y, then z.
   void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
     float* added = vertex_sums_ + first_face * kPatchValues;
-    const auto coordinate = [&](std::size_t i) {  // i-th coordinate of all faces, face by face
+    // pointer to coordinate i, where the coordinates x, y, z of all faces are counted face by face
+    const auto coordinate = [&](std::size_t i) {
       return at_skeleton + i / kCoordinates * patch_.values() + i % kCoordinates * patch_.skeleton;
     };
     for (std::size_t first = 0; first < kCoordinates * count; first += kMaxColumns) {
@@ -292,7 +300,7 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Splits the patch's vertices into runs of consecutive numbers.
+  /// Divides the patch's vertices into runs: ranges of consecutive vertex numbers.
   void find_runs() {
     runs_.clear();
     for (const std::uint32_t v : patch_.vertices) {
@@ -301,7 +309,8 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Prefetches the target positions that `write` reads, so that they load while the products run.
+  /// Prefetches the target positions that `write` reads, so that they are loaded while the products
+  /// are computed.
   void fetch_targets() const {
     constexpr std::size_t kLine = 64 / sizeof(double);
     for (const Index h : crowd_.targets()) {
@@ -315,7 +324,7 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Writes the faces at the patch's vertices: the target's positions plus the sums.
+  /// Writes the faces at the vertices of the patch: the positions of the target plus the sums.
   void write() {
     for (std::size_t face = 0; face < crowd_.size(); ++face) {
       const Recipe& recipe = crowd_.recipe(face);
@@ -345,8 +354,9 @@ class CrowdBlender::PatchBlender {
   std::vector<float> scaled_coefficients_;  ///< coefficients times quantization steps
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
-  float* skeleton_sums_ = nullptr;  ///< kMaxColumns by values(): sums at the skeleton
-  float* vertex_sums_ = nullptr;    ///< #faces by 3 by kPatchVertices: sums at the vertices
+  float* skeleton_sums_ = nullptr;  ///< kMaxColumns by values(): sums at the skeleton vertices
+  /// #faces by 3 by kPatchVertices: sums at all vertices of the patch
+  float* vertex_sums_ = nullptr;
   std::array<const float*, kMaxColumns> columns_{};
   std::array<float*, kMaxColumns> products_{};
   std::array<std::uint32_t, kPatchVertices> all_of_skeleton_{};

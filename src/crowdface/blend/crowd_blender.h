@@ -31,21 +31,24 @@ class CrowdBlender {
  public:
   /// \param heads           must outlive this object.
   /// \param levels          #heads: the fitted levels of each head.
-  /// \param patches         the fields of all heads, compressed.
-  /// \param regions         α, #V by #regions, rows summing to one; must outlive this object.
+  /// \param patches         the compressed fields of all heads.
+  /// \param regions         α, #V by #regions, where rows sum to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
   CrowdBlender(const HeadSet& heads, std::vector<HeadLevels> levels, FieldPatches patches,
                const RegionWeights& regions);
 
-  /// Blends the faces of the recipes, #V by 3 each, in the unit of the heads.
-  /// \param results  receives the positions for each recipe. The function reuses their memory.
+  /// Blends the face of each recipe, #V by 3, in the unit of the heads.
+  ///
+  /// \param results  receives the positions for each recipe. The function reuses the memory of
+  ///                 these matrices.
   /// \throws BrokenPrecondition if a recipe does not fit the heads or the regions.
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions blend(const Recipe& recipe) const;
 
   /// Changes a face that was blended from the recipe `before` into the face of the recipe `after`.
-  /// The result is bit-identical to `blend(after)`. Recomputes only the patches that a changed
-  /// region covers, or all patches if the target changed.
+  /// The result is bit-identical to `blend(after)`. If the target is the same in both recipes,
+  /// recomputes only the patches that a changed region covers; otherwise all patches.
+  ///
   /// \param face  #V by 3, the result of `blend` for `before`.
   void change(const Recipe& before, const Recipe& after, Positions& face) const;
 
@@ -54,14 +57,14 @@ class CrowdBlender {
   class PatchBlender;
 
   void find_regions();
-  /// Returns the regions that have nonzero weight at some vertex of the patch.
+  /// Returns the regions whose weight is nonzero at one or more vertices of the patch.
   std::span<const std::uint32_t> regions_of_patch(std::size_t patch) const {
     return std::span(patch_regions_)
         .subspan(first_region_[patch], first_region_[patch + 1] - first_region_[patch]);
   }
   /// Returns the coefficients Σ_L s_kLh φ_hp(L) of all heads' fields in one region of a face.
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
-  /// Blends the patches for which wanted(patch) is true.
+  /// Blends only those patches for which wanted(patch) is true.
   template <class Wanted>
   void blend_patches(const Wanted& wanted, std::span<const Recipe* const> recipes,
                      std::span<Positions> results) const;
@@ -71,10 +74,11 @@ class CrowdBlender {
   std::vector<HeadLevels> levels_;
   FieldPatches patches_;
   const RegionWeights& regions_;
-  std::vector<std::size_t>
-      first_field_;  ///< #heads + 1: index of each head's first field among the fields of all heads
-  std::vector<std::uint32_t> patch_regions_;  ///< the regions of each patch, concatenated
-  /// #patches + 1: index of each patch's first entry in patch_regions_.
+  /// #heads + 1: for each head, the index of its first field among the fields of all heads
+  std::vector<std::size_t> first_field_;
+  /// the regions of all patches, one patch after the other
+  std::vector<std::uint32_t> patch_regions_;
+  /// #patches + 1: for each patch, the index of its first entry in patch_regions_.
   std::vector<std::size_t> first_region_;
 };
 

@@ -41,9 +41,11 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
   return hn::LoadU(lanes, values);
 }
 
-/// Computes kVectors vectors of each product, starting at element `begin`. All sums stay in
+/// Computes kVectors SIMD vectors of each product, beginning at element `begin`. All sums stay in
 /// registers.
-/// \param alpha  null: stores the products; otherwise adds alpha·products to `products`.
+///
+/// \param alpha  null: stores the products in `products`; otherwise adds alpha·product to
+///               `products`.
 template <std::size_t kOfColumns, std::size_t kVectors, class Number>
 HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* const* columns,
                               const float* alpha, std::size_t begin, float* const* products) {
@@ -117,8 +119,8 @@ void multiply_numbers(const ProductRows<std::int16_t>& rows, const float* const*
   multiply_any(rows, columns, count, alpha, products);
 }
 
-/// Writes whole cache lines with streaming stores, and the partial lines at both ends with ordinary
-/// stores.
+/// Writes one run of vertices. Whole cache lines are written with streaming stores, the partial
+/// lines at both ends with ordinary stores.
 void write_run(const double* base, const float* added, std::size_t count, double* results) {
   const hn::CappedTag<double, 8> lanes;
   const hn::Rebind<float, decltype(lanes)> narrow;

@@ -7,51 +7,55 @@
 
 namespace crowdface {
 
-/// Largest number of columns in a matrix product. The sums for six columns and two vectors of
-/// values just fit into the vector registers.
+/// Largest number of columns in one matrix product. The sums for six columns, in two SIMD vectors
+/// each, just fit into the vector registers.
 inline constexpr std::size_t kMaxColumns = 6;
 
-/// Converts quantized numbers to values: values[i] = numbers[i]·step.
+/// Converts quantized numbers to floats: values[i] = numbers[i]·step.
+///
 /// \param count  a multiple of kPatchPadding.
 void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values);
 
-/// The left matrix of a product: rows of quantized (int16) or unpacked (float) values.
+/// The left matrix of a product. Its rows contain quantized (int16) or unpacked (float) values.
 template <class Number>
 struct ProductRows {
   const Number* values;
-  std::size_t stride;  ///< distance between the starts of consecutive rows, in elements
-  std::size_t width;   ///< elements per row; a multiple of kPatchPadding
+  /// distance from the start of one row to the start of the next row, in elements
+  std::size_t stride;
+  std::size_t width;  ///< number of elements in a row; a multiple of kPatchPadding
   std::span<const std::uint32_t>
-      used_rows;  ///< indices of the rows that enter the sum, in this order
+      used_rows;  ///< indices of the rows that are added up, in this order
 };
 
-/// products[c][i] = Σ_r columns[c][r]·values[r·stride + i] over the used rows, by fused
-/// multiply-add.
-/// \param columns, products  the same number of both, 1 to kMaxColumns.
+/// Computes products[c][i] = Σ_r columns[c][r]·values[r·stride + i] by fused multiply-add. The sum
+/// is over the used rows r.
+///
+/// \param columns, products  1 to kMaxColumns; as many columns as products.
 void multiply(const ProductRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 void multiply(const ProductRows<std::int16_t>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 
-/// sums[c][i] += alpha[i]·products[c][i], with the products of `multiply`.
+/// Computes sums[c][i] += alpha[i]·products[c][i], where `products` are the results of `multiply`.
 void add_product(const ProductRows<float>& rows, std::span<const float* const> columns,
                  const float* alpha, std::span<float* const> sums);
 
-/// A range of consecutive vertices of the mesh.
+/// A range of vertices of the mesh with consecutive numbers.
 struct VertexRun {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
 
 /// Writes results = base + added at the vertices of the runs. Uses streaming stores, which bypass
-/// the caches. A crowd's faces are far larger than the caches, and a cached store would first read
-/// the line that it overwrites. Before another thread may read the results, the writing thread must
-/// call finish_writing().
+/// the caches: a crowd's faces are far larger than the caches, and an ordinary store would first
+/// read the cache line that it overwrites. Before another thread may read the results, the writing
+/// thread must call finish_writing().
+///
 /// \param base, results  #V by 3; may be the same array.
 /// \param added          3 by kPatchVertices: x of all vertices of the runs, then y, then z.
 void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
                 double* results);
-/// Completes the streaming stores of the calling thread.
+/// Waits until the streaming stores of the calling thread are complete.
 void finish_writing();
 
 }  // namespace crowdface

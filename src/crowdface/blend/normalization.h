@@ -3,11 +3,12 @@
 
 namespace crowdface {
 
-/// The two readings of Eq. 3 in the paper, in which one sum starts at i = 1 and the other sum at i
-/// = 0.
+/// Eq. 3 of the paper can be read in two ways, because one of its sums starts at i = 1 and the
+/// other at i = 0.
 enum class Normalization {
-  kPartition,  ///< the target takes part as face 0 with its own detail; the weights sum to one
-  kPrinted,    ///< as printed in the paper: ω_0 occurs only in the denominator
+  /// the target is source number 0 and lends its own detail; all weights together sum to one
+  kPartition,
+  kPrinted,  ///< as printed in the paper: the target's weight ω_0 occurs only in the denominator
 };
 
 }  // namespace crowdface

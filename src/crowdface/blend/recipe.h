@@ -11,70 +11,78 @@
 
 namespace crowdface {
 
-/// A head and its weight in a blend. The weights of the heads that lend detail are the normalised
-/// ω̂.
+/// A head and its weight in a blend. For heads that lend detail, the weights are the normalised
+/// weights ω̂.
 struct SourceWeight {
   Index head = 0;
   double weight = 0;
   bool operator==(const SourceWeight&) const = default;
 };
 
-/// A band of detail: the heads that lend it, its strength, and the level at which it begins. A band
-/// ends where the next finer band begins; the finest band ends at level 0.
+/// A band of detail: the weights of the heads that lend the detail, its strength, and the smoothing
+/// level at which the band begins. A band ends at the level where the next finer band begins; the
+/// finest band ends at level 0.
 struct BandRecipe {
-  /// m_k: the position on the plane from which the weights were computed, if there is one
+  /// m_k: the position on the weight plane from which `weights` were computed; empty if there is
+  /// none
   std::optional<PlanePoint> position;
-  std::vector<SourceWeight> weights;  ///< ω̂_ki, by ascending head, none zero
-  double smoothness = 0;              ///< L_k/L_max
-  std::uint64_t iterations = 0;       ///< L_k
-  double extrapolation = 1;           ///< e_k, the factor of Fig. 6
+  std::vector<SourceWeight> weights;  ///< ω̂_ki, by ascending head; no weight is zero
+  double smoothness = 0;              ///< L_k/L_max, the level as a fraction
+  std::uint64_t iterations = 0;       ///< L_k, the level as a number of smoothing iterations
+  double extrapolation = 1;           ///< e_k, the extrapolation factor of Fig. 6
 };
 
-/// The recipe of one region: its coarsest band (Eq. 7 has only this band) and its finer bands.
+/// The recipe of one region. The base class is the region's coarsest band (the only band in Eq. 7).
 struct RegionRecipe : BandRecipe {
-  std::vector<BandRecipe> finer_bands;  ///< coarse to fine, at non-increasing levels
-  /// The weights of the heads in the region's textures, by ascending head, none zero. If empty, the
-  /// weights of the finest band apply. Unused if the recipe has colours.
+  /// from coarse to fine; the level of each band is at most the level of the band before
+  std::vector<BandRecipe> finer_bands;
+  /// The weights of the heads in the region's textures, by ascending head; no weight is zero. If
+  /// empty, the weights of the finest band are used instead. If Recipe::colours is not empty, these
+  /// weights are unused.
   std::vector<SourceWeight> colours = {};
 };
 
-/// Number of bands of a region, including the coarsest band.
+/// Returns the number of bands of a region, including the coarsest band.
 std::size_t band_count(const RegionRecipe& region);
-/// A band by number; band 0 is the coarsest.
+/// Returns band number `band` of a region; band 0 is the coarsest.
 BandRecipe& band_of(RegionRecipe& region, std::size_t band);
 const BandRecipe& band_of(const RegionRecipe& region, std::size_t band);
 
-/// The parameters of one face. Together with the heads and the regions, a recipe determines the
-/// mesh to the bit.
+/// The parameters of one new face. Together with the heads and the regions, a recipe determines the
+/// face's mesh to the bit.
 struct Recipe {
-  Index target = 0;  ///< the head B, or the head of a mixture whose file and parts the face uses
-  std::vector<RegionRecipe> regions;  ///< one for each mask region
-  /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, none zero, summing to one. If
-  /// empty, B is the target alone. Eq. 2 is linear in B, so its results are also linear in the
-  /// heads of the mixture.
+  /// The head B. If B is a mixture: the head of the mixture whose file and parts the face uses.
+  Index target = 0;
+  std::vector<RegionRecipe> regions;  ///< one recipe for each region of the mask
+  /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, not zero, summing to one. If
+  /// empty, B is the target alone. Eq. 2 is linear in B, so its result is also linear in the heads
+  /// of the mixture.
   std::vector<SourceWeight> mixture = {};
-  /// The weights of the heads in the blended textures: by ascending head, none zero, summing to
-  /// one. If empty, the textures use the weights of the shape.
+  /// The weights of the heads in the blended textures: by ascending head, not zero, summing to one.
+  /// If empty, the textures are blended with the weights of the shape.
   std::vector<SourceWeight> colours = {};
-  /// Factor on the left-right differences of the blended skin: 1 keeps them, 0 makes the skin
-  /// symmetric.
+  /// Factor on the differences between the left and the right half of the blended skin: 1 keeps the
+  /// differences, 0 makes the skin symmetric.
   double asymmetry = 1;
-  bool mirrored = false;  ///< mirrors the whole face including its parts
+  bool mirrored = false;  ///< whether the whole face, including its parts, is mirrored
 };
 
-/// Returns whether the blended face stays unchanged: not mirrored, and with asymmetry 1.
+/// Returns whether neither mirroring nor asymmetry changes the blended face: it is not mirrored,
+/// and its asymmetry is 1.
 bool is_unmirrored(const Recipe& recipe);
-/// Returns the weight of the mirror image in the face, see mirrored_weight(double, bool).
+/// Returns the weight with which the face's mirror image is mixed into the face, see
+/// mirrored_weight(double, bool).
 double mirrored_weight(const Recipe& recipe);
 
-/// A smoothing level of a region, and the weights of the heads that are smoothed to this level; see
-/// level_shares.
+/// A smoothing level of one region, the heads that are smoothed to this level, and the weights of
+/// these heads; see level_shares.
 struct LevelShares {
   std::uint64_t level = 0;
-  std::vector<SourceWeight> shares;  ///< s_h in the order of summation; a head may occur twice
+  /// s_h in the order in which they are summed; a head may occur twice
+  std::vector<SourceWeight> shares;
 };
 
-/// Whether to use the extrapolation factors of the recipe, or the factor 1.
+/// Whether extrapolation factors have the values in the recipe (kAsGiven) or are all 1 (kNone).
 enum class Extrapolation { kAsGiven, kNone };
 
 /// Returns the levels of a region, and the weights of the heads that are smoothed to each level.
@@ -89,17 +97,20 @@ enum class Extrapolation { kAsGiven, kNone };
 std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
                                       Extrapolation extrapolation = Extrapolation::kAsGiven);
 
-/// Returns the weights τ_h of B: the weights of the mixture, or weight 1 for the target alone.
+/// Returns the weights τ_h of the heads in B: the weights of the mixture or, without a mixture,
+/// weight 1 for the target.
 std::vector<SourceWeight> target_shares(const Recipe& recipe);
 
 /// Sets B to a mixture of heads, or to a single head. The target becomes the head with the largest
-/// weight; if several have the largest weight, the first of them.
-/// \param shares  by ascending head, above zero, summing to one.
+/// weight; if several heads have the largest weight, the first of these.
+///
+/// \param shares  weights by ascending head, above zero, summing to one.
 void set_target(Recipe& recipe, std::vector<SourceWeight> shares);
 
 /// Returns B = Σ_h τ_h B_h.
-/// \param head_matrix  head_matrix(h) returns the matrix B_h: positions, or values that are linear
-///                     in the positions.
+///
+/// \param head_matrix  head_matrix(h) returns the matrix B_h. It contains positions, or values that
+///                     are linear in the positions.
 template <class Matrix, class HeadMatrix>
 Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
   Matrix sum = head_matrix(recipe.target);
@@ -111,27 +122,28 @@ Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
   return sum;
 }
 
-/// Returns the weights ω̂ of a position on the plane (Eqs. 3 and 4).
+/// Returns the weights ω̂ that a position on the weight plane gives to the heads (Eqs. 3 and 4). In
+/// these equations, ω_0 is the weight of the target.
 ///
-/// - Partition: the target is face 0 and lends its own detail, whether or not it is in `sources`;
-/// the weights sum to one.
-/// - Printed (as in the paper): the target's ω_0 occurs only in the denominator and is not
-///   returned, so the returned weights sum to less than one.
+/// - Partition: the target lends its own detail like a source, whether or not it is in `sources`;
+///   the returned weights sum to one.
+/// - Printed (as in the paper): ω_0 occurs only in the denominator and is not returned, so the
+///   returned weights sum to less than one.
 ///
 /// \param anchors      #heads
 /// \param sources      heads that lend detail, ascending.
-/// \param max_sources  the number of largest weights that are kept and normalised again; of equal
-///                     weights, the first are kept. ω_0 is always kept and does not count towards
-///                     this number.
+/// \param max_sources  how many of the largest weights to keep (and to normalise again), not
+///                     counting ω_0, which is always kept. Of equal weights, the first are kept.
 std::vector<SourceWeight> weights_at_position(const std::vector<PlanePoint>& anchors, Index target,
                                               const std::vector<Index>& sources,
                                               const PlanePoint& position,
                                               Normalization normalization,
                                               std::optional<int> max_sources);
 
-/// Divides weights by their sum, drops zero weights and sorts by head.
+/// Divides weights by their sum, removes zero weights and sorts by head.
+///
 /// \throws BrokenPrecondition if a weight is negative or not finite, or if the sum is zero or not
-///         finite.
+/// finite.
 std::vector<SourceWeight> normalized_weights(std::vector<SourceWeight> weights);
 
 }  // namespace crowdface

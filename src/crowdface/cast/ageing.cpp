@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Returns the fraction of a band's weights that moves to heads of the age class at this age.
+/// Returns the fraction of a band's weights that apply_age moves to old or young heads, for a face
+/// of this age (−1 … 1).
 double share_of(double age, const SamplingOptions& sampling, std::size_t band) {
   return std::abs(age) * (sampling.bands.empty() ? 1 : sampling.bands[band].ageing);
 }
@@ -23,7 +24,7 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
          contains(one, "male") == contains(other, "male");
 }
 
-/// The heads of one age class, old or young; faces that age get the detail of these heads.
+/// The heads of one age class (old or young). A face that is aged gets the detail of these heads.
 class AgedHeads {
  public:
   AgedHeads(double age, const HeadRelations& all, const SamplingOptions& sampling)
@@ -32,12 +33,13 @@ class AgedHeads {
   }
 
   bool has(Index head) const { return std::ranges::binary_search(heads_, head); }
-  /// Returns the nearest head of the age class. A mean of several heads would have no wrinkles.
+  /// Returns the head of the age class that is nearest to `head`. (The mean of several old heads
+  /// would have no wrinkles.)
   Index nearest_to(Index head) const {
     return *std::ranges::min_element(heads_, {}, [&](Index other) { return rank(head, other); });
   }
-  /// Moves a fraction of the weight of each head outside the age class to the nearest head in the
-  /// class.
+  /// Moves a fraction of the weight of each head outside the age class to that head's nearest head
+  /// in the class.
   std::vector<SourceWeight> with_moved(const std::vector<SourceWeight>& weights,
                                        double fraction) const {
     std::map<Index, double> sums;
@@ -106,7 +108,8 @@ void undo_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions&
       const double share = share_of(*face.age, sampling, b);
       known = known && share <= 1 - kRounding;
       if (share == 0 || share > 1 - kRounding) continue;
-      // apply_age multiplied the weights of heads outside the age class by 1 − share; undo this.
+      // apply_age multiplied the weights of the heads outside the age class by 1 − share. Undo
+      // this.
       std::vector<SourceWeight>& weights = band_of(region, b).weights;
       weights = aged.with_moved(weights, -share / (1 - share));
       std::erase_if(weights, [](const SourceWeight& s) { return s.weight < kRounding; });

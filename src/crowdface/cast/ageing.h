@@ -8,10 +8,11 @@
 
 namespace crowdface {
 
-/// Anchors and tags of all heads, from which apply_age finds the nearest head; see CastingOptions.
+/// Anchors (positions on the weight plane) and tags of all heads; see CastingOptions. apply_age
+/// finds the nearest old or young head by these values.
 struct HeadRelations {
-  const std::vector<PlanePoint>& anchors;  ///< #heads
-  const HeadTags& tags;                    ///< #heads, or empty
+  const std::vector<PlanePoint>& anchors;  ///< the anchor of each head
+  const HeadTags& tags;                    ///< the tags of each head, or empty
 };
 
 /// Ages a face: in every region, the fraction |age| of the weight of each head moves to the nearest
@@ -32,7 +33,7 @@ void apply_age(FacePlan& face, double age, const HeadRelations& heads,
 /// stay as they are.
 void undo_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling);
 
-/// Returns (1 − t)·a + t·b, head by head.
+/// Mixes the two weights of each head: returns (1 − t)·a + t·b.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
                                         const std::vector<SourceWeight>& b, double t);
 

@@ -16,7 +16,7 @@
 namespace crowdface {
 namespace {
 
-/// A face to redraw, and its review.
+/// A face to redraw, and the mark with which a review rejects this face.
 struct Redraw {
   Index face = 0;
   const ReviewMark* mark = nullptr;
@@ -58,12 +58,15 @@ class Redrawing {
         half_median_mm_(0.5 * quartiles(pair_distances(cast.points)).median),
         kinds_(face_kinds(casting)) {}
 
-  /// Casts a new face in place of a rejected one. \return  false if no face was found.
+  /// Casts a new face to replace a rejected face.
+  ///
+  /// \return  false if no face was found.
   bool redraw(const Redraw& redraw, std::vector<bool>& settled) {
     const auto at = static_cast<std::size_t>(redraw.face);
     const FacePlan old = cast_.crowd[at];
     const FamilyPlan* family = family_of(cast_, redraw.face);
-    // Omit the faces of the same family: distances within a family have limits of their own.
+    // Compare with all faces outside the family. The distances within a family have limits of their
+    // own.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
@@ -127,7 +130,7 @@ class Redrawing {
  private:
   /// Records that a face was rejected.
   ///
-  /// \return  The points of this face and of its earlier rejected versions.
+  /// \return  The face-space points of the rejected face and of its earlier rejected versions.
   std::vector<FaceSpace::Point> reject(std::size_t face) {
     cast_.rejected.push_back(cast_.crowd[face]);
     cast_.crowd_size_at_rejection.push_back(cast_.crowd.size());
@@ -138,8 +141,9 @@ class Redrawing {
     return points;
   }
 
-  /// Returns the minimum distances from the rejected faces that the redraw tries in turn, largest
-  /// first. The largest may be impossible because of a family or locked parts.
+  /// Returns the minimum distances between the new face and the rejected face's versions, largest
+  /// first. The redraw tries each distance in turn, because a family or locked parts may make the
+  /// largest distance impossible.
   ///
   /// \param own  Points of the face's family.
   std::vector<double> distances_to_rejected(const FamilyPlan* family,
@@ -171,15 +175,15 @@ class Redrawing {
   }
 
   FacePlan drawn_face(const FacePlan& old, std::uint32_t attempt) const {
-    if (!old.index) {  // hand-written: redraw the values that it does not specify
+    if (!old.index) {  // a hand-written face: redraw the values that its recipe does not specify
       const auto hand = std::ranges::find(casting_.recipes, old.id, &ManualRecipe::id);
       return completed_face_plan(casting_, *hand, attempt);
     }
     return random_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
-  /// Copies the locked parts of the old face. Also copies the target, mirroring and asymmetry,
-  /// without which the parts would look different.
+  /// Copies the locked parts of the old face. Also copies the old face's target, mirroring and
+  /// asymmetry, because the locked parts would look different without these values.
   FacePlan with_locked(FacePlan face, const FacePlan& old, const ReviewMark& mark) const {
     if (mark.locked.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {

@@ -7,13 +7,14 @@
 
 namespace crowdface {
 
-/// Redraws the faces that a review rejects, so that each keeps its distance from all other faces,
-/// and stores the review's notes. Then applies the review's changes. All other faces stay as they
-/// are.
+/// Redraws the faces that a review rejects, so that each redrawn face keeps the minimum distance
+/// from all other faces, and stores the review's notes. Then applies the changes that the review
+/// requests. All other faces stay as they are.
 ///
 /// - A redrawn face keeps the changes of earlier reviews.
-/// - A face may have been redrawn by a change of an earlier review (FaceChange::needs_redraw). A
-///   rejection of this face that locks parts then counts as a change with these locked parts.
+/// - If a change of an earlier review has redrawn a face (FaceChange::needs_redraw), and this
+///   review rejects the face but locks parts of it, the rejection counts as a change with these
+///   locked parts.
 ///
 /// \param review_index  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.

@@ -11,10 +11,13 @@ namespace crowdface {
 /// An attachment that a face may wear.
 struct AttachmentItem {
   std::string name, kind;
-  std::vector<std::string> tags;      ///< the face's typical_head must have all of these tags
-  double share = 1;                   ///< relative frequency within its kind
-  std::vector<std::string> excludes;  ///< names and kinds that cannot be worn with this item
-  /// colour that the face's other items share and that families inherit
+  /// the typical head of the face (see typical_head) must have all of these tags
+  std::vector<std::string> tags;
+  double share = 1;  ///< relative frequency of this item among the items of the same kind
+  /// names and kinds of items that cannot be worn together with this item
+  std::vector<std::string> excludes;
+  /// Colour of the item. The face's other items get the same colour, and families inherit the
+  /// colour.
   std::string colour = {};
   std::vector<std::string> excluded_tags = {};  ///< the typical head must have none of these tags
   Tint tint = Tint::kNone;

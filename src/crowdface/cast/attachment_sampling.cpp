@@ -44,7 +44,7 @@ bool says_colour(const std::string& tag, const std::string& colour) {
 /// Maps the name of each item to the number of faces that wear the item.
 using WearerCounts = std::map<std::string, int>;
 
-/// Keeps the items that would not exceed their share if one more face wore them.
+/// Keeps only the items that have not reached their share of the faces, with one more face counted.
 void keep_underused(const WearerCounts& counts, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
@@ -61,7 +61,7 @@ void keep_underused(const WearerCounts& counts, Items& items) {
   });
 }
 
-/// Keeps the items that the fewest faces wear, relative to the items' shares.
+/// Keeps only the items that the fewest faces wear so far, relative to each item's share.
 void keep_least_worn(const WearerCounts& counts, Items& items) {
   const auto level = [&](const AttachmentItem* item) {
     const auto found = counts.find(item->name);
@@ -72,17 +72,17 @@ void keep_least_worn(const WearerCounts& counts, Items& items) {
   std::erase_if(items, [&](const AttachmentItem* item) { return level(item) > least; });
 }
 
-/// The attachments of a face, and its hair colour if it may wear items with a tint.
+/// The attachments of a face, and the face's hair colour if the face may wear items with a tint.
 struct ChosenAttachments {
   std::vector<std::string> names;
   std::optional<HairColour> hair;
 };
 
-/// The quotas for items of one kind, and the faces they apply to.
+/// The quotas for items of one kind and, for each quota, the faces that the quota applies to.
 struct KindQuotas {
   std::vector<std::string> words;
   std::vector<double> shares;
-  /// by group: index of the quota that applies to each of the group's sampled faces, or −1
+  /// by group: for each of the group's sampled faces, the index of the quota that applies, or −1
   std::map<int, std::vector<int>> schedules;
 
   bool of_kind(const std::string& kind) const { return contains(words, kind); }
@@ -90,8 +90,9 @@ struct KindQuotas {
 
 class AttachmentChooser {
  public:
-  /// \param crowd   all faces, in the order of the plan.
-  /// \param sequence  faces, in order, that must not look like the face before or after them.
+  /// \param crowd     all faces, in the order of the plan.
+  /// \param sequence  faces in an order in which no face may look like the previous or the next
+  ///                  face.
   AttachmentChooser(const AttachmentOptions& options, const std::vector<int>& groups,
                     const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& sequence)
       : options_(options) {
@@ -195,14 +196,14 @@ class AttachmentChooser {
   }
 
   /// Returns whether the second of two successive faces must not look like the first. A sampled
-  /// face must differ only from sampled faces: in a larger crowd, more faces come between it and
-  /// the others.
+  /// face is compared only with sampled faces, because further sampled faces may come between this
+  /// face and other faces when the crowd grows.
   static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
 
-  /// Removes items that the faces before and after wear in a similar colour, unless this removes
-  /// all items.
+  /// Removes items that the previous or the next face wears in a similar colour, unless this
+  /// removes all items.
   void avoid_neighbours(const FacePlan& face, Items& items) const {
     const auto neighbours = neighbours_.find(face.id);
     if (neighbours == neighbours_.end()) return;
@@ -215,15 +216,16 @@ class AttachmentChooser {
     });
   }
 
-  /// Returns the key of a face's set of similar faces: the sampled faces on one head, or one family.
+  /// Returns the key of the set of similar faces to which a face belongs: all sampled faces with
+  /// the same typical head, or all members of one family.
   std::string similar_faces_key(const FacePlan& face) const {
     if (face.index) return concat("head/", heads_.at(face.id));
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// Chooses at random one of the items that similar faces wear less often than the items' shares.
-  /// If there are several, prefers items that all sampled faces wear less often, too. Probabilities
-  /// are proportional to the items' shares.
+  /// Chooses at random one of the items that have not yet reached their share among similar faces.
+  /// If several items remain, a sampled face prefers items that have not reached their share among
+  /// all sampled faces. Probabilities are proportional to the items' shares.
   const AttachmentItem* random_underused_item(const Items& items, const FacePlan& face,
                                               double drawn) const {
     Items next = items;
@@ -264,8 +266,9 @@ class AttachmentChooser {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Keeps the items whose colour matches the colour of the face's other items, or otherwise the
-  /// colour of the family's items.
+  /// Keeps only items with a matching colour. If other items of the face have a colour, this is
+  /// their colour. Otherwise it is the colour that a parent's items or the family's items have. If
+  /// no item matches, keeps all items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -337,8 +340,8 @@ class AttachmentChooser {
     return one && !items.empty() ? items[0]->colour : std::string();
   }
 
-  /// Removes, for each item in turn, the items that it excludes. Returns the names of the others in
-  /// their order.
+  /// Goes through the items in order. Each item that is still in the list removes the items that it
+  /// excludes. Returns the names of the remaining items in the same order.
   std::vector<std::string> without_excluded(const Items& placed) const {
     std::vector<bool> left(options_.items.size(), false);
     for (const AttachmentItem* item : placed) {
@@ -361,21 +364,25 @@ class AttachmentChooser {
   }
 
   const AttachmentOptions& options_;
-  std::vector<std::string> kinds_;  ///< in the order of their first items
+  /// kinds of attachments, in the order of the first item of each kind
+  std::vector<std::string> kinds_;
   std::map<std::string, KindQuotas> quotas_;
-  /// for each sampled face: its group, and its index within the group
+  /// for each sampled face: the face's group, and the face's index within the group
   std::vector<std::pair<int, std::uint64_t>> group_indices_;
-  std::map<int, std::uint64_t> sizes_;   ///< number of sampled faces in each group
-  std::map<std::string, Items> placed_;  ///< attachments of the faces so far, by the face's id
-  std::map<std::string, Index> heads_;   ///< by the face's id: the head whose tags the face has
-  /// colour of a family's items, by (family, kind)
+  std::map<int, std::uint64_t> sizes_;  ///< number of sampled faces in each group
+  /// attachments that have been chosen so far, by the face's id
+  std::map<std::string, Items> placed_;
+  /// by the face's id: the typical head, whose tags apply to the face
+  std::map<std::string, Index> heads_;
+  /// colour of the items that a family wears, by (family, kind)
   std::map<std::pair<std::string, std::string>, std::string> family_colours_;
-  /// wearer counts in each set of similar faces, by similar_faces_key
+  /// how many faces wear each item, for each set of similar faces; by similar_faces_key
   std::map<std::string, WearerCounts> wearer_counts_;
-  WearerCounts all_wearer_counts_;           ///< the WearerCounts of all sampled faces
-  std::optional<HairChooser> hair_;          ///< if an item has a tint
-  std::map<std::string, HairColour> hairs_;  ///< by the face's id
-  std::map<std::string, std::vector<std::string>> neighbours_;  ///< by the face's id
+  WearerCounts all_wearer_counts_;           ///< how many of all sampled faces wear each item
+  std::optional<HairChooser> hair_;          ///< empty if no item has a tint
+  std::map<std::string, HairColour> hairs_;  ///< hair colours, by the face's id
+  /// by the face's id: the ids of the previous and the next face
+  std::map<std::string, std::vector<std::string>> neighbours_;
 };
 
 }  // namespace
@@ -398,7 +405,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     if (found != before.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // Process replacements in the order of the reviews, each after all faces that its review saw.
+  // Process the replacements of rejected faces in the order of the reviews: each replacement comes
+  // after all faces of the crowd that was reviewed.
   std::map<std::string, std::size_t> times;
   std::size_t next = 0;
   const auto replace_up_to = [&](std::size_t size) {

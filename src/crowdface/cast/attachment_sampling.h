@@ -13,22 +13,24 @@
 
 namespace crowdface {
 
-/// The attachments that faces of a crowd may wear, and how they are chosen.
+/// The attachments that faces of a crowd may wear, and parameters for choosing among these.
 struct AttachmentOptions {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
   /// by kind: fraction of the faces that wear no item of this kind
   std::map<std::string, double> fractions_without_item;
-  HeadTags tags;  ///< #heads
-  /// By kind, name or colour of items: fraction of each group's sampled faces that wear such an
-  /// item. A kind has either a quota of its own or quotas for some of its names and colours.
+  HeadTags tags;  ///< the tags of each head
+  /// By kind, name or colour of items: the fraction of each group's sampled faces that wear an item
+  /// of this kind, name or colour. A kind has either a quota of its own or quotas for some of its
+  /// names and colours.
   std::map<std::string, double> quotas = {};
-  std::vector<std::string> heads = {};  ///< names of the heads; a parent may be a head
-  /// By group: fraction of the faces with each named hair colour, before age makes hair grey; the
-  /// key "" is for groups without an entry and faces without a group. Children inherit their
-  /// parents' colours; other faces without an entry have the colour of their head's tags.
+  std::vector<std::string> heads = {};  ///< names of the heads; some parents of families are heads
+  /// By group: the fraction of the faces that have each named hair colour, before age makes hair
+  /// grey. The key "" is for groups without an entry and for faces without a group. Children
+  /// inherit their parents' colours. Any other face without an entry has the colour that the tags
+  /// of its typical head name.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
-  std::set<std::string> twins = {};  ///< families whose members are twins
+  std::set<std::string> twins = {};  ///< names of the families whose members are twins
 };
 
 /// Chooses the attachments of each face: names, in the order of the items, at most one per kind.
@@ -69,9 +71,10 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
                         std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
                         const std::vector<std::size_t>& crowd_size_at_rejection = {});
 
-/// Chooses the attachments of a face that was changed, as if it were the only sampled face, so that
-/// they do not depend on other sampled faces and do not change these.
-/// \param crowd  In the order of the plan; may contain the face as it was before.
+/// Chooses the attachments of a changed face as if it were the only sampled face. So the choice
+/// neither depends on the other sampled faces nor affects the attachments of these faces.
+///
+/// \param crowd  In the order of the plan; may contain the face as it was before the change.
 void choose_attachments_independently(const AttachmentOptions& options,
                                       const std::vector<int>& groups,
                                       const std::vector<FacePlan>& crowd, FacePlan& face);

@@ -6,11 +6,12 @@
 namespace crowdface {
 namespace {
 
-/// C (see CapacityForecast) times the number of faces at which first fit ends. Measured values are
-/// 1.6 to 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
+/// The number of faces at which first-fit casting ends, times C (see CapacityForecast). Measured
+/// values are 1.6 to 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kMinPlaced = 256;
-/// required number of too-near candidates in the earlier of the last two complete ranges
+/// The forecast needs at least this many candidates that were too near, in the earlier of the last
+/// two complete ranges.
 constexpr std::uint64_t kMinTooNear = 100;
 
 }  // namespace

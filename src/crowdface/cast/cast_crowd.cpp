@@ -16,9 +16,9 @@
 namespace crowdface {
 namespace {
 
-/// Casts sampled faces `from` … `to`, each against all earlier faces.
+/// Casts the sampled faces `from` … `to`. Each face must be far enough from all earlier faces.
 ///
-/// \param diversity  its `min_distance_mm` holds for all these faces.
+/// \param diversity  its `min_distance_mm` applies to all these faces.
 void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diversity,
                     const FaceJudge& judge, const std::vector<FaceKind>& kinds,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
@@ -63,8 +63,8 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
   }
 }
 
-/// Casts sampled faces `from` … `to`, whose minimum distances may differ
-/// (min_distance_of_first_mm).
+/// Casts the sampled faces `from` … `to`. Their minimum distances may differ, see
+/// DiversityOptions::min_distance_of_first_mm.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
                     std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
@@ -80,8 +80,10 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
   }
 }
 
-/// Completes a hand-written recipe with random values, until the face meets the recipe's limits on
-/// measurements. \return  Nothing if no attempt meets them.
+/// Fills in random values for everything that a hand-written recipe does not specify, and repeats
+/// this until the face meets the recipe's limits on measurements.
+///
+/// \return  Nothing if no attempt meets the limits.
 std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const ManualRecipe& hand,
                                            const FaceJudge& judge) {
   const auto attempts =
@@ -96,7 +98,8 @@ std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const 
   return std::nullopt;
 }
 
-/// Returns the number of sampled faces that are cast before each review is applied.
+/// Returns one value for each review: the number of sampled faces that are cast before the review
+/// is applied.
 std::vector<std::uint64_t> faces_before_reviews(const CastingOptions& casting) {
   std::vector<std::uint64_t> counts;
   std::uint64_t so_far = 0;
@@ -125,7 +128,7 @@ void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result
   if (!result.shortfall) find_nearest(judge, result, known);
 }
 
-/// Casts further sampled faces after a review, up to face `to`.
+/// Casts more sampled faces after a review has been applied: up to and including face `to`.
 void grow(const CastingOptions& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
           std::uint64_t from, std::uint64_t to, PopulationBalance& population,
           const FaceJoined& joined, CastingResult& result) {
@@ -187,7 +190,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
                    result);
   }
   take_crowd(judge, crowd, result);
-  so_far.reset();  // free the index, which is as large as the points
+  so_far.reset();  // free the search index, which takes as much memory as the points
   const auto grow_to = [&](std::uint64_t count) {
     if (result.shortfall || count <= sampled) return;
     grow(casting, judge, kinds, sampled + 1, count, population, joined, result);

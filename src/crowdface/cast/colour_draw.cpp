@@ -26,14 +26,16 @@ class ColourDrawing {
     }
   }
 
-  /// Returns whether two heads agree in the tags of ColourOptions::tags_to_match.
+  /// Returns whether two heads have the same tags. Compares only the tags that
+  /// ColourOptions::tags_to_match lists.
   bool alike(Index a, Index b) const {
     return counted_.empty() ||
            counted_[static_cast<std::size_t>(a)] == counted_[static_cast<std::size_t>(b)];
   }
 
-  /// Returns random colours for a face. \param who  separates the random numbers of faces and
-  /// families.
+  /// Returns random colours for a face.
+  ///
+  /// \param who  text that makes the random numbers of each face or family different.
   std::vector<SourceWeight> drawn(Index typical, std::uint64_t index, std::uint32_t attempt,
                                   const std::string& who) const {
     std::vector<Index> heads;
@@ -60,7 +62,8 @@ class ColourDrawing {
 
  private:
   const ColourOptions& draw_;
-  std::vector<std::vector<std::string>> counted_;  ///< #heads: the tags that must agree, sorted
+  /// #heads: the head's tags that must match, sorted
+  std::vector<std::vector<std::string>> counted_;
 };
 
 /// Maps the id of each parent to the colours that its children inherit.
@@ -96,7 +99,7 @@ void choose_colours(const ColourOptions& draw, std::vector<FacePlan>& crowd) {
   for (FacePlan& face : crowd) {
     const Index typical = typical_head(face.recipe, draw.tags);
     std::vector<SourceWeight>& colours = face.recipe.colours;
-    if (!colours.empty()) {  // given by the recipe
+    if (!colours.empty()) {  // colours that the recipe specifies
       parents.meet(face);
       continue;
     }

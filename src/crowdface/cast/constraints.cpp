@@ -64,7 +64,7 @@ std::string full_key(const Constraint& constraint) {
   return concat(constraint.section, '.', constraint.key);
 }
 
-/// Returns the limit with its unit.
+/// Returns the value of a constraint's limit with its unit, as text.
 std::string limit_of(const Constraint& constraint, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability) {
   const double limit = constraint.diversity != nullptr ? diversity.*constraint.diversity

@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// The faces cast so far, in the order of the plan, and their points in the face space.
+/// The faces that have been cast so far, in the order of the plan, and their points in the face
+/// space.
 class CrowdSoFar {
  public:
   explicit CrowdSoFar(Index dimensions) : nearest_search_(dimensions) {}
@@ -22,14 +23,14 @@ class CrowdSoFar {
   Index size() const { return nearest_search_.size(); }
   /// Marks the beginning of the sampled faces: all faces added later are sampled.
   void mark_first_sampled() { first_sampled_ = size(); }
-  /// Index of the first sampled face. Only distances to sampled faces decide which candidate is
-  /// chosen, so an additional recipe or family does not change the choice. (Every candidate must
-  /// keep the minimum distance from all faces.)
+  /// Index of the first sampled face. Casting chooses among candidates by their distances to
+  /// sampled faces only, so an additional recipe or family does not change the choice. (Every
+  /// candidate must keep the minimum distance from all faces, though.)
   Index first_sampled() const { return first_sampled_; }
   const std::vector<FacePlan>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }
-  /// Moves the faces out of this object; `take_points` moves the points. Afterwards, only these two
-  /// may be called.
+  /// Moves the faces out of this object; `take_points` moves the points. After one of these calls,
+  /// only the other of the two may be called.
   std::vector<FacePlan> take_faces() { return std::move(faces_); }
   std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
   const NearestFaceSearch& nearest_search() const { return nearest_search_; }

@@ -8,19 +8,19 @@
 
 namespace crowdface {
 
-/// Count, extremes and quartiles of a set of values.
+/// Count, minimum, maximum and quartiles of a set of values.
 struct Quartiles {
   std::uint64_t count = 0;
   double min = 0, lower = 0, median = 0, upper = 0, max = 0;
 };
 Quartiles quartiles(std::vector<double> values);
 
-/// Returns the distances between all pairs of faces. For more than 1500 faces, uses an evenly
-/// spaced subset of the faces.
+/// Returns the distances (mm) between all pairs of faces. If there are more than 1500 faces, uses
+/// an evenly spaced subset of the faces.
 std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points);
 
-/// Returns the distances over one region, between all pairs of an evenly spaced subset of at most
-/// 300 faces.
+/// Returns the distances (mm) over one region only, between all pairs of an evenly spaced subset of
+/// at most 300 faces.
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Point>& points);
 

@@ -10,42 +10,49 @@ namespace crowdface {
 /// How different the faces of a crowd must be.
 struct DiversityOptions {
   enum class Mode {
-    /// accept candidates that are far enough from all earlier faces; a larger crowd changes no
-    /// earlier face
+    /// accept candidates that are far enough from all earlier faces; if the crowd is made larger
+    /// later, its first faces stay the same
     kFirstFit,
-    kSpread,  ///< choose faces far from each other from a pool many times as large as the crowd
+    /// choose faces far from each other, from a pool of many more candidates than the crowd has
+    /// faces
+    kSpread,
   };
   Mode mode = Mode::kFirstFit;
   double min_distance_mm = 0;  ///< smallest distance between any two faces
-  /// kFirstFit: other values of `min_distance_mm` for the first sampled faces, by their number.
-  /// With {24: 1.2, 40: 1}, faces 1 … 24 and families have 1.2 mm, faces 25 … 40 have 1 mm.
+  /// kFirstFit: other values of `min_distance_mm` for the first sampled faces, by the number of the
+  /// last face that a value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and families have 1.2
+  /// mm, faces 25 … 40 have 1 mm.
   std::map<std::uint64_t, double> min_distance_of_first_mm = {};
   double min_distance_to_faces_mm = 0;  ///< smallest distance from every input head
-  /// Smallest distance between a rejected face and its replacement; empty: half the crowd's median
-  /// distance.
+  /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
+  /// median distance between the faces of the crowd.
   std::optional<double> min_distance_to_rejected_mm;
-  double max_weight = 1;    ///< largest weight of one head in one region
-  int max_attempts = 1000;  ///< number of candidates for one face before casting gives up
-  /// A face nearer than this to a head counts as the same person.
+  double max_weight = 1;  ///< largest weight that one head may have in one region
+  /// number of candidates that are tried for one face before casting gives up
+  int max_attempts = 1000;
+  /// A face whose distance from a head is smaller than this counts as the same person.
   static constexpr double kSamePersonMm = 0.5;
-  /// Number of first candidates for a face that are rejected if they are the same person as a head.
-  /// Later candidates are accepted, because some configs yield only faces near heads.
+  /// The first candidates for a face are rejected if they are the same person as a head. This is
+  /// the number of such first candidates. Later candidates are accepted, because some configs yield
+  /// only faces near heads.
   static constexpr std::uint32_t kCandidatesUnlikeHeads = 100;
-  /// kSpread: size of the pool, in multiples of the crowd's size
+  /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;
 
-  /// Number of acceptable candidates for one face, of which kFirstFit keeps the candidate farthest
-  /// from the crowd. Must not depend on the size of the crowd.
+  /// Number of acceptable candidates that kFirstFit generates for one face; it keeps the candidate
+  /// that is farthest from the crowd. Must not depend on the size of the crowd.
   ///
   /// \param index  Index of the face, from 1.
   static int candidate_count(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
 
-  /// Smallest distance of a sampled face from all earlier faces. \param index  0: a family's face.
+  /// Smallest distance of a sampled face from all earlier faces.
+  ///
+  /// \param index  number of the sampled face, from 1; 0: a face of a family.
   double min_distance_mm_of(std::uint64_t index) const {
     const auto first = min_distance_of_first_mm.lower_bound(index);
     return first == min_distance_of_first_mm.end() ? min_distance_mm : first->second;
   }
-  /// These options with the `min_distance_mm` of a sampled face.
+  /// Returns a copy of these options with the `min_distance_mm` of one sampled face.
   DiversityOptions options_of_face(std::uint64_t index) const {
     DiversityOptions own = *this;
     own.min_distance_mm = min_distance_mm_of(index);
@@ -57,27 +64,32 @@ struct DiversityOptions {
 /// sliver triangles and touching lips) and reject excessive extrapolation. docs/casting.md has
 /// figures.
 struct BelievabilityOptions {
-  /// Whether whole meshes are checked in addition to the coarse samples. Except with kJudge, the
-  /// check takes place after casting, when the meshes are built, and only adds to the report.
+  /// Whether whole meshes are checked in addition to the coarse samples. With kJudge, casting
+  /// itself does this check. With the other values, the check takes place later, when the meshes
+  /// are built, and only adds to the report.
   enum class Meshes {
-    kAuto,  ///< check whole meshes of up to 200,000 polygons
+    kAuto,  ///< check whole meshes if they have at most 200,000 polygons
     kAll,
     kNone,
-    /// casting accepts a candidate only after judging its mesh; the report lists the results, too
+    /// casting accepts a candidate only after checking its whole mesh; the report lists the
+    /// results, too
     kJudge,
   };
   Meshes meshes = Meshes::kAuto;
-  bool check = true;  ///< false: candidates are not checked for believability
-  /// largest Plausibility of a face: its deviation from the heads' mean
+  bool check = true;  ///< whether candidates are checked for believability
+  /// largest Plausibility score of a face: how far the face deviates from the heads' mean
   double max_deviation = 2.5;
-  double max_stretch = 3;  ///< 99th percentile of the stretch of the skin's triangles
-  /// fraction of the skin's triangles that are turned over or collapsed
+  /// largest allowed 99th percentile of the stretch of the skin's triangles
+  double max_stretch = 3;
+  /// largest fraction of the skin's triangles that may be turned over or collapsed
   double max_flipped = 0.003;
-  /// fraction of triangles that intersect others where the target's triangles do not
+  /// largest fraction of triangles that may intersect other triangles where the target's triangles
+  /// do not
   double max_intersecting = 0.01;
-  /// how much the gap between the lips may exceed the largest gap of any head, see SkinContacts
+  /// how much the gap between the lips may exceed the largest gap between any head's lips, in mm;
+  /// see SkinContacts
   double max_gap_mm = 0.5;
-  /// Area of skin that may show its back side, in excess of the target's; see skin_check.h.
+  /// how much more skin may show its back side than on the target, in mm²; see skin_check.h
   double max_exposed_mm2 = 3;
 };
 

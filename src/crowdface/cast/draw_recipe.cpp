@@ -15,16 +15,16 @@
 namespace crowdface {
 namespace {
 
-/// Number of lanes of random numbers that are reserved for one position.
+/// Number of random numbers (lanes) that are reserved for one try to choose a position.
 constexpr std::uint32_t kRandomLanesPerPosition = 64;
-/// If a position gives one head too much weight, another position is tried, at most
-/// kPositionRetries times. With each retry, the largest step away from the anchor grows by the
-/// factor kFartherEachTime.
+/// If a position gives one head too much weight, casting tries another position, at most
+/// kPositionRetries times. Each retry adds kFartherEachTime to PositionDistribution::pull, so the
+/// position may be farther from the anchor.
 constexpr std::uint32_t kPositionRetries = 20;
 constexpr double kFartherEachTime = 0.1;
 
-/// Random numbers of one face. Each depends only on the face's key and on the purpose of the
-/// number.
+/// Random numbers of one face. Each number depends only on the face's key and on the purpose for
+/// which the number is used.
 class FaceRandom {
  public:
   FaceRandom(std::uint64_t seed, const FaceRandomKey& key) : seed_(seed), key_(key) {}
@@ -47,9 +47,9 @@ class FaceRandom {
   const FaceRandomKey& key_;
 };
 
-/// Returns a uniform random point in the unit disc by rejection from the square. (Without sine or
-/// cosine, whose bits depend on the library.) The probability of 64 misses is below 10⁻⁴²; then
-/// returns the centre.
+/// Returns a uniform random point in the unit disc: takes points in the square until one lies in
+/// the disc. (A formula with sine and cosine would give different bits with different libraries.)
+/// The probability of 64 misses is below 10⁻⁴²; in this case, returns the centre.
 PlanePoint random_in_disc(const FaceRandom& draws, const std::string& region, std::uint32_t first) {
   for (std::uint32_t lane = 0; lane < 64; ++lane) {
     const auto [u, v] = draws.pair("position", region, first + lane);
@@ -71,8 +71,8 @@ PlanePoint random_in_hull(const CastingOptions& casting, const std::vector<Index
   return sample_polygon(convex_hull(std::move(anchors)), pick, a, b);
 }
 
-/// \param retry  Number of earlier positions that gave one head too much weight. Each retry may go
-///               farther from the anchor.
+/// \param retry  Number of positions tried before, which gave one head too much weight. Each retry
+///               may go farther from the anchor.
 PlanePoint random_position(const CastingOptions& casting, const PositionDistribution& distribution,
                            const std::vector<Index>& sources, Index target, const FaceRandom& draws,
                            const std::string& region, std::uint32_t retry) {
@@ -126,9 +126,10 @@ double largest_weight(const BandRecipe& band) {
   return largest;
 }
 
-/// The distributions of one band. The band's own values override the region's values.
+/// The distributions from which one band is drawn. The band's own values override the region's
+/// values.
 struct BandDistributions {
-  std::string name;  ///< name of the region, and of the band except the first
+  std::string name;  ///< name of the region; for bands after the first: "region/band"
   std::size_t band = 0;
   RegionSampling sampling;
   ManualRecipe::Band manual;
@@ -156,8 +157,8 @@ BandDistributions band_draw(const CastingOptions& casting, const SamplingOptions
   return draw;
 }
 
-/// Returns a band with random values where the hand-written recipe has none; for a sampled face,
-/// all values are random.
+/// Returns a band with the values of the hand-written recipe, and with random values where the
+/// recipe has none. For a sampled face, all values are random.
 BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Index target,
                        const FaceRandom& draws, const BandDistributions& draw) {
   const SamplingOptions& all = *kind.sampling;

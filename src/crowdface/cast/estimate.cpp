@@ -12,11 +12,11 @@ namespace crowdface {
 namespace {
 
 constexpr int kCountHalvings = 7;
-/// Minimum ratio of the pool's size to the crowd's size.
+/// The pool must contain at least this many candidates for each face of a crowd.
 constexpr std::uint64_t kPoolPerFace = 5;
 
-/// Returns how many candidates of a pool, in its order, first fit keeps at this distance. Stops
-/// counting at `enough`.
+/// Returns how many candidates first-fit casting keeps at this minimum distance, taking the pool in
+/// its order. Stops counting at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
   NearestFaceSearch kept(pool.points[0].as_built.size());
   for (const FaceSpace::Point& point : pool.points) {
@@ -31,13 +31,14 @@ std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_
 std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
-  // The estimate ignores groups, because each group would need a separate pass.
+  // The estimate ignores the crowd's groups, because each group would need a separate pass.
   CastingOptions free = casting;
   free.groups.clear();
   const CandidatePool pool = sample_pool(free, judge, face_kinds(free), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
   FarthestPoints points(pool, nobody);
-  std::vector<double> closest;  // closest pair of the first n picks
+  // for each n: the distance of the closest pair among the first n picks
+  std::vector<double> closest;
   std::uint64_t most = 0;
   for (const std::uint64_t count : counts) {
     if (count * kPoolPerFace <= pool.faces.size()) most = std::max(most, count);
@@ -54,7 +55,8 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
     closest.push_back(closest.empty() ? pick.distance_mm
                                       : std::min(closest.back(), pick.distance_mm));
   }
-  // Find the largest distance for first fit by bisection.
+  // For each crowd size, find by bisection the largest distance at which first-fit casting
+  // succeeds.
   std::vector<EstimateRow> rows;
   for (const std::uint64_t count : counts) {
     if (count < 2 || count > closest.size()) continue;

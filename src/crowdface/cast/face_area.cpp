@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// Returns the middle between the foremost and the hindmost vertex of the skin, along the front
-/// axis.
+/// Returns the coordinate half-way between the foremost and the hindmost vertex of the skin, along
+/// the front axis.
 double middle_of_skin(const Components& components, const Positions& mean, Axis front) {
   const std::uint32_t skin = components.largest();
   double low = HUGE_VAL, high = -HUGE_VAL;

@@ -14,18 +14,19 @@ enum class FaceArea {
   kSkin,   ///< the whole skin, including the back of the head and the neck
 };
 
-/// Returns the weight of each vertex in a face distance, #V: the surface area around the vertex on
-/// the mean head (each polygon's area divided equally among its corners), zero outside the chosen
-/// part of the head. The skin is the largest component, so eyeballs, teeth and lashes have weight
-/// zero.
+/// Returns the weight of each vertex in a distance between faces, #V: the surface area around the
+/// vertex on the mean head (each polygon's area is divided equally among its corners), or zero if
+/// the vertex is outside the chosen part of the head. The skin is the largest component, so
+/// eyeballs, teeth and lashes have weight zero.
 ///
-/// \param mask  #V, multiplied with the weights; or empty.
+/// \param mask  #V, factors on the weights; or empty.
 std::vector<double> face_vertex_areas(const Topology& topology, const Components& components,
                                       const Positions& mean, FaceArea area, Axis front,
                                       const std::vector<double>& mask = {});
 
-/// Returns the distance between two built faces of one topology: root mean square over all
-/// vertices, after the second face is aligned rigidly with the first. In the positions' unit.
+/// Returns the distance between two faces whose meshes have the same topology: the root mean square
+/// distance over all vertices, after the second face is aligned rigidly with the first. The
+/// distance has the unit of the positions.
 ///
 /// \param areas  #V, weights of the vertices; not all zero.
 /// \throws BrokenPrecondition if the sizes differ.

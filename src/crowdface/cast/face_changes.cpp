@@ -16,7 +16,7 @@
 namespace crowdface {
 namespace {
 
-/// Change of the age by the words `older` and `younger`.
+/// How much `older` and `younger` change an age, which ranges from −1 to 1.
 constexpr double kAgeStep = 0.5;
 
 std::size_t face_called(const std::string& id, const CastingResult& cast) {
@@ -27,7 +27,7 @@ std::size_t face_called(const std::string& id, const CastingResult& cast) {
   return static_cast<std::size_t>(found - cast.crowd.begin());
 }
 
-/// Returns a copy of the face with its changes so far.
+/// Returns a copy of the face with the changes that were applied to it so far.
 std::shared_ptr<const ChangedFace> current(std::size_t face, const CastingResult& cast) {
   const auto changed = cast.changed.find(face);
   return std::make_shared<const ChangedFace>(changed == cast.changed.end()
@@ -41,7 +41,7 @@ FaceKind kind_called(const std::optional<std::string>& group, const CastingOptio
   return kind_of_group(casting, static_cast<std::size_t>(found - casting.groups.begin()));
 }
 
-/// Returns the names of the keys that a change has.
+/// Returns the names of the config keys that a change sets.
 std::vector<std::string> changed_keys(const AppliedChange& applied) {
   const FaceChange& change = applied.change;
   const std::pair<const char*, bool> keys[] = {{"age", change.age || change.age_step},
@@ -60,11 +60,12 @@ std::vector<std::string> changed_keys(const AppliedChange& applied) {
   return names;
 }
 
-/// Returns the smallest fraction (to the accuracy of the bisection) at which a condition holds.
-/// \pre it holds at 1.
+/// Returns the smallest fraction at which a condition holds, to the accuracy of the bisection.
+///
+/// \pre The condition holds at 1.
 template <class Holds>
 double least_share(const Holds& holds) {
-  constexpr int kSteps = 10;  // finds the share to within 0.1 %
+  constexpr int kSteps = 10;  // the bisection finds the fraction to within 0.1 %
   double share = 1, step = 0.5;
   for (int i = 0; i < kSteps; ++i, step *= 0.5) {
     if (holds(share - step)) share -= step;
@@ -72,7 +73,8 @@ double least_share(const Holds& holds) {
   return share;
 }
 
-/// Whether a change requires a redraw only because of limits on measurements.
+/// Whether a change requires a redraw of the face only because the change sets limits on
+/// measurements.
 bool limits_only(const FaceChange& change) {
   return !change.group && change.locked.empty();
 }
@@ -83,7 +85,7 @@ class Changing {
            CastingResult& cast)
       : casting_(casting), judge_(judge), at_(at), cast_(cast), changed_(cast.changed.at(at)) {}
 
-  /// Applies all changes to the face as it was cast.
+  /// Applies all changes of the face to the face as it was cast.
   void apply() {
     changed_.face = cast_.crowd[at_];
     changed_.is_other_person = false;
@@ -118,7 +120,8 @@ class Changing {
     if (change.age) set_age(*change.age);
   }
 
-  /// Returns random numbers that differ for each change and for each redraw of the face.
+  /// Returns the key of the random numbers, which differ for each change and for each redraw of the
+  /// face.
   FaceRandomKey key(std::uint32_t attempt) const {
     const FacePlan& original = cast_.crowd[at_];
     return {*original.index, attempt, concat("change/", number_, '/', original.notes.attempt)};
@@ -128,7 +131,7 @@ class Changing {
     return *kind_called(face.group, casting_).sampling;
   }
 
-  /// The faces before this one in the plan, as they were before any review.
+  /// Returns the faces before this face in the plan, as they were before any review.
   CrowdSoFar faces_before() const {
     std::map<std::string, FaceSpace::Point> first;
     for (const FacePlan& face : cast_.rejected) {
@@ -189,7 +192,8 @@ class Changing {
         face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.scale);
         return face;
       };
-      // Require the limits with a margin, so that the whole mesh meets them too.
+      // Go beyond the smallest fraction by a margin, so that the whole mesh meets the limits too.
+      // (The limits are checked without building the mesh.)
       constexpr double kMargin = 0.05;
       const double share = least_share([&](double part) { return meets_limits(at(part)); });
       return at(share + kMargin * (1 - share));
@@ -243,7 +247,8 @@ class Changing {
     apply_age(changed_.face, age, {casting_.anchors, casting_.tags}, sampling);
   }
 
-  /// Measures the distances of the changed face, for information.
+  /// Stores the changed face's distances from the nearest head and the nearest face, for
+  /// information only.
   void note_nearest() {
     const auto [head, head_distance_mm] = judge_.nearest_head(changed_.point);
     NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
@@ -261,15 +266,18 @@ class Changing {
   std::size_t at_;
   CastingResult& cast_;
   ChangedFace& changed_;
-  int number_ = 0;              ///< number of the current change, from 1
-  double min_distance_mm_ = 0;  ///< smallest distance for the current change
+  int number_ = 0;  ///< number of the current change, from 1
+  /// minimum distance from other faces that applies to the current change
+  double min_distance_mm_ = 0;
 };
 
-/// \param first  whether the changes precede the changes that the faces already have.
+/// Applies changes to faces.
+///
+/// \param first  whether to apply the changes before the changes that the faces already have.
 void apply(const CastingOptions& casting, const FaceJudge& judge,
            const std::vector<FaceChange>& changes, const std::string& by, bool first,
            CastingResult& cast) {
-  // Copy the original of each variant before any of these changes is applied.
+  // Before any of these changes is applied, copy the original face of each variant.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
     const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;

@@ -13,17 +13,17 @@
 
 namespace crowdface {
 
-/// Applies the changes of a review to faces, after the faces' earlier changes; see
+/// Applies the changes of a review to faces, after the changes that these faces already have; see
 /// CastingResult::changed. If a face cannot be redrawn, sets the shortfall.
 ///
-/// - A redrawn face keeps its group and its age, unless it gets another group. It keeps the crowd's
-///   distances from the first versions of the faces before it in the plan. So it does not change
-///   when the crowd grows or other faces are redrawn.
-/// - A variant is a mixture of the other face, as it is before these changes, and a random face on
-///   the same target, at the requested distance from the other face.
-/// - With limits on measurements only, the face is a mixture of itself and a random face that meets
-///   the limits. The share of the random face is as small as the limits allow: none if the face
-///   already meets them.
+/// - A redrawn face keeps its group and its age, unless the change gives it another group. It keeps
+///   the crowd's minimum distances from the first versions of the faces before it in the plan. So a
+///   redrawn face stays the same when the crowd grows or other faces are redrawn.
+/// - A variant is a mixture of another face (as it is before these changes) and a random face on
+///   the same target. Its distance from the other face is the requested distance.
+/// - If a change sets only limits on measurements, the changed face is a mixture of the old face
+///   and a random face that meets the limits. The fraction of the random face is as small as the
+///   limits allow: zero if the old face already meets the limits.
 ///
 /// \param by  the origin of the changes, such as "review 2".
 /// \throws InvalidInput if a face is not in the crowd.
@@ -31,15 +31,15 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
                    const std::vector<FaceChange>& changes, const std::string& by,
                    CastingResult& cast);
 
-/// Keeps faces that are cast or redrawn later at a distance from the faces that reviews have
-/// changed.
+/// Keeps faces that are cast or redrawn later at a minimum distance from the faces that earlier
+/// reviews have changed.
 class AvoidedFaces {
  public:
   /// \param cast     the crowd with the changes of the reviews so far.
-  /// \param settled  #crowd: faces that are not being redrawn. Empty: all.
+  /// \param settled  #crowd: whether a face is not being redrawn. Empty: no face is being redrawn.
   AvoidedFaces(const CastingResult& cast, double min_distance_mm,
                const std::vector<bool>& settled = {});
-  /// Returns why a point is rejected; nothing if it is accepted.
+  /// Returns why a point of the face space is rejected; nothing if it is accepted.
   std::optional<Reason> rejection_reason(const FaceSpace::Point& point) const;
 
  private:
@@ -47,11 +47,11 @@ class AvoidedFaces {
   std::vector<FaceSpace::Point> points_;  ///< points of the changed faces
 };
 
-/// Applies the changes of the config, before the reviews' changes.
+/// Applies the changes that the config requests, before the changes that reviews request.
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
                              CastingResult& cast);
 
-/// Applies the changes of a face again, after it was redrawn.
+/// Applies a face's changes again, after the face was redrawn.
 void reapply_changes(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
                      CastingResult& cast);
 

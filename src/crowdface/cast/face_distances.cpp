@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kMovedRows = 1024;  ///< number of rows that are transformed at a time
+constexpr Index kMovedRows = 1024;  ///< number of vertices that are transformed at a time
 
 double distance_of_views(const Eigen::Ref<const Positions>& a, const Eigen::Ref<const Positions>& b,
                          const Eigen::VectorXd& weights) {

@@ -35,7 +35,7 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
   for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
   std::vector<FaceSpace::Point> heads;
   for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h));
-  // A smaller limit applies if the heads resemble each other or are small.
+  // If the heads are similar to each other or small, a smaller limit applies.
   constexpr double kFractionOfMedian = 0.1;
   same_person_mm_ = std::min(DiversityOptions::kSamePersonMm,
                              kFractionOfMedian * quartiles(pair_distances(heads)).median);
@@ -74,7 +74,8 @@ std::optional<Reason> FaceJudge::check_candidate(const Recipe& recipe,
 
 std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
   if (skin_ == nullptr || !believability_.check) return std::nullopt;
-  Recipe recipe = whole;  // a mirrored face has the same defects
+  // check the unmirrored face, because mirroring does not change its defects
+  Recipe recipe = whole;
   recipe.mirrored = false;
   const Positions samples = sample_face(space_.sampled_heads(), recipe);
   std::optional<ProxySkin::Target> mixture;

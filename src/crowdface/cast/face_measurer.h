@@ -10,22 +10,23 @@
 
 namespace crowdface {
 
-/// Measures faces from their recipes without building meshes: a landmark depends on a few vertices
-/// only, and their positions are computed from the heads' smoothing levels at these vertices.
+/// Measures faces from their recipes, without building meshes. A landmark depends on only a few
+/// vertices, whose positions are computed from the heads' smoothing levels at these vertices.
 class FaceMeasurer {
  public:
-  /// A landmark as a weighted mean of samples; all weights are zero if no measurement needs it.
+  /// A landmark as a weighted mean of three samples. All weights are zero if no measurement needs
+  /// the landmark.
   struct Landmark {
     std::array<Index, 3> samples = {};
     std::array<double, 3> shares = {};
   };
-  /// Computes the landmarks of a face's written mesh, #landmarks by 3 in millimetres. Must be
-  /// callable from any thread.
+  /// Computes the landmarks on the mesh that is written for a face, #landmarks by 3 in millimetres.
+  /// Must be callable from any thread.
   using ExactLandmarks = std::function<Positions(const Recipe&)>;
 
-  /// \param heads      the heads at the samples of the landmarks
+  /// \param heads      the heads, sampled at the vertices of the landmarks
   /// \param landmarks  #trait_landmarks
-  /// \param spread     the measurements of the heads
+  /// \param spread     distributions of the heads' measurements
   FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks, TraitDistributions spread,
                ExactLandmarks exactly)
       : heads_(std::move(heads)),
@@ -33,15 +34,15 @@ class FaceMeasurer {
         spread_(std::move(spread)),
         exact_landmarks_(std::move(exactly)) {}
 
-  /// Computes the landmarks of a face, #landmarks by 3 in millimetres, in microseconds. Ignores the
-  /// correction of the gap between the lips after blending, which moves the skin around the mouth
-  /// by fractions of a millimetre.
+  /// Computes the landmarks of a face in microseconds, #landmarks by 3 in millimetres. Ignores the
+  /// correction of the gap between the lips (made after blending), which moves the skin around the
+  /// mouth by fractions of a millimetre.
   Positions landmarks(const Recipe& recipe) const;
   /// Computes the landmarks of the mesh that is written for a recipe, in about a millisecond.
   Positions exact_landmarks(const Recipe& recipe) const { return exact_landmarks_(recipe); }
 
   const TraitDistributions& spread() const { return spread_; }
-  /// Whether landmarks meet all limits.
+  /// Returns whether the measurements between the landmarks meet all limits.
   bool meets(const TraitLimits& limits, const Positions& landmarks) const;
 
  private:

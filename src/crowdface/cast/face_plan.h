@@ -11,40 +11,45 @@
 
 namespace crowdface {
 
-/// The nearest head and the nearest earlier face of a face; for information only.
+/// The head and the earlier face that are nearest to a face; for information only.
 struct NearestNeighbours {
-  Index head = 0;  ///< the nearest input head
+  Index head = 0;  ///< index of the nearest input head
   double head_distance_mm = 0;
-  std::optional<std::string> earlier_face;  ///< id of the nearest earlier face in the plan
+  /// id of the nearest of the faces before this face in the plan
+  std::optional<std::string> earlier_face;
   double earlier_face_distance_mm = 0;
 };
 
-/// How casting found a face. Meshes do not depend on these notes.
+/// How casting found a face. The face's mesh does not depend on these notes.
 struct CastingNotes {
-  std::uint32_t attempt = 0;  ///< number of earlier, rejected candidates for this face
+  std::uint32_t attempt = 0;  ///< number of earlier candidates for this face, which were rejected
   std::optional<NearestNeighbours> nearest;
-  std::optional<std::string> review;  ///< a reviewer's note
-  /// Changes of the face, in order: who changed which keys, such as "review 2: age, hair".
+  std::optional<std::string> review;  ///< the note that a reviewer wrote about this face
+  /// What changed the face, in order: each text names the origin and the keys, such as "review 2:
+  /// age, hair".
   std::vector<std::string> changes = {};
 };
 
-/// A face of a crowd: one line of its plan.
+/// The plan of one face, which is one line of the crowd's plan.
 struct FacePlan {
   std::string id;
-  std::optional<std::uint64_t> index;  ///< from 1; empty if the face is not sampled
+  /// number of the sampled face, from 1; empty if the face is not sampled
+  std::optional<std::uint64_t> index;
   std::optional<std::string> family;
   std::optional<std::string> group;
   Recipe recipe;
-  std::optional<double> age;  ///< −1 … 1, if the face was aged
-  /// mother and father, if the family has parents: names of heads or ids of faces
+  std::optional<double> age;  ///< age from −1 to 1; empty if the face was not aged
+  /// mother and father, if the face's family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
-  /// #regions by #bands: the parent that the detail comes from; empty without parents
+  /// #regions by #bands: name of the parent from whom the detail comes; empty without parents
   std::vector<std::string> inherited_from;
-  double mother_share = 0;  ///< mother's fraction of the coarse shape, if the face inherits it
-  std::vector<std::string> attachments;  ///< names
-  /// values of the measurements that the plan records (PlanNames::traits); empty: not measured
+  /// mother's fraction of the coarse shape, if the face inherits its coarse shape
+  double mother_share = 0;
+  std::vector<std::string> attachments;  ///< names of the attachments
+  /// values of the measurements that PlanNames::traits lists; empty: not measured
   std::vector<double> traits = {};
-  std::optional<HairColour> hair;  ///< hair colour, if attachments of the face may have a tint
+  /// hair colour; empty if the face cannot wear attachments with a tint
+  std::optional<HairColour> hair;
   CastingNotes notes;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kTrajectorySteps = 63;
 
-/// Returns the sampling density of each vertex; sums to one.
+/// Returns for each vertex the density of samples; all densities sum to one.
 std::vector<double> sampling_density(const Topology& topology, const Components& components,
                                      const Positions& mean, Axis front) {
   const std::vector<double> face =
@@ -35,8 +35,8 @@ std::vector<double> sampling_density(const Topology& topology, const Components&
   return density;
 }
 
-/// Returns the vertices along a space-filling curve (Morton 1966), so that neighbours in the order
-/// are mostly neighbours in space.
+/// Returns the vertices in the order of a space-filling curve (Morton 1966). Vertices that are
+/// adjacent in this order are mostly close to each other in space.
 std::vector<std::uint32_t> order_along_curve(const Positions& mean) {
   constexpr std::uint64_t kCells = 1 << 16;
   const Eigen::RowVector3d low = mean.colwise().minCoeff();
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> order_along_curve(const Positions& mean) {
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count) {
   const std::vector<double> density = sampling_density(topology, components, mean, front);
-  // Systematic sampling: one sample per step along the cumulative density.
+  // Systematic sampling: take one sample whenever the cumulative density has grown by `step`.
   const double step = 1 / static_cast<double>(count);
   FaceSamples samples;
   double sum = 0, next = 0.5 * step;
@@ -74,7 +74,8 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
     sum += density[i];
     if (density[i] == 0 || sum < next) continue;
     samples.push_back(i);
-    while (next <= sum) next += step;  // a vertex is taken once, however large its density
+    // a vertex is taken only once, even if its density exceeds the step
+    while (next <= sum) next += step;
   }
   std::sort(samples.begin(), samples.end());
   return samples;

@@ -11,45 +11,49 @@
 
 namespace crowdface {
 
-/// Vertices at which faces are compared and judged without building meshes.
+/// Indices of the vertices at which faces are compared and judged, so that meshes need not be
+/// built.
 using FaceSamples = std::vector<std::uint32_t>;
 
-/// Chooses samples on the skin (the largest component). Half of them are spread by area over the
-/// front half of the skin. A quarter are spread by area over the whole skin, and a quarter by the
-/// density of vertices, so that lips and lids, which are small but finely meshed, get enough
-/// samples.
+/// Chooses samples on the skin (the largest component). Half of the samples are distributed by area
+/// over the front half of the skin. A quarter are distributed by area over the whole skin, and a
+/// quarter by the density of vertices. So lips and lids, which are small but finely meshed, get
+/// enough samples.
 ///
 /// \param mean   #V by 3, the mean head.
 /// \param count  Number of samples. If the skin has too few vertices, the result has fewer samples.
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count);
 
-/// Returns the samples and their mirror partners that are vertices, ascending.
+/// Returns, in ascending order, the samples and those of their mirror images that lie exactly at
+/// vertices.
 FaceSamples samples_and_partners(const FaceSamples& samples, const MirrorMap& mirror);
-/// Returns the samples, followed by all other vertices that are needed to interpolate the positions
-/// of the samples' mirror images.
+/// Returns the samples, followed by all other vertices that are needed to interpolate positions at
+/// the samples' mirror images.
 FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mirror);
 
-/// Returns the levels at which trajectories are stored: round(L_max·(j/63)²), without duplicates.
+/// Returns the smoothing levels at which trajectories are stored: round(L_max·(j/63)²), without
+/// duplicates.
 std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level);
 
-/// The displacements of a head's samples under smoothing, #levels by 3·#samples. Row l holds
-/// S_{L_l} x − x for the l-th level of `trajectory_levels`.
+/// How far smoothing displaces the samples of a head, #levels by 3·#samples. Row l holds S_{L_l} x
+/// − x, where L_l is entry l of `trajectory_levels`.
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Computes the trajectory of a head from the filter's displacements at the nodes.
+/// Computes the trajectory of a head from the smoothing filter's displacements at the nodes.
 Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                              const NodeFields& fields, const FaceSamples& samples);
 
-/// A row of a trajectory, and its factor in a linear combination.
+/// Index of a row of a trajectory, and the row's factor in a linear combination.
 struct LevelTerm {
   Index row = 0;
   double factor = 0;
 };
 
-/// Returns the rows of a trajectory, with factors, whose combination represents any level. Between
-/// stored levels the interpolation is linear in √L, because trajectories are nearly straight in √L.
-/// Only this function knows how levels are represented; all of casting uses it.
+/// Returns the rows of a trajectory, and their factors, whose linear combination gives the
+/// displacements at any level. Between stored levels, the interpolation is linear in √L, because
+/// trajectories are nearly straight in √L. All of casting uses this function, so no other code
+/// knows how levels are stored.
 ///
 /// \param levels  Levels of the rows, ascending.
 std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level);

@@ -17,8 +17,9 @@ FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const Diversit
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
       usual_attempt_(last_attempt_) {}
 
-/// Returns whether a candidate is far enough from all faces. If the candidate cannot be the
-/// farthest one, stores only an upper bound of its distance to the crowd.
+/// Returns whether a candidate is far enough from all faces. If another candidate is farther from
+/// the crowd than this candidate, stores only an upper bound of this candidate's distance from the
+/// crowd.
 bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.nearest_search().nearest(candidate.point, least).face >= 0) return false;
@@ -35,16 +36,16 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
   return true;
 }
 
-/// Returns whether to generate another candidate. Limits on measurements may need many more
-/// attempts than all other constraints: after the usual number of attempts, one candidate is
+/// Returns whether to generate another candidate. With limits on measurements, a face may need many
+/// more attempts than otherwise. So after the usual number of attempts, one acceptable candidate is
 /// enough.
 bool FaceSearch::needs_candidates() const {
   if (candidates_.size() >= wanted_count_ || next_attempt_ >= last_attempt_) return false;
   return candidates_.empty() || next_attempt_ < usual_attempt_;
 }
 
-/// Measures a candidate if measurements are limited, and checks the limits. Candidates that fail
-/// here do not count as usual attempts, up to a multiple of the usual number.
+/// If measurements are limited, measures a candidate and checks the limits. A candidate that
+/// violates these limits does not count as a usual attempt, up to a multiple of the usual number.
 bool FaceSearch::meets_limits(Candidate& candidate) {
   const TraitRules* rules = judge_.traits();
   if (rules == nullptr) return true;
@@ -57,7 +58,7 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
   return false;
 }
 
-/// Generates candidates until there are enough or no attempts are left.
+/// Generates candidates until there are enough candidates or no attempts are left.
 void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   while (needs_candidates()) {
     Candidate candidate;
@@ -77,7 +78,7 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   compared_count_ = crowd.size();
 }
 
-/// Compares the candidates with faces that have joined the crowd since the last comparison.
+/// Compares the candidates with the faces that have joined the crowd since the last comparison.
 void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   if (compared_count_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
@@ -92,7 +93,7 @@ void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   compared_count_ = crowd.size();
 }
 
-/// Returns the farthest candidate; of equally far candidates, the earliest.
+/// Returns the candidate farthest from the crowd; of equally far candidates, the earliest.
 FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
   for (;;) {
     Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),
@@ -110,7 +111,7 @@ FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
   }
 }
 
-/// Returns the candidate with the least cost; of equal candidates, the earliest.
+/// Returns the candidate with the smallest cost; of candidates with equal cost, the earliest.
 FaceSearch::Candidate& FaceSearch::cheapest_candidate(const Cost& cost) {
   std::vector<double> costs;
   for (const Candidate& candidate : candidates_) costs.push_back(cost(candidate.landmarks));
@@ -127,8 +128,8 @@ void FaceSearch::judge_skin(Candidate& candidate) const {
 
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
   find_candidates(crowd);
-  if (!candidates_.empty())
-    judge_skin(farthest_candidate(crowd));  // most likely the chosen candidate
+  // Judge the candidate that will most likely be chosen.
+  if (!candidates_.empty()) judge_skin(farthest_candidate(crowd));
 }
 
 std::optional<FaceSearch::Found> FaceSearch::choose_face(const CrowdSoFar& crowd,
@@ -138,7 +139,8 @@ std::optional<FaceSearch::Found> FaceSearch::choose_face(const CrowdSoFar& crowd
     compare_with_added_faces(crowd);
     find_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
-    // Take the farthest or cheapest candidate that passes all checks. If none does, generate more.
+    // Take the first candidate that passes all checks, beginning with the farthest or cheapest.
+    // If no candidate passes, generate more candidates.
     while (!candidates_.empty()) {
       Candidate& candidate = cost ? cheapest_candidate(cost) : farthest_candidate(crowd);
       auto why = rejection_reason ? rejection_reason(candidate.point) : std::nullopt;

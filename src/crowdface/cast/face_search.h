@@ -11,19 +11,22 @@
 
 namespace crowdface {
 
-/// The search for one face: generates candidates, rejects candidates that violate a constraint, and
-/// chooses the candidate farthest from the crowd (best-candidate sampling, Mitchell 1991; with one
-/// candidate, the first that is far enough). The result depends only on the generated candidates
-/// and on the crowd passed to `choose_face`. The crowd passed to `prepare` only affects the speed.
+/// The search for one face. Generates candidates, rejects candidates that violate a constraint, and
+/// chooses the candidate farthest from the crowd (best-candidate sampling, Mitchell 1991). If only
+/// one candidate is wanted, chooses the first candidate that is far enough. The result depends only
+/// on the generated candidates and on the crowd passed to `choose_face`. The crowd passed to
+/// `prepare` affects only the speed.
 class FaceSearch {
  public:
-  /// Generates candidate number `attempt`. Must be a pure function.
+  /// Generates candidate number `attempt`. The result must depend only on `attempt` (a pure
+  /// function).
   using Generate = std::function<FacePlan(std::uint32_t attempt)>;
-  /// An additional check of a candidate's point: returns why the point is rejected; nothing if it
-  /// is accepted.
+  /// An additional check of a candidate's point in the face space. Returns why the point is
+  /// rejected; nothing if it is accepted.
   using RejectionCheck = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
-  /// How undesirable a candidate is, from its landmarks; see FaceMeasurer.
+  /// Returns how undesirable a candidate is, given its landmarks (see FaceMeasurer); only for
+  /// comparing candidates.
   using Cost = std::function<double(const Positions& landmarks)>;
 
   FaceSearch(Generate generate, const FaceJudge& judge, const DiversityOptions& diversity,
@@ -36,10 +39,14 @@ class FaceSearch {
   struct Found {
     FacePlan face;
     FaceSpace::Point point;
-    Positions landmarks = {};  ///< no rows if measurements have neither limits nor distributions
+    /// has no rows if the crowd has neither limits nor distributions of measurements
+    Positions landmarks = {};
   };
-  /// Returns the face chosen against the current crowd; nothing if all attempts are used up.
-  /// \param cost  chooses the candidate with the least cost instead of the farthest; may be empty
+  /// Returns the candidate that is chosen by its distance from the current crowd; nothing if all
+  /// attempts are used up.
+  ///
+  /// \param cost  If given, the candidate with the smallest cost is chosen instead of the farthest
+  ///              candidate.
   std::optional<Found> choose_face(const CrowdSoFar& crowd,
                                    const RejectionCheck& rejection_reason = {},
                                    const Cost& cost = {});
@@ -51,9 +58,9 @@ class FaceSearch {
     FacePlan face;
     FaceSpace::Point point;
     Positions landmarks = {};
-    /// distance to the nearest face, or an upper bound of this distance
+    /// distance to the nearest face of the crowd, or an upper bound of this distance
     double nearest_mm = HUGE_VAL;
-    bool is_exact = true;    ///< whether `nearest_mm` is the distance, not only a bound
+    bool is_exact = true;    ///< whether `nearest_mm` is the exact distance, not an upper bound
     bool is_judged = false;  ///< whether `check_skin` was called
     std::optional<Reason> violated_constraint = std::nullopt;
   };
@@ -72,7 +79,8 @@ class FaceSearch {
   const DiversityOptions& diversity_;
   std::size_t wanted_count_;
   std::uint32_t first_attempt_, next_attempt_, last_attempt_, usual_attempt_;
-  Index compared_count_ = 0;  ///< number of faces that the candidates were compared with
+  /// number of faces of the crowd with which the candidates have been compared
+  Index compared_count_ = 0;
   std::vector<Candidate> candidates_;
   Rejections rejections_;
 };

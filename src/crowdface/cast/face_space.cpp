@@ -13,13 +13,15 @@
 namespace crowdface {
 namespace {
 
-/// Largest residual of a displacement field outside the span of the basis: rms over the face in mm.
+/// How far a displacement field may lie outside the span of the basis: rms over the face in mm.
 constexpr double kFieldTolerance = 0.004;
-constexpr Index kMaxFunctions = 400;  ///< largest number for each orientation
-/// Largest residual of a training face outside the span of the principal directions, in
-/// millimetres. The residual's length is an additional coordinate.
+/// largest number of functions for each orientation (unmirrored and mirrored)
+constexpr Index kMaxFunctions = 400;
+/// How far a training face may lie outside the span of the principal directions, in millimetres.
+/// The distance from the span is stored as an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
-constexpr Index kMaxDirections = 192;  ///< largest number for each orientation
+/// largest number of directions for each orientation (unmirrored and mirrored)
+constexpr Index kMaxDirections = 192;
 constexpr std::uint64_t kTrainingFaces = 1024;
 
 double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
@@ -33,8 +35,8 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 
 }  // namespace
 
-/// The order of the function rows: the mean head, each head's deviation from it, then the fields by
-/// region and head, mode by mode.
+/// The order of the rows that hold functions: first the mean head, then each head's deviation from
+/// the mean head, then the fields, sorted by region, head and mode.
 struct FaceSpace::FunctionRows {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
@@ -90,9 +92,9 @@ void FaceSpace::choose_weighted_samples(const std::vector<double>& weights) {
   }
 }
 
-/// Finds a few modes that span the levels of all heads together. Fields are computed for these
-/// modes only. Each row is a level; the columns are heads, coordinates and samples, scaled by the
-/// samples' √w.
+/// Finds a few modes whose linear combinations give the levels of all heads. Fields are then
+/// computed for these modes only. The modes are a basis of the rows of a matrix: each row is a
+/// level; the columns are heads, coordinates and samples, scaled by the samples' √w.
 SpanBasis FaceSpace::level_modes() const {
   const Index heads = head_point_count(), size = weight_square_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
@@ -112,8 +114,8 @@ SpanBasis FaceSpace::level_modes() const {
   return span_basis(std::move(levels), kFieldTolerance, level_count);
 }
 
-/// Writes a scalar function on the samples, minus its mean over the face. Alignment removes the
-/// mean anyway.
+/// Writes the values of a scalar function at the samples, minus the function's mean over the face.
+/// (Rigid alignment would remove the mean anyway.)
 template <class Value>
 void FaceSpace::write_function(const Value& value, float* row) const {
   double mean = 0;
@@ -126,10 +128,11 @@ void FaceSpace::write_function(const Value& value, float* row) const {
     row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
-/// Returns the functions whose sums are the faces; three rows (x, y, z) for each.
+/// Returns, one per row, the scalar functions whose linear combinations give the coordinates of
+/// faces: three rows (x, y, z) each for the mean head, each head and each field.
 ///
 /// \param peaks  #modes: largest coefficient of each mode at any level. Modes have unit length, so
-///               each mode's rows are multiplied by its peak.
+///               each mode's rows are multiplied by the mode's peak.
 FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
                                const FunctionRows& rows) const {
   const Index size = weight_square_roots_.size(), regions = heads_.region_weights.cols();
@@ -150,7 +153,7 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
       for (Index c = 0; c < 3; ++c) {
         const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
         write_function(
-            [&](Index i) {  // the mode already contains √w
+            [&](Index i) {  // divide by √w, because the values of a mode already contain √w
               return alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
                      static_cast<double>(weight_square_roots_[i]);
             },
@@ -162,10 +165,10 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
   return functions;
 }
 
-/// Finds a basis. Every face is a sum of the heads and of their removed detail, times the masks.
-/// Orthonormal scalar functions that span all these terms represent a face by #P by 3 numbers.
-/// Rotating these numbers, and taking distances between them, is equivalent to doing so at the
-/// samples; the centre is the origin.
+/// Finds a basis for the faces. Every face is a sum of the heads and of the heads' removed detail,
+/// times the masks. Orthonormal scalar functions that span all these terms represent a face by #P
+/// by 3 numbers. Rotating these numbers, and taking distances between them, is equivalent to
+/// rotating the samples and taking distances between the samples. The centre is the origin.
 ///
 /// \return  The functions, #P by #S.
 FloatRows FaceSpace::find_functions() {
@@ -222,7 +225,8 @@ FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapo
          static_cast<float>(w) * shape_in_orientation(recipe, extrapolation, 1);
 }
 
-/// Returns the unmirrored face (orientation 0) or its mirror image (orientation 1).
+/// Returns the shape of a recipe's face: of the unmirrored face (orientation 0) or of its mirror
+/// image (orientation 1).
 FaceSpace::Shape FaceSpace::shape_in_orientation(const Recipe& recipe, Extrapolation extrapolation,
                                                  Index orientation) const {
   const Index first = orientation * head_count();
@@ -243,7 +247,7 @@ FaceSpace::Shape FaceSpace::shape_in_orientation(const Recipe& recipe, Extrapola
   return shape;
 }
 
-/// Returns the shape rotated onto the mean head, minus the mean head.
+/// Returns the given shape, rotated onto the mean head, minus the mean head.
 std::vector<float> FaceSpace::aligned(const Shape& shape) const {
   std::vector<double> covariance(9, 0.0);
   for (Index p = 0; p < shape.rows(); ++p) {
@@ -290,8 +294,9 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
-  // Distance of the face from the span of the directions. For two faces, the difference of these
-  // distances is at most the distance between the two residuals.
+  // The last coordinate is the distance of the face from the span of the directions. For two faces,
+  // the difference between these distances is at most the distance between the parts of the faces
+  // outside the span.
   const double rest = fixed_order_dot(at.data(), at.data(), at.size()) -
                       fixed_order_dot(result.data(), result.data(), size);
   result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
@@ -337,14 +342,14 @@ void FaceSpace::find_region_shares() {
   }
 }
 
-/// The metric of region k is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s), transformed to the principal
-/// directions: with the values of the basis at the samples, G_k = U diag(α_k) Uᵀ on the functions,
-/// then V G_k Vᵀ.
+/// Finds the metric of each region. For region k, the metric is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s),
+/// transformed to the principal directions: G_k = U diag(α_k) Uᵀ on the functions, where U holds
+/// the values of the basis at the samples, then V G_k Vᵀ.
 void FaceSpace::find_region_metrics(const FloatRows& basis) {
   const FloatRows& directions = tables_.directions;
   const Index functions = basis.rows(), rank = directions.rows();
   for (Index k = 0; k < heads_.region_weights.cols(); ++k) {
-    FloatRows masked = basis;  // its values contain √w_s
+    FloatRows masked = basis;  // the values of the basis contain √w_s
     for (Index i = 0; i < basis.cols(); ++i) {
       const double alpha = heads_.region_weights(sample_at(i), k);
       const auto root = static_cast<float>(std::sqrt(std::max(alpha, 0.0)));
@@ -360,7 +365,7 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     });
     FloatRows metric(rank, rank);
     parallel_for_each(rank, [&](Index d) {
-      // Apply G_k, which is symmetric, to direction d, separately for each coordinate.
+      // G_k is symmetric. Multiply direction d by G_k, separately for each coordinate x, y, z.
       std::vector<float> along(static_cast<std::size_t>(3 * functions));
       for (Index c = 0; c < 3; ++c) {
         Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);
@@ -399,7 +404,7 @@ double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, In
   if (tables_.metrics.empty()) return distance(*a.point, *b.point);
   const double share = region_shares_[static_cast<std::size_t>(region)];
   if (!(share > 0)) return 0;
-  // (x − y)ᵀ M (x − y), given M x and M y.
+  // Computes (x − y)ᵀ M (x − y) from M x and M y.
   const auto squared = [](const Eigen::VectorXf& x, const Eigen::VectorXf& y,
                           const Eigen::VectorXf& metric_x, const Eigen::VectorXf& metric_y) {
     double sum = 0;

@@ -11,42 +11,45 @@ namespace crowdface {
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
   FloatRows levels;  ///< #levels by #modes: coefficient of each mode at each level
-  /// #functions by #P: the basis of scalar functions; faces are sums of these functions
+  /// #functions by #P: a basis of scalar functions. Each coordinate of a face (x, y or z) is a
+  /// linear combination of these functions.
   FloatRows functions;
-  FloatRows directions;  ///< #D by 3·#P: principal directions of aligned faces
-  /// #regions (empty for one region), each #D by #D: the metric of the region
+  FloatRows directions;  ///< #D by 3·#P: principal directions of the aligned faces
+  /// the metric of each region, #D by #D; empty if there is only one region
   std::vector<FloatRows> metrics;
 };
 
-/// A Euclidean space of faces, computed from recipes alone, so that distances need no meshes. Each
-/// face is aligned rigidly to the mean head, which matches pairwise alignment closely
-/// (docs/method.md). The straight-line distance of two points is the root mean square distance
-/// over the face in millimetres.
+/// A Euclidean space in which each face is a point. Points are computed from recipes alone, so
+/// distances need no meshes. Each face is aligned rigidly to the mean head, which gives nearly the
+/// same distances as aligning each pair of faces (docs/method.md). The straight-line distance
+/// between two points is the root mean square distance over the face in millimetres.
 class FaceSpace {
  public:
-  /// The point of a face. A face that differs from another only in extrapolation is the same
-  /// person, so each face has two variants: as built, and with all extrapolation factors 1.
+  /// The point of a face in two variants: as built, and with all extrapolation factors 1. The
+  /// second variant is needed because two faces that differ only in extrapolation are the same
+  /// person.
   struct Point {
-    Eigen::VectorXf as_built;        ///< #dimensions
-    Eigen::VectorXf unextrapolated;  ///< #dimensions; with all extrapolation factors 1
+    Eigen::VectorXf as_built;  ///< the point of the face as built, #dimensions
+    /// the point of the face with all extrapolation factors 1, #dimensions
+    Eigen::VectorXf unextrapolated;
   };
 
   /// \param weights  #S, from sample_weights. Samples of weight zero are ignored.
-  /// \param bands    Number of bands of each region's detail. With more bands, faces differ in more
-  ///                 ways.
+  /// \param bands    Number of bands of detail in each region. With more bands, faces can differ in
+  ///                 more ways.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
   /// Restores a face space from `tables()`, computed from the same heads and weights.
   ///
   /// \pre `tables_fit(tables, heads)`.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables);
 
-  /// Returns whether the tables have the right sizes for these heads.
+  /// Returns whether the sizes of the tables fit these heads.
   static bool tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads);
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
-  /// Returns the point of an input head; its two variants are equal. If faces may be
-  /// mirrored, the heads' mirror images are numbered from head_count() on.
+  /// Returns the point of an input head; the point's two variants are equal. If faces may be
+  /// mirrored, the heads' mirror images have the numbers from head_count() on.
   Point head_point(Index head) const;
 
   Index dimensions() const { return tables_.directions.rows() + 1; }
@@ -55,19 +58,19 @@ class FaceSpace {
   Index head_point_count() const { return orientation_count() * head_count(); }
   const SampledHeads& sampled_heads() const { return heads_; }
 
-  /// Returns the root mean square distance over the face in mm: the smaller of the distance as
+  /// Returns the root mean square distance between two faces in mm: the smaller of the distance as
   /// built and the distance with all extrapolation factors 1.
   static double distance(const Point& a, const Point& b);
-  /// A point, and its products with the metric of one region.
+  /// A point, and the products of the region's metric with this point.
   struct RegionPoint {
     const Point* point = nullptr;
-    Eigen::VectorXf as_built, unextrapolated;  ///< metric times point
+    Eigen::VectorXf as_built, unextrapolated;  ///< metric of the region, times the point
   };
   RegionPoint region_point(const Point& point, Index region) const;
-  /// Returns the distance over one region, after the whole faces are aligned.
+  /// Returns the distance between two faces over one region, after the whole faces are aligned.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
 
-  /// Returns the region's fraction of the face's area; 1 if it is the only region.
+  /// Returns the region's fraction of the face's surface area; 1 if the region is the only one.
   double region_share(Index region) const {
     return region_shares_.empty() ? 1 : region_shares_[static_cast<std::size_t>(region)];
   }
@@ -81,7 +84,8 @@ class FaceSpace {
 
   struct FunctionRows;
 
-  /// Returns 1, or 2 if there are mirror images, which are the heads from number head_count() on.
+  /// Returns the number of orientations: 2 if there are mirror images (which are the heads from
+  /// number head_count() on), otherwise 1.
   Index orientation_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
   const SampledHeads& heads_in_orientation_of(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
@@ -89,7 +93,7 @@ class FaceSpace {
   std::size_t unmirrored_index(Index head) const {
     return static_cast<std::size_t>(head % head_count());
   }
-  /// Returns the index of the sample in row i. Samples of weight zero have no row.
+  /// Returns the sample that row i of the matrices belongs to. Samples of weight zero have no row.
   Index sample_at(Index i) const { return weighted_samples_[static_cast<std::size_t>(i)]; }
   void choose_weighted_samples(const std::vector<double>& weights);
   SpanBasis level_modes() const;
@@ -110,15 +114,17 @@ class FaceSpace {
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
-  std::vector<Index> weighted_samples_;  ///< samples of nonzero weight
+  std::vector<Index> weighted_samples_;  ///< indices of the samples with nonzero weight
   Eigen::VectorXf weight_square_roots_;  ///< √w of each sample in `weighted_samples_`
   FaceSpaceTables tables_;
-  Shape mean_shape_;           ///< #P by 3
+  Shape mean_shape_;           ///< shape of the mean head, #P by 3
   std::vector<Shape> shapes_;  ///< shapes of all heads, including mirror images
-  /// α_k (S_L x_h − x_h): by region, head (including images) and row, #P by 3 each
+  /// α_k (S_L x_h − x_h), one #P by 3 matrix for each region, head (including mirror images) and
+  /// row of the level table
   std::vector<float> fields_;
   FloatRows directions_transposed_;
-  std::vector<double> region_shares_;  ///< fraction of the face's area; empty for one region
+  /// the region's fraction of the face's surface area; empty if there is one region
+  std::vector<double> region_shares_;
 };
 
 }  // namespace crowdface

@@ -11,14 +11,15 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kFounders = 12;  ///< founders tried before giving up
-/// number of pairs of new parents that are tried, in addition to the candidates for the founder
+constexpr std::uint32_t kFounders = 12;  ///< number of founders to try before giving up
+/// number of pairs of new parents to try, in addition to the number of founders
 constexpr std::uint32_t kCouples = 200;
-constexpr std::uint32_t kFounderAttempts = 64;  ///< candidates for each founder
+/// number of candidates that are tried for each founder
+constexpr std::uint32_t kFounderAttempts = 64;
 constexpr int kFounderCandidates = 24;
 
-/// Options for a face that does not join the crowd: it must be believable, but has no distance
-/// limits.
+/// Returns options for a face that is not part of the crowd: the face must be believable, but has
+/// no minimum distances.
 DiversityOptions without_distance_limits(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
   diversity.min_distance_to_faces_mm = 0;
@@ -27,8 +28,8 @@ DiversityOptions without_distance_limits(DiversityOptions diversity) {
   return diversity;
 }
 
-/// Finds the members, each far enough from the crowd and the earlier members. Returns fewer members
-/// if there is no room.
+/// Finds a family's members, each far enough from the crowd and from the members found before.
+/// Returns fewer members if there is no room.
 std::vector<FaceSearch::Found> find_members(const CastingOptions& casting,
                                             const FamilyOptions& family, const FaceJudge& judge,
                                             const FamilySampler& sampler, const FamilyPlan& cast,
@@ -68,7 +69,8 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     throw_if_interrupted();
     if (drawn && !sampler.sample_parents(crowd, family_separation, f, rejections))
       return std::nullopt;
-    // Find a founder. New parents must also resemble this founder.
+    // Find a founder (from whom the members are derived). New parents must also resemble this
+    // founder.
     FaceSearch founder([&](std::uint32_t attempt) { return sampler.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kFounderCandidates : 1,
                        f * attempts_each);
@@ -76,12 +78,12 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     rejections.add(founder.rejections());
     if (!found) continue;
     const double to_half = sampler.nearer_strangers_fraction(found->point);
-    // The limit grows with the number of tries: two new parents soon match well, but if one parent
-    // is given, there may be no good match.
+    // The limit grows with the number of tries. If both parents are new, a pair that matches well
+    // is soon found; if one parent is given, there may be no good match.
     const double enough = kMaxNearerStrangersToMean * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
-    // For twins, a hidden child replaces the founder.
+    // For twins, a hidden child (not part of the crowd) replaces the founder.
     if (family.twins) {
       FaceSearch model([&](std::uint32_t attempt) { return sampler.twin_model(cast, attempt); },
                        judge, of_founder, 1, f * attempts_each);
@@ -95,7 +97,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
       if (!child) continue;
       cast = {family.name, std::move(child->face), std::move(child->point), true};
     }
-    // Find room for all members, or try the next founder.
+    // Find room for all members. If there is not enough room, try the next founder.
     auto members =
         find_members(casting, family, judge, sampler, cast, crowd, family_separation, rejections);
     if (static_cast<int>(members.size()) < family.members) continue;
@@ -123,7 +125,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
 double silhouette(const std::vector<FamilyPlan>& families, std::size_t family,
                   const std::vector<FaceSpace::Point>& points) {
   const FamilyPlan& own = families[family];
-  using Faces = std::pair<Index, Index>;  // [first, second)
+  using Faces = std::pair<Index, Index>;  // index ranges [first, second)
   const auto mean_distance = [&](Index from, std::initializer_list<Faces> to) {
     double sum = 0, count = 0;
     for (const auto& [begin, end] : to) {

@@ -8,10 +8,10 @@
 
 namespace crowdface {
 
-/// Casts a family and adds its new parents and then its members to the crowd. If not all members
-/// can be placed around a founder, tries another founder, a bounded number of times. New parents
-/// are chosen so that, for each parent and child, at most one stranger in ten is nearer to the
-/// child than the parent is.
+/// Casts a family: adds the family's new parents and then its members to the crowd. All members are
+/// derived from one founder, who is not part of the crowd. If not all members fit in around the
+/// founder, tries another founder, a bounded number of times. New parents are chosen so that, for
+/// each parent and child, at most one stranger in ten is nearer to the child than the parent is.
 ///
 /// \return  Nothing if the family cannot be cast; `rejections` then holds the reasons.
 std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,
@@ -19,10 +19,10 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
                                       CrowdSoFar& crowd, FamilySeparation& family_separation,
                                       Rejections& rejections);
 
-/// Returns the mean silhouette of a family's members (Rousseeuw 1987): (b − a)/max(a, b), where a
-/// is a member's mean distance to its own family, and b the member's mean distance to the nearest
-/// other family (to all other faces if there is no other family). 1: far from all other families;
-/// below 0: nearer to another family.
+/// Returns the mean silhouette of a family's members (Rousseeuw 1987). The silhouette of a member
+/// is (b − a)/max(a, b), where a is the member's mean distance from its own family, and b is the
+/// member's mean distance from the nearest other family (from all other faces if there is no other
+/// family). 1: far from all other families; below 0: nearer to another family than to its own.
 double silhouette(const std::vector<FamilyPlan>& families, std::size_t family,
                   const std::vector<FaceSpace::Point>& points);
 

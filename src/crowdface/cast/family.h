@@ -13,12 +13,13 @@ namespace crowdface {
 /// A parent of a family: an input head, or a face of the plan, given by its id.
 struct Parent {
   std::optional<Eigen::Index> head;
-  std::string id;       ///< id of the face, with or without the crowd's name; or name of the head
-  bool is_new = false;  ///< the parent does not exist yet: casting makes a face with this id
-  /// new parent: group whose parameters are used; empty: the crowd's parameters
+  std::string id;  ///< id of the face, with or without the crowd's name; or name of the head
+  /// whether the parent does not exist yet, so that casting makes a face with this id
+  bool is_new = false;
+  /// for a new parent: the group whose parameters are used; empty: the crowd's parameters
   std::optional<std::size_t> group = {};
-  /// Possible targets of a new parent outside all groups: the heads tagged female or male. Empty:
-  /// all targets of the crowd.
+  /// Possible targets of a new parent that belongs to no group: the heads tagged female (mother) or
+  /// male (father). Empty: all targets of the crowd.
   std::vector<Eigen::Index> targets = {};
 };
 
@@ -28,18 +29,23 @@ struct FamilyOptions {
   int members = 0;
   std::optional<std::size_t>
       group;  ///< group whose parameters are used; empty: the crowd's parameters
-  /// target of all members; empty: the target is inherited from the parents or the founder
+  /// the head that is the target of all members; empty: members inherit the target from the parents
+  /// or the founder
   std::optional<Eigen::Index> target;
-  std::vector<Parent> parents;  ///< empty, or mother and father
-  /// #regions by #bands, region by region: 0 from the mother, 1 from the father, −1 from neither
+  std::vector<Parent> parents;  ///< mother and father, or empty
+  /// #regions by #bands, region by region: 0 if the detail comes from the mother, 1 from the
+  /// father, −1 from a random parent
   std::vector<int> inherited_parents;
-  /// largest distance of a member from the founder, who is not in the crowd
+  /// largest distance of a member from the founder, from whom all members start (and who is not in
+  /// the crowd)
   double max_distance_mm = 2.5;
   double min_distance_mm = 0;  ///< smallest distance between members
-  /// members are as similar as twins: within 0.5 mm of a common face that is not in the crowd
+  /// whether members are as similar as twins: within 0.5 mm of a common face that is not in the
+  /// crowd
   bool twins = false;
-  Range age = {0, 0};       ///< ages of the members, see apply_age
-  TraitLimits traits = {};  ///< replace the crowd's or group's limits on the same traits
+  Range age = {0, 0};  ///< ages of the members, see apply_age
+  /// limits that replace the crowd's or group's limits on the same measurements
+  TraitLimits traits = {};
 };
 
 }  // namespace crowdface

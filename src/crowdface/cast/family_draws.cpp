@@ -17,25 +17,27 @@
 namespace crowdface {
 namespace {
 
-constexpr double kNearestShare = 0.4;  ///< smallest step of a member, as a fraction of max_distance
-/// weight of a parent's detail in the random face that a member is mixed with
+/// smallest distance of a member from the founder, as a fraction of max_distance
+constexpr double kNearestShare = 0.4;
+/// weight of a parent's detail in the random face with which the founder is mixed
 constexpr double kParentShare = 0.75;
-/// Coarse shape of the random face that a member is mixed with: kLargeFormsShare is the weight of
-/// one parent, kForeignShare the weight of a third contributor; the other parent has the remaining
-/// weight. Without the third contributor, children of one couple would hardly differ.
+/// Weights of the coarse shape of the random face with which the founder is mixed: kLargeFormsShare
+/// for one parent, kForeignShare for a third contributor, and the remaining weight for the other
+/// parent. Without the third contributor, the children of a couple would hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
-constexpr double kTwinsReach = 0.5;  // largest distance of a twin from the hidden child, mm
+// largest distance in mm between a twin and the hidden child from which all twins are derived
+constexpr double kTwinsReach = 0.5;
 
-/// A child resembles a parent if at most this fraction of strangers is nearer to the child than the
-/// parent is.
+/// A child counts as resembling a parent if at most this fraction of strangers is nearer to the
+/// child than the parent is.
 constexpr double kMaxNearerStrangers = 0.1;
-/// If the parents are far apart, a child may be farther from a parent than the founder is, by at
-/// most this fraction of max_distance.
+/// If the parents are far apart: how much farther a child may be from a parent than the founder is,
+/// as a fraction of max_distance.
 constexpr double kRoomAtHalf = 0.25;
 
-/// Returns the parameters of a new parent. If the crowd has no target of the parent's sex, all
+/// Returns the parameters of a new parent. If no target of the crowd has the parent's sex, all
 /// targets are allowed.
 FaceKind kind_of(const Parent& parent, const CastingOptions& casting) {
   FaceKind kind = kind_of_group(casting, parent.group);
@@ -103,12 +105,12 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
 void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan face,
                                FaceSpace::Point point) {
   undo_age(face, {casting_.anchors, casting_.tags},
-           sampling_of(face));  // children do not inherit a parent's age
+           sampling_of(face));  // remove the parent's age, because children do not inherit it
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
-/// Called when the parents are known. Determines the third contributor, and the substitutes for
-/// heads of the parents that are outside the family's group.
+/// Determines the third contributor, and the substitutes for the parents' heads that are outside
+/// the family's group. Called when the parents are known.
 void FamilySampler::prepare_inheritance() {
   contributor_kind_ = third_contributor();
   if (!family_.group || parents_.empty()) return;
@@ -118,7 +120,8 @@ void FamilySampler::prepare_inheritance() {
     for (const SourceWeight& share : target_shares(parent.face.recipe)) taken.push_back(share.head);
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
-  // Replace targets only if the group has several: with one, all children would have its shape.
+  // Replace targets only if the group has several targets. With one target, all children would have
+  // the target's shape.
   target_substitutes_ = targets.size() > 1
                             ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
                             : SubstituteHeads();
@@ -129,14 +132,14 @@ void FamilySampler::prepare_inheritance() {
 }
 
 /// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
-/// replaced.
+/// replaced by similar heads of the group.
 std::vector<SourceWeight> FamilySampler::coarse_shape_of(std::size_t parent) const {
   return target_substitutes_.substituted(target_shares(parents_[parent].face.recipe));
 }
 
-/// Returns the parameters of the third contributor: a random mixture of the heads (at least three)
-/// that have most of the tags that both parents share, so that the child's skin tone stays
-/// plausible.
+/// Returns the parameters from which the third contributor is drawn. This contributor provides what
+/// members inherit from neither parent. It is a random mixture of at least three heads that have
+/// most of the tags which both parents share, so that the child's skin tone stays plausible.
 FaceKind FamilySampler::third_contributor() const {
   constexpr std::size_t kMin = 3;
   FaceKind kind = kind_of_group(casting_, family_.group);
@@ -206,7 +209,8 @@ double FamilySampler::distance_to_new_parent_mm(const FaceSpace::Point& point) c
   return mm;
 }
 
-/// Returns the sampling parameters of a face: its group's or the crowd's parameters.
+/// Returns the sampling parameters that apply to a face: the parameters of the face's group or of
+/// the crowd.
 const SamplingOptions& FamilySampler::sampling_of(const FacePlan& face) const {
   for (const Group& group : casting_.groups) {
     if (face.group == group.name) return group.sampling;
@@ -214,8 +218,8 @@ const SamplingOptions& FamilySampler::sampling_of(const FacePlan& face) const {
   return casting_.sampling;
 }
 
-/// Returns the band of a region that a parent passes on: for a face, the band of its recipe; for a
-/// head, the head's own detail.
+/// Returns the band of detail that a parent passes on. If the parent is a face, this is the band of
+/// its recipe; if the parent is a head, the head's own detail.
 BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, std::size_t band,
                                       const BandRecipe& random_band) const {
   BandRecipe own = random_band;
@@ -239,7 +243,8 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   FacePlan face = random_face_plan(casting_, open, {0, attempt, concat("family/", family_.name)},
                                    contributor_kind_);
   if (parents_.empty()) {
-    face.family = family_.name;  // so that the family's limits on measurements apply
+    // mark the face as a member, so that the family's limits on measurements apply
+    face.family = family_.name;
     return face;
   }
   if (!family_.target) {
@@ -264,7 +269,7 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   return face;
 }
 
-/// Returns (1 − t)·from + t·draft.random_face, aged.
+/// Returns (1 − t)·from + t·draft.random_face, with the age of the draft applied.
 FacePlan FamilySampler::mixed_face(const FacePlan& from, const Draft& draft, double t) const {
   FacePlan face = draft.random_face;
   face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.scale);
@@ -278,7 +283,8 @@ int FamilySampler::inherited_parent(std::size_t region, std::size_t band) const 
   return family_.inherited_parents[region * band_count(casting_.sampling) + band];
 }
 
-/// Mixes a face with a parent in its coarse shape, and with a parent in each band of each region.
+/// Mixes the coarse shape of a face with the coarse shapes of both parents, and each band of each
+/// region with the same band of one parent.
 void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.owner, "/inherits/", what);
@@ -329,7 +335,7 @@ FamilySampler::Draft FamilySampler::draft(const FamilyPlan& cast, int member,
   const std::string purpose = concat(key.owner, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
-  // the fraction how_far sets the distance from the founder
+  // how_far, from 0 to 1, sets the distance from the founder between its smallest and largest value
   draft.distance_mm = kNearestShare + (1 - kNearestShare) * how_far;
   draft.distance_mm *= max_reach_mm(cast);
   if (cast.has_twin_model) {
@@ -344,14 +350,15 @@ FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& cast, const Dr
     return FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) >
            draft.distance_mm;
   };
-  // Bisect the step towards the random face.
+  // Find by bisection how far to go from the founder towards the random face.
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
     const bool too_far = beyond(mixed_face(cast.founder, draft, t));
     if (t == 1 && !too_far) break;
     t += too_far ? -step : step;
   }
-  // The last step may have violated the limit; the previous step did not.
+  // The last step of the bisection may have gone beyond the chosen distance. If so, use the
+  // previous step.
   FacePlan face = mixed_face(cast.founder, draft, t);
   if (t > step && beyond(face)) face = mixed_face(cast.founder, draft, std::max(t - 2 * step, 0.0));
   return face;
@@ -382,15 +389,15 @@ std::optional<Reason> FamilySampler::rejection_reason(
     const double mm = FaceSpace::distance(point, relative);
     if (mm < family_.min_distance_mm) return Reason::kFamily;
     farthest = std::max(farthest, mm);
-    // Each earlier member, too, must be nearer to this point than to any stranger.
+    // Each member found before must be nearer to this point than to any stranger, too.
     if (stranger_points_.nearest(relative).distance_mm <= mm) return Reason::kFamily;
   }
   if (stranger_points_.nearest(point).distance_mm <= farthest) return Reason::kFamily;
   return std::nullopt;
 }
 
-/// If the parents are far apart, no child is near both parents. Then a child may be about as far
-/// from each parent as the founder is.
+/// Returns whether a child resembles the parents. If the parents are far apart, no child is near
+/// both parents; then a child may be about as far from each parent as the founder is.
 bool FamilySampler::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
   if (nearer_strangers_fraction(point) <= kMaxNearerStrangers) return true;
   if (nearer_strangers_fraction(cast.founder_point) <= kMaxNearerStrangersToMean) return false;

@@ -13,33 +13,33 @@
 
 namespace crowdface {
 
-/// A family of the plan: its founder, and the range of its members in the crowd.
+/// A family of the plan: its founder (from whom the members are derived), and the range of its
+/// members in the crowd.
 struct FamilyPlan {
   std::string name;
-  FacePlan founder;  ///< not in the crowd
+  FacePlan founder;  ///< the face from which the members are derived; it is not in the crowd
   FaceSpace::Point founder_point;
-  /// whether the members are twins: then the founder is a hidden child of the same age as the twins
+  /// whether the members are twins: then `founder` is a hidden child with the age of the twins
   bool has_twin_model = false;
-  Index begin = 0, end = 0;  ///< range of the members in the crowd
-  /// largest fraction of strangers nearer to a child than its parent
+  Index begin = 0, end = 0;  ///< indices of the members in the crowd: [begin, end)
+  /// largest fraction of strangers that are nearer to a child than the child's parent is
   double nearer_strangers_fraction = 0;
 };
 
 /// Largest fraction of strangers that may be nearer to the mean of both parents than a parent is.
-/// It is smaller than the corresponding limit for children, so that children can differ from that
-/// mean.
+/// The limit for children is larger, so that children can differ from that mean.
 inline constexpr double kMaxNearerStrangersToMean = 0.06;
 
-/// Makes random faces of one family. Each member lies between the founder and a random face, at a
-/// random distance of at most max_distance from the founder.
+/// Makes random faces of one family. Each member lies between the founder and a random face. The
+/// member's distance from the founder is random, and at most max_distance.
 class FamilySampler {
  public:
-  /// \param crowd  All faces except the family, among them the parents, found by id.
+  /// \param crowd  All faces except this family, but including the parents, who are found by id.
   FamilySampler(const CastingOptions& casting, const FamilyOptions& family, const FaceJudge& judge,
                 const UnrelatedFaces& unrelated, const CrowdSoFar& crowd);
 
-  /// Returns whether new parents must be made for this family because they are not in the crowd
-  /// yet.
+  /// Returns whether new parents must be made for this family because some parents are not in the
+  /// crowd yet.
   bool needs_parents() const { return !missing_parents_.empty(); }
   /// Makes the missing parents; see needs_parents().
   ///
@@ -48,16 +48,17 @@ class FamilySampler {
                       std::uint32_t attempt, Rejections& rejections);
   /// Returns the parents that the last call of sample_parents made, mother first.
   const std::vector<FaceSearch::Found>& new_parents() const { return new_parents_; }
-  /// Returns the distance from a point to the nearest new parent. New parents are not yet in the
-  /// crowd.
+  /// Returns the distance from a point to the nearest new parent. (New parents are not yet in the
+  /// crowd, so the crowd's search does not find them.)
   double distance_to_new_parent_mm(const FaceSpace::Point& point) const;
 
-  /// Returns the founder, from whom all members start: with parents, the mean of both parents;
-  /// otherwise a random face.
+  /// Returns the face from which all members start: the mean of both parents or, without parents, a
+  /// random face.
   FacePlan founder(std::uint32_t attempt) const;
-  /// Returns the hidden child that all twins resemble. The child's age is stored but not applied.
+  /// Returns the hidden child that all twins resemble. Stores the child's age in the plan but does
+  /// not apply it to the recipe.
   FacePlan twin_model(const FamilyPlan& cast, std::uint32_t attempt) const;
-  /// Returns candidate number `attempt` for member number `member`, which counts from 1.
+  /// Returns candidate number `attempt` for member number `member`; members count from 1.
   FacePlan member(const FamilyPlan& cast, int member, std::uint32_t attempt) const;
 
   /// Returns why a point is rejected for a member of this family, nothing if it is accepted.
@@ -68,17 +69,17 @@ class FamilySampler {
                                          const FamilySeparation& family_separation) const;
 
   /// For each parent, computes the fraction of strangers that are nearer to the point than the
-  /// parent is. Returns the larger fraction. For a family in a group, strangers are of this group,
-  /// and only parents whose heads are all in the group are considered.
+  /// parent is. Returns the larger fraction. For a family in a group, the strangers are faces of
+  /// this group, and a parent is considered only if all heads of the parent are in the group.
   double nearer_strangers_fraction(const FaceSpace::Point& point) const;
 
  private:
   struct KnownParent {
-    std::string name;  ///< name of the head, or id of the face
-    FacePlan face;     ///< the parent, without its age; for a head, only the target is set
+    std::string name;  ///< name of the parent's head, or id of the parent's face
+    FacePlan face;  ///< the parent as it looks without its age; for a head, only the target is set
     FaceSpace::Point point;
   };
-  /// The random face, age and distance from the founder of one member.
+  /// The random face of one member, the member's age, and the member's distance from the founder.
   struct Draft {
     FacePlan random_face;
     double age = 0, distance_mm = 0;
@@ -103,17 +104,20 @@ class FamilySampler {
   const FamilyOptions& family_;
   const FaceJudge& judge_;
   const UnrelatedFaces& unrelated_;
-  std::vector<KnownParent> parents_;          ///< #parents; entries of missing parents are empty
-  std::vector<std::size_t> missing_parents_;  ///< indices of parents that were not in the crowd
+  std::vector<KnownParent> parents_;  ///< #parents; empty entries for parents that are missing
+  std::vector<std::size_t> missing_parents_;  ///< indices of the parents that were not in the crowd
   std::vector<FaceSearch::Found> new_parents_;
-  FaceKind contributor_kind_;  ///< parameters of features that members inherit from neither parent
-  /// replaces targets of the parents by targets of the family's group
+  /// parameters of the third contributor, who provides features that members inherit from neither
+  /// parent
+  FaceKind contributor_kind_;
+  /// replaces the parents' targets by targets of the family's group
   SubstituteHeads target_substitutes_;
-  /// by band: replaces the parents' sources by sources of the group; empty: no group
+  /// by band: replaces the parents' sources by sources of the family's group; empty: no group
   std::vector<SubstituteHeads> source_substitutes_;
-  /// families of the parents, and families that share a parent
+  /// names of the parents' families, and of the families that share a parent
   std::vector<std::string> relatives_;
-  NearestFaceSearch kin_points_, stranger_points_;  ///< points of relatives, and of all other faces
+  /// points of relatives (kin) and of all other faces (strangers)
+  NearestFaceSearch kin_points_, stranger_points_;
 };
 
 /// Returns the id of a family's member, such as "NAME_FAMILY_01".

@@ -14,40 +14,41 @@
 namespace crowdface {
 
 /// Keeps families apart: every member is nearer to each member of its own family than to any face
-/// that is not a relative. A face's relatives are its family, its parents' families, and families
-/// that share a parent.
+/// that is not a relative. The relatives of a face are its own family, the families of its parents,
+/// and families that share a parent.
 class FamilySeparation {
  public:
-  /// Returns whether some member of a family is at least as near to the point as to the farthest
-  /// member of its own family.
+  /// Returns whether a point is too near to a family: whether some member of the family is at least
+  /// as near to the point as to the farthest member of its own family.
   ///
   /// \param relatives  Families that are not checked.
   bool intrudes(const FaceSpace::Point& point,
                 const std::vector<std::string>& relatives = {}) const;
-  /// Returns why a stranger is rejected; nothing if it is accepted.
+  /// Returns why a face that has no relatives is rejected at this point; nothing if it is accepted.
   std::optional<Reason> rejection_reason(const FaceSpace::Point& stranger) const {
     return intrudes(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
   }
-  /// Adds the members of a family.
+  /// Adds a family by the points of its members.
   void add(const std::string& family, const std::vector<FaceSpace::Point>& members);
 
  private:
   struct Member {
     std::string family;
     FaceSpace::Point point;
-    double radius_mm;  ///< distance to the farthest member of the same family
+    double radius_mm;  ///< distance from this member to the farthest member of its family
   };
   std::vector<Member> members_;
 };
 
-/// Random faces that belong to no family, to find out how near two unrelated faces are by chance.
-/// They have the parameters of the crowd, or of a group, and depend only on the seed and these
-/// parameters, so that a family does not depend on the crowd's size. Empty if no family has
-/// parents.
+/// Random faces that belong to no family. They show how near two unrelated faces are by chance.
+/// These faces have the parameters of the crowd, or of a group, and depend only on the seed and on
+/// these parameters, so that a family does not depend on the crowd's size. If no family has
+/// parents, no such faces are made.
 class UnrelatedFaces {
  public:
   UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space);
-  /// Returns the fraction of a group's unrelated faces that are nearer than `mm` to a point, 0 … 1.
+  /// Returns the fraction (0 … 1) of a group's unrelated faces whose distance from a point is below
+  /// `mm`.
   double fraction_nearer(const FaceSpace::Point& point, double mm,
                          std::optional<std::size_t> group = std::nullopt) const;
 

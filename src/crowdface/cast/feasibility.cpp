@@ -7,25 +7,26 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of candidates in all trials together; a trial that has begun is finished.
+/// Largest number of candidates in all trials together. A trial that has begun may exceed this
+/// number, because it is always finished.
 constexpr std::uint64_t kMaxDraws = 200'000;
 /// Largest number of faces in a trial.
 constexpr std::uint64_t kMaxTried = 400;
-/// Bisection stops when the smallest value that fails is at most this factor times the largest that
-/// works.
+/// Bisection stops when the smallest distance that fails is at most this factor times the largest
+/// distance that works.
 constexpr double kNearEnough = 1.08;
 
 double whole_hundredths(double mm) {
   return std::floor(mm * 100) / 100;
 }
 
-/// Number of trials in which meshes are judged. Such a trial takes a hundred times as long as
-/// others.
+/// Number of trials in which meshes are judged. Such a trial takes a hundred times as long as a
+/// trial without meshes.
 constexpr int kMaxMeshTrials = 4;
 
-/// Returns a smaller distance to try, because at distance `fails` only `reached` of `count` faces
-/// fit. The number of faces that fit is proportional to a power of the distance; the exponent is
-/// between −2.5 and −5.
+/// Returns a smaller distance to try, given that at distance `fails` only `reached` of `count`
+/// faces fit. The number of faces that fit is proportional to a power of the distance; the exponent
+/// is between −2.5 and −5.
 double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
   const double share = (static_cast<double>(reached) + 0.5) / (static_cast<double>(count) + 1);
   return fails * std::clamp(std::pow(share, 0.4), 0.6, 0.93);
@@ -76,7 +77,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
       next = std::sqrt(works * fails);
     }
   }
-  // The trials above check coarse meshes only.
+  // The trials above check coarse meshes only. Repeat the check with whole meshes.
   for (int trial = 0; meshes && works > 0 && shortfall_at(works, meshes); ++trial) {
     works = trial + 1 < kMaxMeshTrials ? whole_hundredths(0.93 * works) : 0;
   }
@@ -85,7 +86,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 }
 
 std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge) {
-  constexpr std::uint64_t kBetter = 8;  // spread finds at most twice as many faces; 8 adds a margin
+  // spread mode finds at most twice as many faces as first fit; 8 adds a margin
+  constexpr std::uint64_t kBetter = 8;
   const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {

@@ -15,13 +15,14 @@ using Lanes = hn::CappedTag<float, 16>;
 
 constexpr std::size_t kSums = 16, kChunk = 64 * kSums;
 
-/// Partial sums over one chunk, one per lane.
+/// Partial sums over one chunk of numbers, one sum for each lane.
 template <class Numbers>
 struct ChunkSums {
   static constexpr std::size_t kVectors = kSums / hn::MaxLanes(Lanes());
 
   const Numbers& numbers;
-  std::size_t begin, end, whole;  ///< up to `whole`, numbers come in full groups of kSums
+  /// the range [begin, end) consists of full groups of kSums numbers up to `whole`
+  std::size_t begin, end, whole;
   hn::VFromD<Lanes> sums[kVectors];
 
   ChunkSums(const Numbers& of, std::size_t from, std::size_t to)
@@ -76,7 +77,7 @@ double fixed_order_dot(const float* a, const float* b, std::size_t count) {
   return sum_of(Products{a, b}, count);
 }
 
-/// Adds scaled numbers to other numbers, stores the sums, and yields the squares of these sums.
+/// Adds scaled numbers to other numbers, stores the sums, and returns the squares of the sums.
 struct SquaresAfter {
   float factor;
   const float* from;

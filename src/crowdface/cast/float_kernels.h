@@ -8,14 +8,15 @@ namespace crowdface {
 // Vectorised kernels. Each product is rounded before it is added, so the results are bit-identical
 // to the results of plain loops on every instruction set.
 
-/// Returns Σ a_i b_i. Each chunk of 1024 numbers has sixteen sums in single precision; all sums are
-/// added in double precision.
+/// Returns Σ a_i b_i. Each chunk of 1024 numbers is added up in sixteen single-precision sums;
+/// these sums are then added in double precision.
 double fixed_order_dot(const float* a, const float* b, std::size_t count);
 
 /// Computes to[i] += factor·from[i].
 void add_scaled(float factor, const float* from, std::size_t count, float* to);
 
-/// Like add_scaled, but also returns fixed_order_dot of the new `to` with itself.
+/// Like add_scaled, but also returns the sum of the squares of the new values in `to`, with the
+/// bits of fixed_order_dot.
 double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to);
 
 /// Computes to[d] += factors[i]·rows[i][d], for all i in ascending order.
@@ -24,10 +25,11 @@ double add_scaled_and_square(float factor, const float* from, std::size_t count,
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
                      float* to);
 
-/// Adds (query[d] − rows[d][lane])² to the sum of each of sixteen lanes, in ascending order of d.
+/// For each of sixteen lanes, adds (query[d] − rows[d][lane])² to the lane's sum, in ascending
+/// order of d.
 ///
 /// \param rows  #dimensions by 16.
-/// \return      Whether at least one sum is still within the bound.
+/// \return      Whether at least one sum is still at most `bound`.
 bool add_squares(const float* query, const float* rows, std::size_t dimensions, float bound,
                  float* sums);
 

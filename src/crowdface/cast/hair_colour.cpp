@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-// Numbers of steps from 0 to 1 to which colours are rounded.
+// Colours are rounded to this number of steps between 0 and 1.
 constexpr double kEumelaninSteps = 20, kPheomelaninSteps = 10, kGreySteps = 10;
 
 double to_step(double value, double steps) {
@@ -98,7 +98,7 @@ std::optional<HairColour> parse_hair_label(std::string_view label) {
 }
 
 std::array<float, 3> reflected_light(const HairColour& colour) {
-  // Constants fitted to the albedo of blond, brown, black, copper and white hair.
+  // Constants that were fitted to the reflectance of blond, brown, black, copper and white hair.
   constexpr std::array<double, 3> kWithoutPigment = {1.1, 0.78, 0.33};
   constexpr std::array<double, 3> kEumelanin = {5.3, 5.7, 5.2}, kPheomelanin = {0.5, 1.6, 2.8};
   constexpr std::array<double, 3> kWhite = {0.375, 0.352, 0.322};

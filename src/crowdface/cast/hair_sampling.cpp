@@ -20,7 +20,8 @@ HairColour mix(const HairColour& a, const HairColour& b, double share) {
           a.grey + share * (b.grey - a.grey)};
 }
 
-/// Returns the index of the share that contains a random number from 0 to 1, or −1.
+/// Returns the index of the share that a random number from 0 to 1 selects. Returns −1 if the
+/// number exceeds the sum of the shares.
 int share_at(const std::vector<double>& shares, double drawn) {
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (drawn < shares[i]) return static_cast<int>(i);
@@ -53,7 +54,7 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   if (!colour) colour = scheduled_colour(face);
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
   if (face.family && face.parents.empty()) family_colours_.try_emplace(*face.family, *colour);
-  // Vary the colours slightly at random, so that not all brown hair has the same brown.
+  // Vary the colours slightly at random, so that not all brown hair has the same shade of brown.
   const std::string purpose = key("hair/scatter");
   const auto scatter = random_pair({options_.seed, is_twin ? 0 : face.index.value_or(0), purpose});
   constexpr double kScatter = 0.1;
@@ -65,14 +66,14 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   return rounded_colour(own);
 }
 
-/// Returns the key of `hair_colours` that applies to a face.
+/// Returns the key of `hair_colours` (a group's name or "") that applies to a face.
 std::string HairChooser::hair_colours_key_of(const FacePlan& face) const {
   const std::string group = face.group.value_or("");
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Among all faces in `entry_indices_`, each
-/// colour has the share that the config asks for.
+/// Returns the colour that `hair_colours` gives the face. Among all faces in `entry_indices_` with
+/// the same entry, each colour has the fraction that the config specifies.
 std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
   const std::string entry = hair_colours_key_of(face);
   const auto shares = options_.hair_colours.find(entry);
@@ -99,7 +100,7 @@ std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
   return chosen < 0 ? std::nullopt : std::optional(colours[static_cast<std::size_t>(chosen)]);
 }
 
-/// Returns the colour that a face inherits from its parents or has from its family.
+/// Returns the hair colour that a face inherits from its parents or shares with its family.
 std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
                                                         const std::string& person) const {
   if (face.parents.empty()) {
@@ -112,7 +113,8 @@ std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
   }
   if (known.empty()) return std::nullopt;
   if (known.size() == 1) return known[0];
-  // The child gets the colour of one parent (35 % each) or a colour between the two.
+  // The child has the colour of one parent (with a probability of 35 % for each parent) or a colour
+  // between the two.
   const std::string purpose = concat("hair/parent/", person);
   const auto drawn = random_pair({options_.seed, 0, purpose});
   const double share = drawn[0] < 0.35 ? 0.0 : drawn[0] < 0.7 ? 1.0 : 0.3 + 0.4 * drawn[1];
@@ -128,8 +130,8 @@ std::optional<HairColour> HairChooser::colour_of_parent(const std::string& paren
   return colour_of_tags(head - options_.heads.begin(), concat("hair/tone/", parent));
 }
 
-/// Returns the colour that the head's tags name. If the tags name no colour, returns a random
-/// colour that is frequent in the world.
+/// Returns the hair colour that the head's tags name. If the tags name no colour, returns a random
+/// colour; colours that are frequent in the world are more likely.
 HairColour HairChooser::colour_of_tags(Index head, const std::string& purpose) const {
   constexpr std::string_view kEnding = "_hair";
   for (const std::string& tag : options_.tags[static_cast<std::size_t>(head)]) {
@@ -150,12 +152,12 @@ double HairChooser::grey_fraction(const FacePlan& face, Index head,
                          : contains(tags, "adult") ? 0.45
                          : contains(tags, "young") ? 0.15
                                                    : 0.3;
-  // Age moves the face's apparent age from the age of its head towards old or young. The square
-  // root makes grey hair visible at age 0.5 already.
+  // The head has an apparent age. The face's age moves this apparent age towards old or young. The
+  // square root makes grey hair visible at age 0.5 already.
   const double age = face.age.value_or(0);
   const double way = std::sqrt(std::min(1.0, std::abs(age)));
   const double aged = of_head + way * ((age < 0 ? 0.15 : std::max(0.9, of_head)) - of_head);
-  // Each person's hair begins to turn grey at a random age, but never while young.
+  // Each person's hair begins to turn grey at a random age, but never while the person is young.
   const double begin = random_unit({options_.seed, face.index.value_or(0), purpose}) - 0.5;
   return smooth_step(0.5, 1.0, aged + 0.35 * begin);
 }

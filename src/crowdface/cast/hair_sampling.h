@@ -15,23 +15,25 @@
 
 namespace crowdface {
 
-/// The inputs of HairChooser; the members have the same meaning as in AttachmentOptions.
+/// The parameters of HairChooser. Its members have the same meaning as in AttachmentOptions.
 struct HairOptions {
   std::uint64_t seed = 1;
-  HeadTags tags;                   ///< #heads
-  std::vector<std::string> heads;  ///< names of the heads; a parent may be a head
+  HeadTags tags;                   ///< the tags of each head
+  std::vector<std::string> heads;  ///< names of the heads; some parents of families are heads
   std::map<std::string, std::map<std::string, double>> hair_colours;
   std::set<std::string> twins;
 };
 
 /// Chooses the hair colours of faces, in the order of the plan; see choose_attachments. The colour
-/// of a face does not depend on later faces.
+/// of a face does not depend on the faces after it.
 class HairChooser {
  public:
-  /// \param crowd  all faces, in the order of the plan. The fractions of `hair_colours` count only
-  ///               faces that do not inherit a parent's or the family's colour.
+  /// \param crowd  all faces, in the order of the plan. The fractions of `hair_colours` refer only
+  ///               to faces that inherit no colour from a parent or the family.
   HairChooser(HairOptions options, const std::vector<FacePlan>& crowd);
 
+  /// Returns the hair colour of a face.
+  ///
   /// \param head  the face's typical head.
   HairColour colour_of(const FacePlan& face, Index head);
 
@@ -44,13 +46,15 @@ class HairChooser {
   double grey_fraction(const FacePlan& face, Index head, const std::string& purpose) const;
 
   HairOptions options_;
-  /// by face: its entry in `hair_colours`, and its index among the faces of this entry
+  /// by face: the key of its entry in `hair_colours`, and its index among the faces of this entry
   std::map<std::string, std::pair<std::string, std::uint64_t>> entry_indices_;
-  std::map<std::string, std::uint64_t> entry_sizes_;  ///< by entry: its number of faces
-  /// by entry: for each face of the entry, the index of the named colour, or −1
+  std::map<std::string, std::uint64_t> entry_sizes_;  ///< by entry: how many faces use the entry
+  /// by entry: for each face that uses the entry, the index of the face's colour in the entry, or
+  /// −1
   std::map<std::string, std::vector<int>> schedules_;
-  std::map<std::string, HairColour> base_colours_;    ///< colours without the grey of age, by face
-  std::map<std::string, HairColour> family_colours_;  ///< families' colours, by family
+  /// hair colours without the grey of age, by face
+  std::map<std::string, HairColour> base_colours_;
+  std::map<std::string, HairColour> family_colours_;  ///< hair colours of families, by family
 };
 
 }  // namespace crowdface

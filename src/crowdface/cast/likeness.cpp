@@ -15,13 +15,14 @@ namespace {
 
 constexpr std::size_t kBlock = 64;
 
-/// A set of faces with queries for the most similar faces. Results are exact: the distances of
-/// FaceSpace::distance over all remaining faces; of equally near faces, the first.
+/// A set of faces with queries for the most similar faces. The caller may remove faces. Results are
+/// exact: they use FaceSpace::distance over all remaining faces. Of equally near faces, the first
+/// comes first.
 class LikenessTree {
  public:
   /// \param points  Must outlive this object.
-  /// \param gone    #points: whether queries ignore a face. The caller may set entries to true
-  ///                later. Must outlive this object.
+  /// \param gone    #points: whether a face is removed, so that queries ignore it. The caller may
+  ///                set entries to true later. Must outlive this object.
   LikenessTree(const std::vector<FaceSpace::Point>& points, const std::vector<bool>& gone)
       : points_(points), gone_(gone) {
     add_variant(&FaceSpace::Point::as_built);
@@ -33,13 +34,13 @@ class LikenessTree {
   }
 
   std::size_t size() const { return static_cast<std::size_t>(blocks().size()); }
-  /// Returns the face at a position in the tree. Neighbouring positions are similar faces, so
+  /// Returns the face at a position in the tree. Faces at neighbouring positions are similar, so
   /// queries in this order use the cache well.
   std::size_t face(std::size_t place) const {
     return static_cast<std::size_t>(blocks().number(static_cast<Index>(place)));
   }
 
-  /// Returns the nearest remaining faces, nearest first.
+  /// Returns the nearest remaining faces, beginning with the nearest.
   std::vector<Neighbour> nearest(std::size_t face, std::size_t count) const {
     std::vector<Neighbour> near;
     if (count == 0) return near;
@@ -82,7 +83,7 @@ class LikenessTree {
   }
   const PointBlocks& blocks() const { return variants_.front().second.points(); }
 
-  /// Adds a tree over one variant of the points: as built, or with extrapolation factors of 1.
+  /// Adds a tree over one variant of the points (as built, or with extrapolation factors of 1).
   void add_variant(Variant of) {
     const Index dimensions = (points_[0].*of).size();
     PointBlocks blocks(dimensions);
@@ -95,10 +96,11 @@ class LikenessTree {
 
   const std::vector<FaceSpace::Point>& points_;
   const std::vector<bool>& gone_;
-  std::vector<std::pair<Variant, PointTree>> variants_;  ///< one entry if no face is extrapolated
+  /// contains one tree if no face is extrapolated, otherwise two
+  std::vector<std::pair<Variant, PointTree>> variants_;
 };
 
-/// Returns the face farthest from the first face; of equally far ones, the first.
+/// Returns the face that is farthest from face 0; of equally far faces, the first.
 std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
   std::vector<double> mm(points.size());
   parallel_for_each(points.size(), 16 * kBlock, [&](std::size_t other) {
@@ -107,11 +109,14 @@ std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
   return static_cast<std::size_t>(std::max_element(mm.begin(), mm.end()) - mm.begin());
 }
 
+/// Visits all faces, always going to the nearest face that is not yet visited; see find_likeness.
+///
 /// \param near  For each face, its nearest faces. Every face that is not listed is farther away.
 std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points,
                               const std::vector<std::vector<Neighbour>>& near) {
   std::vector<bool> gone(points.size(), false);
-  std::optional<LikenessTree> tree;  // holds the faces that were left when it was built
+  // contains the faces that were not yet visited when the tree was built
+  std::optional<LikenessTree> tree;
   std::vector<std::size_t> order = {farthest_from_first(points)};
   while (true) {
     throw_if_interrupted();

@@ -14,17 +14,19 @@ struct Neighbour {
   double distance_mm = 0;
 };
 
-/// Similar faces in a whole crowd, independent of the order of casting.
+/// Similar faces in a whole crowd. The result does not depend on the order in which the faces were
+/// cast.
 struct Likeness {
-  /// an order of the faces in which neighbours look alike
+  /// the faces in an order in which neighbours look alike
   std::vector<std::size_t> order;
   std::vector<std::vector<Neighbour>>
-      neighbours;  ///< #faces: the nearest other faces, nearest first
+      neighbours;  ///< for each face: the nearest other faces, beginning with the nearest
 };
 
-/// Finds similar faces. The order is a nearest-neighbour walk: it starts at the face farthest from
-/// face 0, and always continues with the nearest face that it has not visited. So two faces that
-/// are nearest to each other are adjacent. Of equally near faces, the walk takes the first.
+/// Finds similar faces, and an order in which neighbours look alike. This order is a
+/// nearest-neighbour walk: the walk starts at the face farthest from face 0, and always continues
+/// with the nearest face that it has not visited. So two faces that are each other's nearest face
+/// are adjacent. Of equally near faces, the walk takes the first.
 ///
 /// \param neighbours  Number of neighbours to keep for each face.
 /// \throws Interrupted.

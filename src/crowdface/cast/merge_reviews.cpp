@@ -15,7 +15,8 @@ const char* verb_of(const ReviewMark& mark) {
   return mark.locked.empty() ? "rejects it" : "rejects it and locks parts";
 }
 
-/// Merges a review into an earlier review whose results its reviewer did not see.
+/// Prepares a later review for use after an earlier review whose results its reviewer did not see.
+/// Removes from the later review what the earlier review already requests, and notes conflicts.
 class Merging {
  public:
   Merging(const Review& earlier, std::size_t earlier_number, Review& later,
@@ -61,7 +62,7 @@ class Merging {
     if (other.verdict != mark.verdict || other.locked != mark.locked) {
       tell(mark.id, verb_of(other), verb_of(mark));
     }
-    if (other.verdict == Verdict::kReject) {  // it is redrawn already
+    if (other.verdict == Verdict::kReject) {  // the earlier review already redraws the face
       mark.verdict = Verdict::kKeep;
       mark.locked.clear();
     }
@@ -70,7 +71,8 @@ class Merging {
     }
   }
 
-  /// Clears `value` if the other change sets the same value. Two different values are a conflict.
+  /// Clears `value` if the other change sets the same value. If the other change sets a different
+  /// value, adds a conflict.
   template <class Value>
   void merge(const char* key, const std::string& id, const Value& other, Value& value) {
     if (other == Value() || value == Value()) return;

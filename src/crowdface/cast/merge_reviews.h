@@ -11,17 +11,17 @@ namespace crowdface {
 /// Reviews to apply one after the other.
 struct MergedReviews {
   std::vector<Review> reviews;
-  /// Disagreements between reviews that were made at the same time, a line for each face.
+  /// Disagreements between reviews that were made at the same time, one line of text for each face.
   std::vector<std::string> conflicts;
 };
 
 /// Merges reviews whose reviewers did not see each other's results (see Review::seen_reviews).
-/// Equal requests apply once: a face that both reviews reject is redrawn once, and equal keys of
-/// changes apply once. Both notes stay. If two reviews disagree,
+/// Equal requests apply once: a face that both reviews reject is redrawn once, and a change that
+/// both reviews request is made once. Both notes stay. If two reviews disagree,
 ///
 /// - a face that only one review rejects is redrawn;
-/// - of two rejections with different locked parts, the rejection of the earlier review applies;
-/// - of two changes of the same key, the change of the later review applies last.
+/// - if both reviews reject a face with different locked parts, the earlier review applies;
+/// - if both reviews change the same key of a face, the later review is applied last.
 MergedReviews merged_reviews(const std::vector<Review>& reviews);
 
 }  // namespace crowdface

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// up to this number of points, a linear search is as fast as a search of a tree
+/// up to this number of points, a linear search is as fast as a tree
 constexpr Index kMaxNewestPoints = 2048;
 constexpr std::uint32_t kLeafSize = 2 * PointBlocks::kLanes;
 
@@ -68,7 +68,7 @@ void PointTree::search(const std::vector<float>& query, Index begin, Index end, 
 void PointTrees::add(const Eigen::VectorXf& point) {
   newest_.add(size_++, newest_.padded_query(point).data());
   if (newest_.size() < kMaxNewestPoints) return;
-  // Merge the newest points with all trees that are not larger.
+  // Merge the newest points with all trees that contain at most as many points.
   std::vector<const PointBlocks*> joined = {&newest_};
   Index count = newest_.size();
   std::size_t kept = trees_.size();

@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// A k-d tree (Friedman, Bentley & Finkel 1977) over the leading coordinates of a fixed set of
-/// points.
+/// A k-d tree (Friedman, Bentley & Finkel 1977) of a fixed set of points. The tree splits by the
+/// leading coordinates only.
 class PointTree {
  public:
   PointTree(Index dimensions, const std::vector<const PointBlocks*>& points);
@@ -23,15 +23,16 @@ class PointTree {
   void search(const std::vector<float>& query, Index begin, Index end, double enough,
               NearestPoint& best) const;
 
-  /// Bounds of the points of a node.
+  /// The box around the points of a node, and the range of their numbers.
   struct Bounds {
     LeadingCoordinatesBox box;
-    Index min_number, max_number;  ///< of the node's points
+    Index min_number, max_number;  ///< smallest and largest number of a point in the node
   };
-  /// Visits the blocks of leaves. Visits the child node nearer to the query first.
+  /// Visits the blocks of points in the leaves. Of two child nodes, visits the child nearer to the
+  /// query first.
   ///
-  /// \param wanted  wanted(squared distance to the query, bounds): whether to visit a node.
-  /// \param use     Called with the number of each block.
+  /// \param wanted  wanted(squared distance from the query, bounds): whether to visit a node.
+  /// \param use     Called with the number of each visited block.
   template <class Wanted, class Use>
   void visit(const std::vector<float>& query, const Wanted& wanted, const Use& use,
              std::uint32_t at = 0) const {
@@ -52,33 +53,35 @@ class PointTree {
   }
 
  private:
-  PointBlocks points_;  ///< in the tree's order
+  PointBlocks points_;  ///< all points, in the order of the tree's leaves
   MedianSplitTree tree_;
-  std::vector<Bounds> bounds_;  ///< #nodes: bounds of the node's points
+  std::vector<Bounds> bounds_;  ///< for each node, the bounds of the node's points
 };
 
-/// A growing set of points with nearest-point queries: trees whose sizes double, so that each point
-/// moves to a larger tree a logarithmic number of times (Bentley & Saxe 1980), and a list of the
-/// newest points.
+/// A growing set of points with nearest-point queries. Most points are in trees whose sizes double,
+/// so that each point moves to a larger tree a logarithmic number of times (Bentley & Saxe 1980).
+/// The newest points are in a list.
 class PointTrees {
  public:
   explicit PointTrees(Index dimensions) : dimensions_(dimensions), newest_(dimensions) {}
 
-  /// Adds a point. Points are numbered from 0.
+  /// Adds a point. Points are numbered in the order in which they are added, from 0.
   void add(const Eigen::VectorXf& point);
   Index size() const { return size_; }
-  /// Returns the nearest of the points [begin, end) with a squared distance below `limit`; of
-  /// equally near points, the first. The result's bits do not depend on the other points.
+  /// Returns the nearest of the points with numbers in [begin, end) whose squared distance is below
+  /// `limit`; of equally near points, the first. The result does not depend on the other points,
+  /// not even in its last bits.
   ///
-  /// \param enough  Squared distance, at most `limit`: the search ends at the first point nearer
-  ///                than this.
+  /// \param enough  Squared distance, at most `limit`. The search ends at the first point that is
+  ///                nearer than this.
   NearestPoint nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
                        double enough = 0) const;
 
  private:
   Index dimensions_;
   Index size_ = 0;
-  std::vector<PointTree> trees_;  ///< older points first; each tree is larger than the next
+  /// from the oldest points to the newest; each tree contains more points than the next tree
+  std::vector<PointTree> trees_;
   PointBlocks newest_;
 };
 
@@ -92,19 +95,22 @@ class NearestFaceSearch {
   Index size() const { return as_built_.size(); }
 
   struct NearestFace {
-    Index face = -1;  ///< −1: none within the limit
+    Index face = -1;  ///< number of the face; −1: no face is within the limit
     double distance_mm = HUGE_VAL;
   };
-  /// Returns the nearest of the faces [begin, end) if it is nearer than `limit_mm`.
+  /// Returns the nearest of the faces with numbers in [begin, end), if this face is nearer than
+  /// `limit_mm`.
   ///
   /// \param end        If negative, the number of faces.
-  /// \param enough_mm  The search ends at the first face nearer than this.
+  /// \param enough_mm  The search ends at the first face that is nearer than this.
   NearestFace nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
                       Index end = -1, double enough_mm = 0) const;
 
  private:
-  PointTrees as_built_, unextrapolated_;  ///< see FaceSpace::Point
-  bool extrapolated_ = false;  ///< whether any face has an extrapolation factor other than 1
+  /// one set of trees for each variant of the points, see FaceSpace::Point
+  PointTrees as_built_, unextrapolated_;
+  /// whether at least one face has an extrapolation factor other than 1
+  bool extrapolated_ = false;
 };
 
 }  // namespace crowdface

@@ -8,12 +8,12 @@
 
 namespace crowdface {
 
-/// Names of the heads, regions, bands and attachments in recipes, by index.
+/// Names of the heads, regions, bands and attachments that recipes refer to by index.
 struct PlanNames {
   std::vector<std::string> heads;
   std::vector<std::string> regions;
-  std::vector<std::string> bands = {};  ///< empty: detail is one band
-  /// Names of the attachments. Empty: recipes have no attachments.
+  std::vector<std::string> bands = {};  ///< empty: all detail is one band
+  /// Names of the attachments. Empty if recipes have no attachments.
   std::vector<std::string> attachments = {};
   std::vector<std::string> traits = {};  ///< names of the measurements that a plan records
 };

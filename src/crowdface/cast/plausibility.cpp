@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-/// variance added in every direction, as a fraction of the mean variance of the heads
+/// this fraction of the heads' mean variance is added to the variance in every direction
 constexpr double kRidge = 0.1;
 
 }  // namespace
@@ -44,8 +44,8 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
   return metric;
 }
 
-/// Returns zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1), by the Woodbury identity (‖z‖² − (Y z)ᵀ
-/// (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
+/// Returns zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1). Computes it by the Woodbury identity as (‖z‖²
+/// − (Y z)ᵀ (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
 double Plausibility::squared_distance(const Metric& metric, const Eigen::VectorXf& at) {
   std::vector<double> z(metric.mean.size()), along;
   for (std::size_t d = 0; d < z.size(); ++d) {
@@ -64,7 +64,9 @@ Plausibility::Plausibility(const FaceSpace& space) {
     heads.push_back(space.head_point(h).as_built);
   }
   metric_ = metric_without(heads, count, -1);
-  if (count < 3) {  // one remaining head has no variance: use the first head's distance
+  // one head alone has no variance, so no head can be left out: use the first head's distance
+  // instead
+  if (count < 3) {
     typical_distance_ = std::sqrt(squared_distance(metric_, heads[0]));
   } else {
     double sum = 0;

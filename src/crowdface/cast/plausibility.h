@@ -7,35 +7,42 @@
 
 namespace crowdface {
 
-/// Measures how unusual a face is among the input heads: its Mahalanobis distance (1936) from the
-/// heads' mean, divided by the distance that a new head typically has. A small number of heads does
-/// not determine the variance in every direction, so a tenth of the mean variance is added in every
-/// direction (as in probabilistic PCA, Tipping & Bishop 1999). The divisor is the root mean square
-/// of the heads' Mahalanobis distances, where each head is measured against all other heads.
+/// Measures how unusual a face is among the input heads: the face's Mahalanobis distance (1936)
+/// from the heads' mean, divided by the distance that a new head typically has. A small number of
+/// heads does not determine the variance in every direction, so a tenth of the mean variance is
+/// added in every direction (as in probabilistic PCA, Tipping & Bishop 1999). The typical distance
+/// is the root mean square of the heads' Mahalanobis distances, where each head is measured against
+/// all other heads.
 class Plausibility {
  public:
   explicit Plausibility(const FaceSpace& space);
-  /// Returns how unusual a face is: 1 if as unusual as a new head typically is.
+  /// Returns how unusual a face is. 1: as unusual as a new head typically is.
   double score(const FaceSpace::Point& point) const;
 
  private:
-  /// The quadratic form of the squared distance, from all heads or from all but one.
+  /// The quadratic form that gives the squared distance. Computed from all heads, or from all heads
+  /// except one.
   struct Metric {
-    std::vector<double> mean;                  ///< #D
-    std::vector<std::vector<double>> offsets;  ///< head − mean for each head, #D each
+    std::vector<double> mean;  ///< mean of the points of the heads, #D
+    /// for each head: the head's point minus the mean, #D
+    std::vector<std::vector<double>> offsets;
     std::vector<std::vector<double>>
         cholesky_factor;  ///< Cholesky factor of ridge·(H − 1)·I + Y Yᵀ
     double ridge = 1;
   };
+  /// Returns the metric of all heads except one.
+  ///
   /// \param heads           The heads, then their mirror images if faces may be mirrored.
   /// \param count_of_heads  Number of heads without mirror images.
-  /// \param left_out        Head to leave out, with its mirror image; −1: none.
+  /// \param left_out        Head that is left out together with its mirror image; −1: no head is
+  ///                        left out.
   static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index count_of_heads,
                                Index left_out);
   static double squared_distance(const Metric& metric, const Eigen::VectorXf& at);
 
   Metric metric_;
-  double typical_distance_ = 1;  ///< Mahalanobis distance that a new head typically has
+  /// the Mahalanobis distance from the mean that a new head typically has
+  double typical_distance_ = 1;
 };
 
 }  // namespace crowdface

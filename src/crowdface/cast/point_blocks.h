@@ -13,11 +13,11 @@ namespace crowdface {
 
 /// The nearest point that a search has found so far.
 struct NearestPoint {
-  Eigen::Index point = -1;  ///< number of the point; −1: none
+  Eigen::Index point = -1;  ///< number of the point; −1: no point was found
   double squared_distance = HUGE_VAL;
 
-  /// Takes another point if it is nearer; of equally near points, the point with the smaller
-  /// number.
+  /// Replaces the stored point by another point if the other point is nearer. Of two equally near
+  /// points, keeps the point with the smaller number.
   void update(Eigen::Index other, double squared) {
     if (squared > squared_distance || (squared == squared_distance && (point < 0 || other > point)))
       return;
@@ -25,7 +25,8 @@ struct NearestPoint {
   }
 };
 
-/// Bounding box in the leading coordinates; missing coordinates are zero.
+/// Bounding box of points in their leading (first few) coordinates. If points have fewer
+/// coordinates than the box, the missing coordinates are zero.
 struct LeadingCoordinatesBox {
   static constexpr std::size_t kDimensions = 8;
   std::array<float, kDimensions> low, high;
@@ -42,45 +43,48 @@ struct LeadingCoordinatesBox {
   }
 };
 
-/// Numbered points in blocks of sixteen, stored coordinate by coordinate, so that a query compares
-/// sixteen points at a time. The leading coordinates, in which faces differ most, rule out nearly
-/// all blocks early.
+/// Numbered points in blocks of sixteen. A block stores the first coordinates of all its points,
+/// then the second coordinates, and so on, so that a query compares sixteen points at a time. The
+/// leading coordinates, in which faces differ most, rule out nearly all blocks early.
 class PointBlocks {
  public:
   using Index = Eigen::Index;
   static constexpr Index kLanes = 16;
-  /// Relative tolerance that covers the rounding of float sums: points farther than the best by
-  /// more than this are skipped.
+  /// Relative tolerance for the rounding of sums in single precision. A search skips points that
+  /// are farther than the best point by more than this tolerance.
   static constexpr double kRounding = 1e-4;
 
   explicit PointBlocks(Index dimensions);
 
-  /// \param values  padded_dimensions() values.
+  /// \param values  the point's coordinates, padded with zeros to padded_dimensions() values.
   void add(Index number, const float* values);
   void clear();
   Index size() const { return static_cast<Index>(numbers_.size()); }
   Index padded_dimensions() const { return dimensions_; }
-  /// Returns the number of a point, by the order in which points were added.
+  /// Returns the number of the point at index `at`, where points are indexed in the order in which
+  /// they were added.
   Index number(Index at) const { return numbers_[static_cast<std::size_t>(at)]; }
   float value(Index at, Index dimension) const {
     return chunk_of(dimension)[chunk_offset(at, dimension)];
   }
 
-  /// Returns the query with padded_dimensions() values.
+  /// Returns the query, padded with zeros to padded_dimensions() values.
   std::vector<float> padded_query(const Eigen::VectorXf& query) const;
   using Lanes = std::array<float, kLanes>;
-  /// Returns the squared distances of a block's points to a query. If no distance is within the
-  /// bound, all returned values are infinite. Lanes without a point have arbitrary values.
+  /// Returns the squared distances between a query and the points of a block. If all distances
+  /// exceed the bound, all returned values are infinite. Lanes without a point have arbitrary
+  /// values.
   Lanes squared_distances(const std::vector<float>& query, Index block, float bound) const;
-  /// Searches one block for points with numbers in [begin, end) that are nearer than `best`. The
-  /// result's bits do not depend on the other points.
+  /// Searches one block for points that are nearer than `best` and have numbers in [begin, end).
+  /// The result does not depend on the other points, not even in its last bits.
   void search(const std::vector<float>& query, Index block, Index begin, Index end,
               NearestPoint& best) const;
 
  private:
-  static constexpr Index kChunk = 16;  ///< coordinates between two checks of the sums
+  /// number of coordinates that are summed before the sums are compared with the bound
+  static constexpr Index kChunk = 16;
 
-  /// Returns the offset of coordinate `dimension` of point `at` within its chunk.
+  /// Returns the offset, within its chunk, of coordinate `dimension` of the point at index `at`.
   static std::size_t chunk_offset(Index at, Index dimension) {
     return static_cast<std::size_t>((at / kLanes * kChunk + dimension % kChunk) * kLanes +
                                     at % kLanes);
@@ -89,10 +93,11 @@ class PointBlocks {
     return chunks_[static_cast<std::size_t>(dimension / kChunk)];
   }
 
-  Index dimensions_;  ///< a multiple of kChunk
+  Index dimensions_;  ///< number of stored coordinates of each point, a multiple of kChunk
   std::vector<Index> numbers_;
-  /// Chunks of kChunk coordinates: block, coordinate, lane. Nearly all searches of a block end in
-  /// the first chunk, so the first chunks of all blocks are contiguous in memory.
+  /// For each chunk of kChunk coordinates, the values sorted by block, then coordinate, then lane.
+  /// Nearly all searches of a block end in the first chunk, so the first chunks of all blocks are
+  /// contiguous in memory.
   std::vector<std::vector<float>> chunks_;
 };
 

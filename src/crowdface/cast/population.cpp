@@ -21,8 +21,9 @@ std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
 }
 
-/// If a face joins, the requested number of faces up to bin b grows by (b + 1)/kBins. The actual
-/// number grows by one for the bin of the face and all higher bins.
+/// Updates Trait::squared_differences. If a face joins the crowd, the number of faces requested in
+/// bins 0 … b grows by (b + 1)/kBins. The actual number grows by one in the face's bin and in all
+/// higher bins.
 void PopulationBalance::update_squared_differences(Trait& trait) {
   const auto lacks = [&](std::size_t b) {
     return trait.excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);

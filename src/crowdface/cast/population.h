@@ -8,29 +8,34 @@
 
 namespace crowdface {
 
-/// Steers casting so that measurements of a crowd have requested distributions. Chooses the
-/// candidate that brings the crowd so far nearest to these distributions: the sum over the traits
-/// of the root mean square differences between both cumulative distributions (after Cramér and von
-/// Mises, on a grid) is smallest. Because of the roots, a distribution that the heads cannot reach
-/// does not outweigh the others. A choice depends on earlier faces only, so a larger crowd changes
-/// no choice.
+/// Steers casting so that measurements of a crowd get the requested distributions. Casting chooses
+/// the candidate with the smallest cost: the candidate that brings the crowd so far nearest to
+/// these distributions. The cost is a sum over the measurements: the root mean square difference
+/// between the crowd's and the requested cumulative distribution (after Cramér and von Mises, on a
+/// grid). Because of the roots, a distribution that the heads cannot reach does not outweigh the
+/// other distributions. A choice depends on earlier faces only, so a larger crowd changes no
+/// choice.
 class PopulationBalance {
  public:
   explicit PopulationBalance(const std::vector<TraitTarget>& targets);
 
-  /// Returns how far the crowd with this face would be from the requested distributions; only for
-  /// comparing candidates. \param landmarks  #landmarks by 3, see FaceMeasurer
+  /// Returns how far the crowd would be from the requested distributions if this face joined; only
+  /// for comparing candidates.
+  ///
+  /// \param landmarks  #landmarks by 3, see FaceMeasurer
   double cost(const Positions& landmarks) const;
-  /// Adds a face to the crowd.
+  /// Adds a face's measurements to the crowd's distributions.
   void add(const Positions& landmarks);
 
  private:
   static constexpr std::size_t kBins = 256;
   struct Trait {
     TraitTarget target;
-    /// for each bin: the number of faces in this and all lower bins, minus the number requested
+    /// for each bin: the number of faces in this bin and all lower bins, minus the number requested
+    /// for these bins
     std::vector<double> excess;
-    /// for each bin: the sum of the squared differences if a face in this bin joins the crowd
+    /// for each bin: the sum of squared `excess` over all bins after a face in this bin has joined
+    /// the crowd
     std::vector<double> squared_differences;
   };
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);

@@ -6,14 +6,15 @@
 namespace crowdface {
 namespace {
 
-/// Two triangles are checked for intersection if their bounding boxes on the mean head overlap
-/// after growing by this margin.
-constexpr double kReach = 3;  // mm
-/// Triangles at most this many edges apart are neighbours. Folds between neighbours are detected as
-/// flips.
+/// Margin by which the triangles' bounding boxes on the mean head grow on all sides. Two triangles
+/// are checked for intersection if the enlarged boxes overlap.
+constexpr double kReach = 3;  // in mm
+/// Triangles at most this many edges apart count as neighbours. The intersection check skips
+/// neighbours, because the check for flips detects folds between them.
 constexpr int kNeighbourEdges = 3;
 
-/// Marks the vertices at most kNeighbourEdges edges away from a triangle.
+/// Sets `marks` to `mark` at all vertices that are at most kNeighbourEdges edges away from a
+/// triangle.
 void mark_neighbourhood(const Adjacency& adjacency, const Triangle& t, std::uint32_t mark,
                         std::vector<std::uint32_t>& marks) {
   std::vector<std::uint32_t> reached(t.begin(), t.end());
@@ -31,13 +32,14 @@ void mark_neighbourhood(const Adjacency& adjacency, const Triangle& t, std::uint
   }
 }
 
-/// Returns pairs of triangles that are near each other without being neighbours.
+/// Returns the pairs of triangles that are near each other on the mean head but are not neighbours.
 std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
                                        const Positions& mean) {
   const Adjacency adjacency = build_adjacency(topology_of(triangles, mean.rows()));
   std::vector<TrianglePair> pairs;
   std::vector<std::uint32_t> neighbour_of(static_cast<std::size_t>(mean.rows()),
-                                          // for each vertex, the last triangle that marked it
+                                          // for each vertex, the last triangle whose neighbourhood
+                                          // contains it
                                           kNoIndex);
   std::uint32_t first = kNoIndex;
   for (const TrianglePair& pair : near_pairs(triangles, mean, kReach)) {

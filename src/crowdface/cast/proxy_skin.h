@@ -8,26 +8,28 @@
 
 namespace crowdface {
 
-/// The skin as a coarse mesh of its samples, on which faces are judged without building their
-/// meshes.
+/// A coarse mesh of the skin, whose vertices are the samples. Faces are judged on this mesh, so
+/// that their whole meshes need not be built.
 class ProxySkin {
  public:
   /// \param mean   #S by 3, samples of the mean head in millimetres.
-  /// \param heads  #S by 3 each, samples of the targets.
+  /// \param heads  #S by 3 each, samples of the heads that may be targets.
   ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
             const std::vector<Positions>& heads);
 
-  /// The target of a face, with which the face is compared: the samples of a head or of a mixture.
+  /// The target of a face (the samples of a head or of a mixture), prepared for comparison with the
+  /// face.
   struct Target {
-    TargetTriangles triangles;  ///< the target's triangles, for flips and stretch
+    /// the target's triangles, with which flips and stretch are measured
+    TargetTriangles triangles;
     NewIntersections intersections;
   };
   const Target& target_of_head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
   Target target_of_samples(const Positions& samples) const;
 
-  /// Returns the number of triangles that intersect others where the target's triangles do not.
-  /// Considers only triangles that are near each other on the mean head without being neighbours:
-  /// lips, lids, nostrils, folds.
+  /// Returns the number of triangles that intersect other triangles where the target's triangles do
+  /// not. Considers only pairs of triangles that are near each other on the mean head but are not
+  /// neighbours, as at lips, lids, nostrils and folds.
   Index intersecting_triangles(const Positions& samples, const Target& target) const;
 
  private:

@@ -9,26 +9,29 @@
 
 namespace crowdface {
 
-/// A partition of the skin into cells around the samples. Each vertex belongs to the sample that is
-/// nearest along the edges of the mean head (a Voronoi diagram on the graph, by Dijkstra's
-/// algorithm from all samples at once). Distances along edges keep the upper and lower lip in
-/// different cells, even where the lips touch.
+/// A partition of the skin into cells, one around each sample. Each vertex belongs to the sample
+/// that is nearest along the edges of the mean head (a Voronoi diagram on the graph of edges, by
+/// Dijkstra's algorithm from all samples at once). Distances along edges keep the upper and the
+/// lower lip in different cells, even where the lips touch.
 struct SampleCells {
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  std::vector<std::uint32_t> sample_of_vertex;  ///< #V: index of the sample; kNone outside the skin
+  /// #V: index of the sample whose cell contains the vertex; kNone outside the skin
+  std::vector<std::uint32_t> sample_of_vertex;
 };
 SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
                               const FaceSamples& samples);
 
-/// Returns the weight of each sample: the area of its cell, divided by the area of all cells.
+/// Returns the weight of each sample: the area of the sample's cell, divided by the total area of
+/// all cells.
 ///
-/// \param areas  #V; not negative.
-/// \throws InvalidInput if all are zero.
+/// \param areas  #V, the area of each vertex; not negative.
+/// \throws InvalidInput if all areas are zero.
 std::vector<double> sample_weights(const SampleCells& cells, const FaceSamples& samples,
                                    const std::vector<double>& areas);
 
-/// Returns the coarse mesh of the cells, an analogue of the Delaunay triangulation: three samples
-/// whose cells meet form a triangle with the mesh's winding. No triangle appears twice.
+/// Returns the coarse mesh whose vertices are the samples, an analogue of the Delaunay
+/// triangulation: three samples form a triangle if their cells meet. Triangles have the mesh's
+/// winding. No triangle appears twice.
 std::vector<std::array<std::uint32_t, 3>> cell_triangles(const Topology& topology,
                                                          const SampleCells& cells);
 

@@ -12,7 +12,8 @@ namespace crowdface {
 namespace {
 
 void find_stretches(SampledHeads& sampled) {
-  constexpr Index kGap = 8;  // bridge short gaps, which cost less than another range
+  // join ranges that are at most this far apart, because a short gap costs less than another range
+  constexpr Index kGap = 8;
   for (Index k = 0; k < sampled.region_weights.cols(); ++k) {
     auto& sample_ranges = sampled.sample_ranges.emplace_back();
     for (Index s = 0; s < sampled.region_weights.rows(); ++s) {
@@ -24,9 +25,9 @@ void find_stretches(SampledHeads& sampled) {
   }
 }
 
-/// Copies the samples of whole heads, in millimetres, and computes their mean.
+/// Copies the samples of all heads in millimetres, and computes the mean of the heads.
 ///
-/// \param whole  Returns the positions of a head, or of its mirror image.
+/// \param whole  whole(head) returns all positions of a head, or of the head's mirror image.
 template <class Whole>
 void take_samples(const HeadSet& head_set, const FaceSamples& samples, const Whole& whole,
                   SampledHeads& sampled) {
@@ -51,11 +52,12 @@ Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
 
 Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   Positions face = target_samples(heads, recipe);
-  // Single precision is fast enough for casting, which calls this for every accepted face.
+  // Single precision saves time (casting calls this for every accepted face), and is precise
+  // enough.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     std::fill(change.begin(), change.end(), 0.F);
-    // S_L G − G at the region's samples, for each of its levels.
+    // S_L G − G at the region's samples, for each level of the region.
     for (const LevelShares& at : level_shares(recipe, k)) {
       for (const LevelTerm& term : level_terms(heads.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
@@ -81,8 +83,8 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   return face;  // Eq. 7
 }
 
-/// Returns property(heads), property(mirror images of the heads) or a blend of both, as the recipe
-/// mirrors the face.
+/// Returns property(heads), property(mirror images of the heads), or a blend of both: whichever the
+/// recipe's mirroring and asymmetry require.
 template <class Property>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {
   const double w = mirrored_weight(recipe);

@@ -12,19 +12,20 @@
 
 namespace crowdface {
 
-/// The data of the heads at the samples. They determine the samples of any recipe's face.
+/// The heads, reduced to the samples. These data determine the samples of the face of any recipe.
 struct SampledHeads {
-  std::vector<Positions> heads;  ///< #S by 3 each, in millimetres
-  Positions mean;                ///< #S by 3
-  Columns region_weights;        ///< #S by #regions
+  /// for each head, the positions of the samples, #S by 3, in millimetres
+  std::vector<Positions> heads;
+  Positions mean;          ///< the mean of the heads at the samples, #S by 3
+  Columns region_weights;  ///< #S by #regions: each region's weight at each sample
   std::span<const Trajectory> trajectories;
-  /// For each region, the ranges of samples [begin, end) with nonzero weight. Regions are patches,
-  /// and samples are ordered along a curve, so there are few ranges.
+  /// For each region, the ranges [begin, end) of samples with nonzero weight. Regions are patches,
+  /// and samples are ordered along a space-filling curve, so there are few ranges.
   std::vector<std::vector<std::pair<Index, Index>>> sample_ranges;
-  std::vector<std::uint64_t> levels;  ///< levels of the trajectories' rows
-  double mm_per_unit = 1;             ///< scale of the trajectories
+  std::vector<std::uint64_t> levels;  ///< smoothing level of each row of the trajectories
+  double mm_per_unit = 1;             ///< millimetres per unit of the trajectories
   std::vector<Trajectory>
-      owned_trajectories;  ///< storage of the trajectories, if this object owns them
+      owned_trajectories;  ///< contains the trajectories if this object owns them
   /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.
   std::shared_ptr<const SampledHeads> mirror_images;
 };
@@ -34,20 +35,20 @@ SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
                           const FaceSamples& samples, std::span<const Trajectory> trajectories,
                           std::uint64_t max_level, double mm_per_unit);
 
-/// Computes the mirror images of the heads. If a sample's partner is not a vertex, its weights and
-/// trajectories are interpolated.
+/// Computes the mirror images of the heads at the same samples. If the mirror image of a sample is
+/// not a vertex, the weights and trajectories there are interpolated.
 ///
-/// \param heads   Heads at the same samples.
-/// \param traced  Vertices of the trajectories of `heads`: samples_and_mirror_corners of the
-///                samples.
+/// \param heads   The heads at the samples.
+/// \param traced  The vertices that the trajectories of `heads` contain: samples_and_mirror_corners
+///                of the samples.
 std::shared_ptr<const SampledHeads> sample_mirror_images(
     const HeadSet& head_set, const RegionWeights& regions, const MirrorMap& mirror,
     const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads);
 
-/// Returns the samples of a recipe's target, #S by 3 in millimetres, mirrored like the face.
+/// Returns the target of a recipe at the samples, #S by 3 in millimetres, mirrored like the face.
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe);
 
-/// Returns the samples of a recipe's face, #S by 3 in millimetres, not aligned (Eq. 7).
+/// Returns the face of a recipe at the samples, #S by 3 in millimetres, not aligned (Eq. 7).
 ///
 /// \throws BrokenPrecondition if the face is mirrored or its asymmetry is not 1, and there are no
 /// mirror images.

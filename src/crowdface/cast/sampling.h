@@ -14,7 +14,8 @@
 
 namespace crowdface {
 
-/// A closed range of values to choose from at random. Equal ends give a fixed value.
+/// A closed range from which a value is chosen at random. If both ends are equal, the value is
+/// fixed.
 struct Range {
   double low = 0;
   double high = 0;
@@ -24,27 +25,29 @@ struct Range {
 /// The distribution of a region's random position on the weight plane.
 struct PositionDistribution {
   enum class Kind {
-    kAnchored,  ///< near the anchor of a random source, see `pull`
-    kUniform,   ///< anywhere in the convex hull of the sources' anchors
-    kAround,    ///< in the disc of `radius` around a head's anchor
-    kFixed,     ///< always at `at`
+    /// between the anchor of a random source and a random point of the hull, see `pull`
+    kAnchored,
+    kUniform,  ///< anywhere in the convex hull of the sources' anchors
+    kAround,   ///< in the disc of `radius` around a head's anchor
+    kFixed,    ///< always at the point `at`
   };
   Kind kind = Kind::kAnchored;
   /// kAround: the head whose anchor is the centre; empty: the face's target
   std::optional<Eigen::Index> head;
-  double radius = 0;                   ///< kAround: in units of the plane
-  PlanePoint at = PlanePoint::Zero();  ///< kFixed
-  /// kAnchored: largest step from the anchor towards a random point of the hull, as a fraction of
-  /// the distance to this point. 0: stays at the anchor.
+  double radius = 0;  ///< kAround: radius of the disc, in units of the weight plane
+  PlanePoint at = PlanePoint::Zero();  ///< kFixed: the position
+  /// kAnchored: the largest step from the anchor towards a random point of the hull, as a fraction
+  /// of the distance to this point. With 0, the position stays at the anchor.
   double pull = 0.25;
 };
 
 /// Distribution of the smoothing level, L.
 struct SmoothnessDistribution {
   enum class Unit {
-    kFraction,    ///< fraction of L_max, as the paper's slider
-    kIterations,  ///< whole iterations
-    kSize,        ///< millimetres: the wavelength whose amplitude is halved (docs/method.md)
+    kFraction,    ///< a fraction of L_max, like the slider in the paper
+    kIterations,  ///< a number of smoothing iterations
+    /// millimetres: smoothing halves the amplitude of relief of this wavelength (docs/method.md)
+    kSize,
   };
   Unit unit = Unit::kFraction;
   Range range = {0.2, 0.9};
@@ -54,33 +57,34 @@ struct SmoothnessDistribution {
 struct RegionSampling {
   PositionDistribution position;
   SmoothnessDistribution smoothness;
-  Range extrapolation = {1, 1};  ///< factor e of Fig. 6
+  Range extrapolation = {1, 1};  ///< factor e of Fig. 6 in the paper
 };
 
-/// The parameters of a band of detail. An empty member has the value of the band's region, or of
-/// the crowd.
+/// The parameters of one band of detail. If a member is empty, the value of the band's region or of
+/// the crowd applies.
 struct BandSampling {
   struct Region {
     std::optional<PositionDistribution> position;
     std::optional<SmoothnessDistribution>
-        smoothness;  ///< where the band begins; may be empty for the first band only
+        smoothness;  ///< level at which the band begins; may be empty for the first band only
     std::optional<Range> extrapolation;
   };
   std::string name;
-  std::vector<Region> regions;                       ///< #regions
-  std::optional<std::vector<Eigen::Index>> sources;  ///< ascending
-  /// factor on the effect that an age has on the band, 0 … 1
+  std::vector<Region> regions;  ///< one entry for each region
+  /// heads that lend detail to the band, ascending
+  std::optional<std::vector<Eigen::Index>> sources;
+  /// factor (0 … 1) on the effect that ageing has on the band
   double ageing = 1;
 };
 
-/// A head and its relative frequency.
+/// A head and its relative frequency or weight.
 struct WeightedHead {
   Eigen::Index head = 0;
   double weight = 1;
   bool operator==(const WeightedHead&) const = default;
 };
 
-/// Chooses one of several things with probability proportional to its weight.
+/// Chooses one of several things at random, with probabilities proportional to the things' weights.
 ///
 /// \param random  Random number from 0 to 1 that selects the thing.
 template <class Things, class Weight>
@@ -92,30 +96,30 @@ const auto& weighted_choice(const Things& things, double random, const Weight& w
     if (left < std::invoke(weight, thing)) return thing;
     left -= std::invoke(weight, thing);
   }
-  return things.back();  // rounding errors: `random` exceeds the sum of the weights
+  return things.back();  // because of rounding errors, `random` can exceed the sum of the weights
 }
 
-/// Whether whole faces are mirrored.
+/// Whether faces are mirrored, each as a whole.
 enum class Mirroring {
   kNone,
-  kRandom,  ///< half of the faces, at random
+  kRandom,  ///< half of the faces are mirrored, chosen at random
 };
 
-/// Distributions of the values of sampled faces.
+/// The distributions from which the values of sampled faces are drawn.
 struct SamplingOptions {
   std::vector<WeightedHead> targets;  ///< possible targets, with their frequencies
   std::vector<Eigen::Index> sources;  ///< heads that lend detail, ascending
-  /// one for each region (one in all if there are no regions)
+  /// one entry for each region (one entry in total if there are no regions)
   std::vector<RegionSampling> regions;
-  std::vector<BandSampling> bands;  ///< coarse to fine; empty: detail is one band
-  /// largest number of heads with weight in one band of one region; empty: no limit
+  std::vector<BandSampling> bands;  ///< from coarse to fine; empty: all detail is one band
+  /// largest number of heads that may have weight in one band of one region; empty: no limit
   std::optional<int> max_sources;
-  Range age = {0, 0};        ///< ages of sampled faces, see apply_age
+  Range age = {0, 0};        ///< range of the ages of sampled faces, see apply_age
   Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
-  std::vector<Eigen::Index> old_heads;  ///< heads tagged old, ascending
+  std::vector<Eigen::Index> old_heads;  ///< heads with the tag `old`, ascending
   std::vector<Eigen::Index> young_heads;
-  TraitLimits traits = {};  ///< limits on measurements of the faces
+  TraitLimits traits = {};  ///< limits on the measurements of the faces
 };
 
 /// Returns the number of bands of each region's detail.
@@ -126,7 +130,7 @@ inline std::size_t band_count(const SamplingOptions& sampling) {
 inline bool may_mirror(const SamplingOptions& sampling) {
   return sampling.asymmetry != Range{1, 1} || sampling.mirror != Mirroring::kNone;
 }
-/// Returns the distribution of the level at which a band of a region begins.
+/// Returns the distribution of the smoothing level at which a band of a region begins.
 inline const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling,
                                                    std::size_t region, std::size_t band) {
   const bool own = !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
@@ -140,37 +144,42 @@ inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampli
   return own ? *sampling.bands[band].sources : sampling.sources;
 }
 
-/// A group: sampled faces with sampling parameters of their own.
+/// A group of sampled faces that have their own sampling parameters.
 struct Group {
   std::string name;
-  /// number of faces; groups with a count come before all groups with a share
+  /// number of faces; groups with a count get their faces before groups with a share
   std::optional<std::uint64_t> count;
-  double share = 0;  ///< used if `count` is empty: fraction of the remaining faces, 0 … 1
+  /// used if `count` is empty: fraction (0 … 1) of the faces that are in no group with a count
+  double share = 0;
   SamplingOptions sampling;
-  std::map<std::string, double> hair_colours = {};  ///< replace the hair colours of the crowd
+  /// fractions of hair colours, which replace the crowd's fractions
+  std::map<std::string, double> hair_colours = {};
 };
 
-/// A hand-written face. Values that it does not specify are random, as for a sampled face.
+/// A face that the user specifies by hand. Values that are not specified are random, as for a
+/// sampled face.
 struct ManualRecipe {
   struct Band {
     std::optional<PlanePoint> position;
-    std::vector<WeightedHead> weights;  ///< empty: not given; excludes `position`
+    /// weights of the heads that lend detail; empty: not given; excludes `position`
+    std::vector<WeightedHead> weights;
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
-  /// The values of the region itself apply to all bands that have no values of their own, except
-  /// that the region's smoothness applies only to the first band.
+  /// The values of the region. They apply to all bands that have no values of their own. Exception:
+  /// the region's smoothness applies only to the first band.
   struct Region : Band {
-    std::vector<Band> bands;  ///< one for each band, or empty
+    std::vector<Band> bands;  ///< one entry for each band, or empty
   };
   std::string id;
   std::optional<Eigen::Index> target;
-  std::vector<Region> regions;             ///< one for each region
-  std::vector<WeightedHead> colours = {};  ///< heads that lend textures; empty: not given
-  std::optional<Range> age;                ///< empty: as for sampled faces
+  std::vector<Region> regions;  ///< one entry for each region
+  /// heads whose textures are blended for the face; empty: not given
+  std::vector<WeightedHead> colours = {};
+  std::optional<Range> age;  ///< range of the face's age; empty: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
-  TraitLimits traits = {};  ///< limits that the random values must meet
+  TraitLimits traits = {};  ///< limits on measurements that the random values must meet
 };
 
 }  // namespace crowdface

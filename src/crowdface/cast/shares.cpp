@@ -11,18 +11,19 @@
 namespace crowdface {
 namespace {
 
-constexpr double kRounding = 1e-9;  // 0.3 · 10 must be 3 despite rounding
+constexpr double kRounding = 1e-9;  // tolerance, so that 0.3 · 10 gives 3 despite rounding errors
 
 std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
 }
 
-/// Returns the smallest n such that a share must have received `m` of the first n faces.
+/// Returns the smallest n for which a share must have received at least `m` of the first n faces.
 std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether some share would miss a deadline, now or later, if face `n` went to no share.
+/// Returns whether some share would miss a deadline, now or later, if face `n` were assigned to no
+/// share.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -33,7 +34,8 @@ bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::ui
   return false;
 }
 
-/// Returns whether each share q can still get ⌊q·m⌋ of the first m faces, for all m from n + 1 on.
+/// Returns whether it is still possible that each share q gets at least ⌊q·m⌋ of the first m faces,
+/// for all m > n.
 bool can_serve(const std::vector<double>& shares, const std::vector<std::uint64_t>& served,
                std::uint64_t n, std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -54,7 +56,8 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
   double total = 0;
   for (const double share : shares) total += share;
   const bool all_taken = total > 1 - kRounding;
-  // `horizon`: looking ahead farther cannot change the result of must_serve (docs/method.md).
+  // `horizon` is how many faces must_serve looks ahead; a larger value cannot change its result
+  // (docs/method.md).
   const auto kinds = static_cast<double>(shares.size());
   const std::uint64_t horizon =
       shares.size() <= 1 || all_taken
@@ -90,7 +93,7 @@ std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count,
   };
   const std::size_t none = shares.size();
   shares.push_back(std::max(0.0, 1 - std::reduce(shares.begin(), shares.end())));
-  // Look ahead until the smallest share is due twice.
+  // Look ahead far enough that the smallest share is due twice.
   double smallest = 1;
   for (const double share : shares) {
     if (share > kRounding) smallest = std::min(smallest, share);

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns the heads that have the same sex and age class as a head.
+/// Returns the heads that have the same sex and the same age class as the given head.
 std::vector<Index> heads_like(Index head, const HeadTags& tags) {
   std::vector<Index> heads;
   for (Index h = 0; h < static_cast<Index>(tags.size()); ++h) {
@@ -27,7 +27,8 @@ std::vector<Index> heads_like(Index head, const HeadTags& tags) {
   return heads;
 }
 
-/// Returns a mixture of two of the heads, with weights such that the mixture has this tone.
+/// Returns a mixture of two of the heads, whose weights give the mixture this tone. If all heads
+/// are lighter or all are darker, returns the head with the nearest tone alone.
 std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>& heads,
                                           const std::vector<double>& tones) {
   const auto tone_of = [&](Index head) { return tones[static_cast<std::size_t>(head)]; };
@@ -47,7 +48,7 @@ std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>&
 }  // namespace
 
 void choose_skin_colours_of_children(const SkinOptions& draw, std::vector<FacePlan>& crowd) {
-  std::map<std::string, double> tones;  // of heads and faces, by name
+  std::map<std::string, double> tones;  // tones of heads and faces, by name
   for (std::size_t h = 0; h < draw.heads.size(); ++h) tones[draw.heads[h]] = draw.tones[h];
   std::map<std::string, bool> is_parent;
   for (const FacePlan& face : crowd) {

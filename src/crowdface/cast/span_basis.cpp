@@ -35,11 +35,11 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
     Eigen::VectorXf& q = directions.emplace_back(size);
     const auto scale = static_cast<float>(1 / std::sqrt(*longest));
     for (Index i = 0; i < size; ++i) q[i] = rows(pivot, i) * scale;
-    // Subtract from each remainder its component along the new direction.
+    // Subtract from each row's remainder the component along the new direction.
     Eigen::VectorXf& along = coordinates.emplace_back(Eigen::VectorXf::Zero(count));
     parallel_for_each(count, at_a_time, [&](Index n) {
       double& rest = left[static_cast<std::size_t>(n)];
-      if (rest <= enough) return;  // spanned well enough already
+      if (rest <= enough) return;  // the directions span all rows well enough
       float* row = rows.row(n).data();
       const auto part = static_cast<float>(fixed_order_dot(q.data(), row, length));
       along[n] = part;

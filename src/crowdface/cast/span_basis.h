@@ -7,16 +7,17 @@ namespace crowdface {
 
 using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// An orthonormal basis of the span of given rows, and the rows' coordinates in this basis.
+/// An orthonormal basis of the space that given rows span, and the coordinates of these rows in the
+/// basis.
 struct SpanBasis {
-  FloatRows directions;   ///< #P by #S
+  FloatRows directions;   ///< #P by #S, one basis vector per row
   FloatRows coordinates;  ///< #N by #P: row n is approximately Σ_p coordinates(n, p) directions(p)
 };
 
-/// Finds a basis that spans all rows: the row with the longest remainder gives the next direction
-/// (Gram–Schmidt with pivoting, Businger & Golub 1965), until every remainder is at most
-/// `tolerance` long or there are `most` directions. Plain loops, so the bits are the same
-/// everywhere.
+/// Finds a basis that spans all rows. The row with the longest remainder (the part outside the
+/// basis) gives the next direction (Gram–Schmidt with pivoting, Businger & Golub 1965), until every
+/// remainder is at most `tolerance` long or there are `most` directions. The code uses plain loops,
+/// so that it computes the same bits everywhere.
 SpanBasis span_basis(FloatRows rows, double tolerance, Eigen::Index most);
 
 }  // namespace crowdface

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kCandidatesAtATime = 256;
 
-/// Returns the squared distance; if this exceeds `limit`, returns an arbitrary value above `limit`.
+/// Returns the squared distance. If it exceeds `limit`, returns an arbitrary value above `limit`.
 double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
   constexpr Index kLanes = 8, kChunk = 32;
   double sum = 0;
@@ -130,7 +130,8 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
     FarthestPoints::Pick pick = points.farthest(kind);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      pool.faces[at].index = index;  // index in the crowd if this candidate is picked
+      // the index that the face has in the crowd if this candidate is picked
+      pool.faces[at].index = index;
       std::optional<Reason> why = judge.check_traits(pool.faces[at]);
       if (!why) why = judge.check_skin(pool.faces[at].recipe);
       if (!why && family_separation.intrudes(pool.points[at])) why = Reason::kFamily;

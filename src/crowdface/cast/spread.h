@@ -13,51 +13,53 @@
 
 namespace crowdface {
 
-/// A pool of candidates. Each candidate satisfies all constraints except the distances within the
-/// crowd.
+/// A pool of candidates. Each candidate satisfies all constraints except the minimum distance from
+/// other faces of the crowd.
 struct CandidatePool {
   std::vector<FacePlan> faces;
   std::vector<FaceSpace::Point> points;
-  std::vector<int> kinds;  ///< group of each candidate, or −1
+  std::vector<int> kinds;  ///< for each candidate: index of its group, or −1
   Rejections rejections;
 };
 
-/// Generates a pool of candidates for `times` crowds of `count` faces. Groups have the same
-/// proportions as in the crowd.
+/// Generates a pool with enough candidates for `times` crowds of `count` faces. Groups have the
+/// same proportions in the pool as in the crowd.
 ///
-/// \param kinds  Parameters of faces without group, then of each group.
+/// \param kinds  Parameters of faces without a group, then of each group.
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
                           const std::vector<FaceKind>& kinds, std::uint64_t count,
                           std::uint64_t times = 1);
 
-/// Picks candidates from a pool, one after the other: always the candidate farthest from the picked
-/// candidates and from the initial crowd (greedy farthest point). In any other set of as many
-/// candidates, the closest pair is at most twice as far apart (Gonzalez 1985; Ravi, Rosenkrantz &
-/// Tayi 1994), provided that the distance is a metric (all extrapolation factors are 1), there are
-/// no groups, and the initial crowd is empty.
+/// Picks candidates from a pool, one after the other. Each pick is the candidate farthest from the
+/// initial crowd and from the candidates picked before (greedy farthest point). The closest pair of
+/// any other set of as many candidates is at most twice as far apart as the closest pair of this
+/// set (Gonzalez 1985; Ravi, Rosenkrantz & Tayi 1994). This holds if the distance is a metric (all
+/// extrapolation factors are 1), there are no groups, and the initial crowd is empty.
 class FarthestPoints {
  public:
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);
 
   struct Pick {
-    Index candidate = -1;  ///< index of the candidate; −1: none left
-    /// distance to the nearest picked or initial face; infinite if there is none
+    Index candidate = -1;  ///< index of the candidate; −1: no candidate is left
+    /// distance to the nearest picked or initial face; infinite if there is no such face
     double distance_mm = 0;
   };
-  /// Returns the farthest candidate of a group (−1: of no group). Does not pick it.
+  /// Returns the farthest candidate of a group (−1: of the candidates without a group). Does not
+  /// pick this candidate.
   Pick farthest(int kind) const;
   /// Picks a candidate, and updates the distances of all other candidates.
   void pick(Index candidate);
-  /// Removes a candidate without picking it.
+  /// Removes a candidate, so that it is never picked.
   void drop(Index candidate) { dropped_[static_cast<std::size_t>(candidate)] = true; }
 
  private:
   const CandidatePool& pool_;
-  std::vector<double> squared_distances_;  ///< squared distance from the nearest picked face
+  /// for each candidate: the squared distance from the nearest picked or initial face
+  std::vector<double> squared_distances_;
   std::vector<bool> dropped_;
 };
 
-/// Casts faces 1 … count: picks them from a pool by FarthestPoints.
+/// Casts faces 1 … count: generates a pool of candidates, and picks the faces by FarthestPoints.
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
                  const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
                  CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result);

@@ -10,7 +10,8 @@
 namespace crowdface {
 namespace {
 
-/// Returns the mean point in face space of the heads inside or outside a group.
+/// Returns the mean of the heads' points in face space: of the heads inside a group, or of the
+/// heads outside the group.
 Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
   Eigen::VectorXf sum = Eigen::VectorXf::Zero(space.dimensions());
   float count = 0;

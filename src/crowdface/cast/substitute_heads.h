@@ -8,22 +8,23 @@
 
 namespace crowdface {
 
-/// Substitutes heads outside a group by similar heads of the group. Example: if daughters may only
-/// be made of women's heads, a woman's head replaces each head of the father. The substitute has
-/// the most tags in common with the original. Ties are decided first in favour of heads that no
-/// parent uses, then in favour of the nearest shape, after subtraction of the difference between
-/// the mean of the group and the mean of all other heads.
+/// Replaces heads outside a group by similar heads of the group. Example: if daughters may only be
+/// made of women's heads, a woman's head replaces each head of the father. The substitute is the
+/// head of the group that has the most tags in common with the replaced head. If several heads have
+/// equally many, heads that no parent uses come first. Among these, the head with the nearest point
+/// in face space is chosen, after subtraction of the difference between the mean of the group and
+/// the mean of all other heads.
 class SubstituteHeads {
  public:
-  /// No head is substituted.
+  /// Makes an object that replaces no head.
   SubstituteHeads() = default;
   /// \param group  Heads of the group; ascending, not empty.
-  /// \param tags   #heads, or empty if unknown.
-  /// \param taken  Heads of the parents.
+  /// \param tags   #heads, or empty if tags are unknown.
+  /// \param taken  Heads that the parents use.
   SubstituteHeads(const std::vector<Index>& group, const HeadTags& tags,
                   const std::vector<Index>& taken, const FaceSpace& space);
 
-  /// Returns weights with each head replaced by its substitute.
+  /// Returns weights in which each head outside the group is replaced by its substitute.
   ///
   /// \param shares  Weights, by ascending head.
   std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& shares) const;
@@ -31,7 +32,8 @@ class SubstituteHeads {
   bool contains_all(const std::vector<SourceWeight>& shares) const;
 
  private:
-  std::vector<Index> substitutes_;  ///< #heads: substitute of each head; or empty
+  /// #heads: substitute of each head; empty if no head is replaced
+  std::vector<Index> substitutes_;
 };
 
 /// Returns how many tags two heads have in common.

@@ -33,8 +33,8 @@ Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64
       }
       band.weights = normalized_weights(std::move(weights));
       const auto [level, factor] = draw(purpose, 3);
-      // Finer bands begin at sizes spread evenly below the size of the coarser band; a band's size
-      // is proportional to √L.
+      // Each finer band begins at a random size, distributed uniformly below the size at which the
+      // coarser band begins. A band's size is proportional to √L.
       band.iterations = static_cast<std::uint64_t>(b == 0 ? level * most : level * level * most);
       band.extrapolation = 0.6 + 0.8 * factor;
       most = static_cast<double>(band.iterations);

@@ -8,11 +8,12 @@
 
 namespace crowdface {
 
-/// Returns a random recipe with all heads and levels, as casting might generate. The principal
-/// directions of a face space are computed from such faces, so that the directions cover all
-/// differences between faces. If there are mirror images, faces are mirrored and vary in asymmetry.
+/// Returns a random recipe such as casting might generate, drawn from all heads and levels. The
+/// principal directions of a face space are computed from the faces of such recipes, so that the
+/// directions cover all differences between faces. If there are mirror images, faces are mirrored
+/// and vary in asymmetry.
 ///
-/// \param bands  Number of bands of each region's detail.
+/// \param bands  Number of bands of detail in each region.
 /// \param index  Number of the recipe; the same index always gives the same recipe.
 Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64_t index);
 

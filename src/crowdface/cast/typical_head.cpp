@@ -15,8 +15,8 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
       shares[tag] += part.weight;
     }
   }
-  // The score of a head is a sum over its tags: total weight of the mixture's heads with the tag,
-  // minus the total weight of the heads without the tag.
+  // The score of a head is a sum over its tags: the total weight of the mixture's heads that have
+  // the tag, minus the total weight of the heads that do not.
   constexpr double kSame = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;

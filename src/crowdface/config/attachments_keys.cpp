@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `attachments`.
+// The config section `attachments`.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -40,8 +40,8 @@ std::string write_fitted_to(const Attachments& attachments, const WriteContext& 
   return attachments.file.empty() ? kMean : path("").write(attachments.file, context);
 }
 
-/// Reads the tags of an item. Refuses a combination of tags that no head has, because no face could
-/// wear the item.
+/// Reads the tags of an item. If no head has all of these tags, adds a complaint, because no face
+/// could wear the item.
 void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
   if (!tags) return;
@@ -53,7 +53,7 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   }
 }
 
-/// A key whose value is stored in the base class AttachmentItem.
+/// Makes a key whose value is stored in the base class AttachmentItem.
 template <class Member>
 Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
                         const Codec<Member>& codec, std::string_view required = {}) {
@@ -89,8 +89,8 @@ const Keys<Attachment>& item_keys() {
   return keys;
 }
 
-/// Returns whether other files of a face already have names with this ending: levels of detail or
-/// shapes.
+/// Returns whether other files of a face (levels of detail or shapes) already have names that end
+/// like this name.
 bool is_ending_taken(const std::string& name, const Config& config) {
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
@@ -150,8 +150,8 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   }
 }
 
-/// Returns the first item whose kind, name or colour is this word; null if there is none. A quota
-/// for the word is a quota of this item's kind.
+/// Returns the first item whose kind, name or colour is this word; null if there is no such item. A
+/// quota for the word counts as a quota for items of this item's kind.
 const Attachment* first_item_matching(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(
       attachments.items, [&](const Attachment& item) { return matches_word(item, word); });
@@ -172,7 +172,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   draft.complaints.expect_map(node,
                               "a mapping from kinds, names or colours to shares, {glasses: 0.33}");
   std::map<std::string, double> totals;  // sum of the quotas, by kind
-  std::set<std::string> alone;           // kinds that have a quota for the whole kind
+  std::set<std::string> alone;           // kinds with a quota for the whole kind
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
     if (!share) continue;
@@ -183,8 +183,8 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
     }
-    // Check: no entry in `none` for the same kind; either one quota of the kind or quotas of its
-    // items and colours; a sum of at most 1.
+    // Check three things: `none` has no entry for the same kind; the kind has either one quota or
+    // quotas for its items and colours; the kind's quotas add up to at most 1.
     const bool is_first = !totals.contains(item->kind);
     if (attachments.none.contains(item->kind) && entry.key == item->kind) {
       draft.complaints.add_at(entry.value, concat("attachments.none also sets ", entry.key,
@@ -205,8 +205,8 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
   }
 }
 
-/// Writes a mapping from words to shares. An empty mapping gives an empty text, which leaves the
-/// key out.
+/// Returns a function that writes a mapping from words to shares. For an empty mapping, it writes
+/// an empty text, so that the key is left out.
 auto write_shares(std::map<std::string, double> Attachments::*shares) {
   return [=](const Attachments& attachments, const WriteContext&) {
     const auto entries = texts_of(attachments.*shares, [](const auto& share) {
@@ -248,7 +248,7 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
   }
 }
 
-/// Returns whether some head may wear an item.
+/// Returns whether at least one head may wear an item.
 bool is_wearable(const Attachment& item, const Config::Faces& faces) {
   return std::ranges::any_of(faces.tags, [&](const std::vector<std::string>& tags) {
     return has_tags(tags, item.tags) &&
@@ -257,7 +257,7 @@ bool is_wearable(const Attachment& item, const Config::Faces& faces) {
   });
 }
 
-/// Removes the items that no head may wear, and what refers to them.
+/// Removes the items that no head may wear, and everything that refers to these items.
 void remove_unwearable(Attachments& attachments, const Config::Faces& faces) {
   std::erase_if(attachments.items,
                 [&](const Attachment& item) { return !is_wearable(item, faces); });
@@ -270,8 +270,8 @@ void remove_unwearable(Attachments& attachments, const Config::Faces& faces) {
   for (Attachment& item : attachments.items) std::erase_if(item.excludes, is_unknown);
 }
 
-/// Reads the section `attachments` of the file attachments.yaml in a folder. Its paths are relative
-/// to that folder.
+/// Reads the section `attachments` from the file attachments.yaml of a folder. Paths in this file
+/// are relative to the folder.
 void read_attachments_of_folder(const YamlNode& node, Attachments& attachments,
                                 ConfigDraft& draft) {
   const auto folder = path("a folder of attachments").read(node, draft);
@@ -305,7 +305,8 @@ void read_attachments_of_folder(const YamlNode& node, Attachments& attachments,
 
 const Keys<Attachments>& attachments_keys() {
   static const Keys<Attachments> keys = [] {
-    // read_attachments reads the value; it is written as items.
+    // read_attachments reads the value of `from`. The value is not written, because the items are
+    // written instead.
     Keys<Attachments> all = {Key<Attachments>{
         "from", [](const auto&...) {},
         [](const auto&...) {
@@ -318,9 +319,10 @@ const Keys<Attachments>& attachments_keys() {
   return keys;
 }
 
-/// Warns if the config's `none` or `quotas` replace shares that the folder of attachments sets for
+/// Warns if `none` or `quotas` of the config replace shares that the folder of attachments sets for
 /// kinds that the config does not mention.
-/// \param from  the shares of the folder.
+///
+/// \param from  the shares that the folder sets.
 void warn_of_lost_shares(const YamlNode& node, const Attachments& from, ConfigDraft& draft) {
   const Attachments& own = draft.config.attachments;
   std::set<std::string> kinds, lost;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections `distance`, `diversity` and `believability`: how faces are compared, and the limits
-// that they must meet.
+// The config sections `distance`, `diversity` and `believability`: how the distances between faces
+// are measured, and the limits that faces must meet.
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -17,7 +17,7 @@ constexpr double kShareRounding = 1e-9;
 // largest number of vertices for which a starter config has `meshes: judge`
 constexpr Eigen::Index kMaxJudged = 200'000;
 
-/// Reads the path of one image, or of a set of UDIM tiles.
+/// Reads the path of one image or of a set of UDIM tiles (several images that form one texture).
 void read_mask(const YamlNode& node, Config::Distance& distance, ConfigDraft& draft) {
   const auto mask = path("an image file").read(node, draft);
   if (!mask) return;
@@ -29,15 +29,17 @@ std::string write_mask(const Config::Distance& distance, const WriteContext& con
   return distance.mask ? path("").write(*distance.mask, context) : "";
 }
 
-/// An entry of the former key `diversity.quotas`.
+/// An entry of `diversity.quotas`, a key that no longer exists.
 struct Quota {
-  std::string name;  ///< name of a head or a tag
+  std::string name;  ///< name of a head, or a tag of heads
   double share = 0;
   std::vector<Eigen::Index> heads;
-  std::optional<std::size_t> band;  ///< none: the quota applies to the target
+  /// band of detail that the quota applies to; none: the quota applies to the target
+  std::optional<std::size_t> band;
 };
 
-/// Returns the heads of all quotas for a band; without a band, of all quotas for the target.
+/// Returns the heads of all quotas for a band. If no band is given, returns the heads of all quotas
+/// for the target.
 std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
                                    std::optional<std::size_t> band) {
   std::vector<Eigen::Index> heads;
@@ -47,7 +49,9 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
   return heads;
 }
 
-/// Keeps the heads that are in `others` or, if `own` is false, the heads that are not in `others`.
+/// Keeps the items whose head is in `others` or, if `own` is false, the items whose head is not in
+/// `others`.
+///
 /// \param head  returns the head of an item.
 template <class Heads, class Head>
 Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, const Head& head) {
@@ -55,8 +59,8 @@ Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, co
   return heads;
 }
 
-/// Writes the group that replaces a quota. If `quota` is null, writes the group of all faces that
-/// count for no quota.
+/// Writes the group that replaces a quota. If `quota` is null, writes the group of all faces to
+/// which no quota applies.
 std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
                        const WriteContext& context) {
   const SamplingOptions& sampling = context.config.sampling;
@@ -97,8 +101,8 @@ std::optional<Quota> read_quota(const YamlNode& node, const YamlEntry& entry, Co
                                                                      : std::nullopt;
 }
 
-/// Refuses quotas with a message that shows the equivalent groups. Accepts an empty mapping, which
-/// the configs of older crowds contain.
+/// Refuses quotas with a message that shows the groups to use instead. Accepts an empty mapping,
+/// because the configs of older crowds contain one.
 void refuse_quotas(const YamlNode& node, DiversityOptions& /*diversity*/, ConfigDraft& draft) {
   if (node.entries.empty()) return;
   std::vector<Quota> quotas;
@@ -171,7 +175,8 @@ std::string write_first_distances(const DiversityOptions& diversity, const Write
   return entries.empty() ? "" : flow_map(entries);
 }
 
-/// A removed key. Accepts only `value`, which the configs of older crowds contain.
+/// Makes a key that no longer exists. Accepts only `value`, because the configs of older crowds
+/// contain it.
 Key<DiversityOptions> removed_key(std::string_view name, std::string_view value) {
   return {name,
           [=](const YamlNode& node, auto&, ConfigDraft& draft) {
@@ -193,13 +198,13 @@ const Keys<Config::Distance>& distance_keys() {
 
 namespace {
 
-/// Proposes a minimum distance that all faces of the starter config can keep within its
-/// believability limits.
+/// Proposes a minimum distance that all faces of the starter config can keep without exceeding the
+/// config's believability limits.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
   const std::size_t in_group = heads_of_smaller_group(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.names.size();
   struct Proposal {
-    std::size_t heads;  ///< least number of heads
+    std::size_t heads;  ///< smallest number of heads for which this distance is proposed
     const char* distance;
   };
   constexpr std::size_t kEnough = 5;

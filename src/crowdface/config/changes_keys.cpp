@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The key `changes` of configs and reviews: changes of single faces.
+// The key `changes` of configs and reviews, which changes single faces.
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
@@ -86,7 +86,7 @@ void read_takes_off(const YamlNode& node, FaceChange& change, ConfigDraft& draft
   change.removed_attachments = *words;
 }
 
-/// Adds a complaint about each attachment that the face both takes off and wears.
+/// Adds a complaint about each attachment that a change both puts on the face and takes off.
 void check_takes_off(const FaceChange& change, const YamlNode& node, ConfigDraft& draft) {
   if (!change.attachments) return;
   for (const Config::Attachment& item : draft.config.attachments.items) {
@@ -185,7 +185,8 @@ const Keys<FaceChange>& change_keys() {
   return keys;
 }
 
-/// Adds a complaint about keys that contradict each other or do not suit the face.
+/// Adds a complaint if keys of a change contradict each other, or if they cannot be used for this
+/// face.
 void check_change(const YamlEntry& entry, const FaceChange& change, ConfigDraft& draft) {
   const YamlNode& node = entry.value;
   if (node.entries.empty()) {

@@ -15,7 +15,7 @@ namespace {
 
 using Unit = SmoothnessDistribution::Unit;
 
-/// A codec for values that do not depend on the rest of the config.
+/// Makes a codec for values that do not depend on the rest of the config.
 template <class Value, class Read, class Write>
 Codec<Value> plain(const Read& read, const Write& write, const std::string& takes) {
   return {[=](const YamlNode& node, ConfigDraft& draft) { return read(node, draft.complaints); },
@@ -37,7 +37,7 @@ Codec<double> fraction() {
   return codec;
 }
 
-/// A size in millimetres up to `smoothing.max_size`.
+/// Makes a codec for a size in millimetres that is at most `smoothing.max_size`.
 Codec<double> relief_size() {
   return restricted(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;
@@ -49,7 +49,8 @@ Codec<double> relief_size() {
   });
 }
 
-/// A whole number stored as double. `write` avoids exponents, because `read` refuses 1e+07.
+/// Makes a codec for a whole number that is stored as double. `write` avoids exponents, because
+/// `read` refuses 1e+07.
 Codec<double> iteration_count() {
   return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<double> {
             const std::uint64_t most =
@@ -61,7 +62,7 @@ Codec<double> iteration_count() {
           "whole number"};
 }
 
-/// A smoothness in this unit: one value or a range.
+/// Makes a codec for a smoothness in this unit, given as one value or as a range.
 Codec<SmoothnessDistribution> smoothness_in_unit(Unit unit, const Codec<double>& one) {
   const Codec<Range> ranges = range(one);
   return {[=](const YamlNode& node, ConfigDraft& draft) {
@@ -74,8 +75,8 @@ Codec<SmoothnessDistribution> smoothness_in_unit(Unit unit, const Codec<double>&
           ranges.accepted_values};
 }
 
-/// Reads `{head or tag: weight}`. The weights of several tags of a head add up; an entry for the
-/// head itself overrides them.
+/// Reads `{head or tag: weight}`. If a head has several of the tags, their weights add up. An entry
+/// for the head itself replaces these weights.
 std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft) {
   std::map<Eigen::Index, double> by_tag, by_name;
   for (const YamlEntry& entry : node.entries) {
@@ -90,7 +91,7 @@ std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft)
       (named ? by_name : by_tag)[head] += weight.value_or(1);
     }
   }
-  by_name.merge(by_tag);  // head names in by_name override tags
+  by_name.merge(by_tag);  // weights by head name override weights by tag
   std::vector<WeightedHead> targets;
   for (const auto& [head, weight] : by_name) targets.push_back({head, weight});
   return targets;
@@ -187,7 +188,7 @@ Codec<double> length(double high_mm) {
           return out.expected(node, concat("a length from 0 mm to ", plain_number(high_mm),
                                            " mm with its unit, such as ", "\"8 mm\""));
         }
-        return *value == 0 ? 0.0 : *value;  // -0 is 0
+        return *value == 0 ? 0.0 : *value;  // turn -0 into 0
       },
       [](double value_mm) { return concat(value_mm, " mm"); },
       concat("length, up to ", plain_number(high_mm), " mm"));

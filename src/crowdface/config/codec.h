@@ -14,72 +14,88 @@
 
 namespace crowdface {
 
-/// The context in which values are written as YAML.
+/// What a codec needs to know when it writes a value as YAML.
 struct WriteContext {
-  /// The keys to write: all keys, or the keys that face_settings or plan_settings needs.
+  /// Which keys to write: all keys, the keys that face_settings writes, or the keys that
+  /// plan_settings writes.
   enum class WrittenKeys { kAll, kFaces, kPlan };
   const Config& config;
-  std::filesystem::path folder;  ///< absolute; written paths are relative to this folder
+  std::filesystem::path folder;  ///< an absolute path; written paths are relative to this folder
   WrittenKeys written_keys = WrittenKeys::kAll;
 
   /// Returns the head's name as a YAML scalar.
   std::string head(Eigen::Index index) const;
 };
 
-/// Converts values between YAML and C++. If `read` returns nothing, it has added a complaint.
-/// `write` returns text for entry(); if the text is empty, the key is left out of the file.
+/// Converts values between YAML and C++. If `read` cannot read a value, it adds a complaint and
+/// returns nothing. `write` returns a text that can be passed to entry(). If the text is empty, the
+/// key is left out of the file.
 template <class Value>
 struct Codec {
   std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;
   std::function<std::string(const Value&, const WriteContext&)> write;
-  std::string accepted_values = {};  ///< the accepted values, for docs/config.md: "number, 0 … 1"
+  /// the accepted values for docs/config.md, such as "number, 0 … 1"
+  std::string accepted_values = {};
 };
 
 /// Removes a leading "a " or "an ": "a list of tags" becomes "list of tags".
 std::string remove_article(std::string_view expected);
 
-/// A number in [low, high].
+/// Codec for a number in [low, high].
 Codec<double> number(double low, double high);
-/// A whole number in [low, high].
+/// Codec for a whole number in [low, high].
 Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high);
-/// The length of one mesh unit: mm, cm, m, in, or a length such as "243.84 cm".
+/// Codec for the length of one mesh unit: mm, cm, m, in, or a length such as "243.84 cm".
 Codec<LengthUnit> length_unit();
-/// A length with its unit, in [0, high_mm]. The value is in millimetres.
+/// Codec for a length with a unit. The value is converted to millimetres, and must be in [0,
+/// high_mm].
 Codec<double> length(double high_mm);
-/// Like `length`, but refuses 0.
+/// Codec for a length as in `length`, but refuses 0.
 Codec<double> positive_length(double high_mm);
-/// Like `codec`, but refuses 0. \param expected  text for messages, such as "a number above 0".
+/// Like `codec`, but refuses 0.
+///
+/// \param expected  what messages name as the expected value, such as "a number above 0".
 Codec<double> refuse_zero(const Codec<double>& codec, const std::string& expected);
-/// One value, or a range `[low, high]`.
+/// Codec for one value (as low and high end) or a range `[low, high]`.
 Codec<Range> range(const Codec<double>& one);
-Codec<Range> asymmetry();  ///< 0 to kMaxAsymmetry
-Codec<Range> age();        ///< −1 to 1; needs heads with the tag `young` below 0, `old` above 0
-Codec<Range> extrapolation();  ///< factor, −kMaxExtrapolation to kMaxExtrapolation
-/// A smoothness as a fraction (0 to 1) or as a size with its unit, or a range of either.
+Codec<Range> asymmetry();  ///< from 0 to kMaxAsymmetry
+/// from −1 to 1; an age below 0 needs heads with the tag `young`, an age above 0 heads with the tag
+/// `old`
+Codec<Range> age();
+Codec<Range> extrapolation();  ///< the factor e, from −kMaxExtrapolation to kMaxExtrapolation
+/// Codec for a smoothness, given as a fraction (0 to 1), as a size with a unit, or as a range of
+/// fractions or sizes.
 Codec<SmoothnessDistribution> smoothness();
-/// A smoothness as a whole number of smoothing iterations, or a range of such numbers.
+/// Codec for a smoothness, given as a whole number of smoothing iterations or as a range of such
+/// numbers.
 Codec<SmoothnessDistribution> iterations();
 Codec<std::string> name();
-/// A text that is not empty. \param expected  for messages, such as "an image file".
+/// Codec for a text that is not empty.
+///
+/// \param expected  what messages name as the expected value, such as "an image file".
 Codec<std::string> text(const std::string& expected);
 Codec<Eigen::Index> head();
-/// Heads by name or tag, or `all`. The result is ascending, without duplicates.
+/// Codec for a list of heads, each given by its name or by a tag, or `all`. The result is ascending
+/// and has no duplicates.
 Codec<std::vector<Eigen::Index>> head_list();
-/// Like `head_list` (every weight is 1), or a mapping `{head or tag: weight}`.
+/// Codec for a list as in `head_list` (every weight is 1), or a mapping `{head or tag: weight}`.
 Codec<std::vector<WeightedHead>> weighted_heads();
 Codec<PlanePoint> point();
 /// Writes weights as "{head: weight}".
 std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context);
-/// A mapping from names of hair colours to fractions whose sum is at most 1: {red: 0.3}.
+/// Codec for a mapping from names of hair colours to fractions that sum to at most 1: {red: 0.3}.
 Codec<std::map<std::string, double>> hair_colours();
-/// A path relative to the config's folder. An empty path is not written.
-/// \param expected  for messages, such as "a folder".
+/// Codec for a path relative to the config's folder. An empty path is not written.
+///
+/// \param expected  what messages name as the expected value, such as "a folder".
 Codec<std::filesystem::path> path(const std::string& expected);
-/// An existing OBJ file.
+/// Codec for the path of an existing OBJ file.
 Codec<std::filesystem::path> obj_file();
 
-/// Restricts a codec to values that pass a check.
-/// \param fits  called with (value, node, draft); adds a complaint and returns false to refuse.
+/// Makes a codec that accepts only values that pass a check.
+///
+/// \param fits  called with (value, node, draft); to refuse a value, it adds a complaint and
+///              returns false.
 template <class Value, class Fits>
 Codec<Value> restricted(Codec<Value> codec, const Fits& fits) {
   codec.read = [=, read = std::move(codec.read)](const YamlNode& node, ConfigDraft& draft) {
@@ -90,14 +106,14 @@ Codec<Value> restricted(Codec<Value> codec, const Fits& fits) {
   return codec;
 }
 
-/// Lists the words of an enumeration for docs/config.md: "`front`, `skin`".
+/// Returns the words of an enumeration for docs/config.md, such as "`front`, `skin`".
 template <class Value>
 std::string quoted_words() {
   return join(texts_of(words_of<Value>(),
                        [](const Word<Value>& word) { return concat('`', word.text, '`'); }));
 }
 
-/// A value that a config names by a word, see all_words.
+/// Codec for a value of an enumeration, which a config gives as a word; see all_words.
 template <class Value>
 Codec<Value> word() {
   return {[](const YamlNode& node, ConfigDraft& draft) {
@@ -107,7 +123,9 @@ Codec<Value> word() {
           quoted_words<Value>()};
 }
 
-/// A list of values, written in one line. \param expected  for messages, such as "a list of tags".
+/// Codec for a list of values, written in one line.
+///
+/// \param expected  what messages name as the expected value, such as "a list of tags".
 template <class Value>
 Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expected) {
   return {[=](const YamlNode& node, ConfigDraft& draft) {
@@ -125,9 +143,11 @@ Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expe
           remove_article(expected)};
 }
 
-/// A list of words without duplicates.
-/// \param expected   for messages, such as "a list of views, [front, profile]".
-/// \param min_count  minimum number of words.
+/// Codec for a list of words without duplicates.
+///
+/// \param expected   what messages name as the expected value, such as "a list of views, [front,
+///                   profile]".
+/// \param min_count  smallest allowed number of words.
 template <class Value>
 Codec<std::vector<Value>> words(const std::string& expected, std::size_t min_count = 1) {
   auto codec = list(word<Value>(), expected);

@@ -34,7 +34,7 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
 }
 
 void Complaints::report_to(Problems& problems) const {
-  // a longer list would push the first problems off the screen
+  // limited, because a longer list would push the first problems off the screen
   constexpr std::size_t kMaxReportedComplaints = 100;
   std::vector<Complaint> sorted = complaints_;
   const auto key = [](const Complaint& c) {

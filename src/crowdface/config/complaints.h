@@ -20,12 +20,15 @@ class Complaints {
   };
 
   void add(const YamlPlace& place, std::string what, ExitCode kind = ExitCode::kUsage);
-  /// Adds "PATH: WHAT" at the node, unless the node is already refused (Kind::kRefused).
+  /// Adds the complaint "PATH: WHAT" at a node's place in the file, unless the node was already
+  /// refused (Kind::kRefused).
   void add_at(const YamlNode& node, const std::string& what, ExitCode kind = ExitCode::kUsage);
-  /// Adds "PATH: expected EXPECTED, found …" at the node.
-  /// \return `nullopt`, so that a function that reads a value can return this call.
+  /// Adds the complaint "PATH: expected EXPECTED, found …" at a node's place in the file.
+  ///
+  /// \return `nullopt`, so that a function that reads a value can return the result of this call.
   std::nullopt_t expected(const YamlNode& node, const std::string& expected);
-  /// Returns whether the node is a list (or a mapping). If not, adds the complaint "expected WHAT".
+  /// Returns whether the node is a list (expect_list) or a mapping (expect_map). If not, adds the
+  /// complaint "expected WHAT".
   bool expect_list(const YamlNode& node, const std::string& what);
   bool expect_map(const YamlNode& node, const std::string& what);
 
@@ -33,8 +36,8 @@ class Complaints {
   std::size_t size() const { return complaints_.size(); }
   const std::vector<Complaint>& list() const { return complaints_; }
 
-  /// Reports the first 100 complaints by line and column. Complaints about the command line come
-  /// last. If there are more, one final problem states how many.
+  /// Reports the first 100 complaints, sorted by line and column. Complaints about the command line
+  /// come last. If there are more than 100, one final problem says how many are not shown.
   void report_to(Problems& problems) const;
 
  private:

@@ -34,49 +34,52 @@ struct CellSize;  // render/contact_sheet.h
 /// What to do if the heads are not aligned with each other.
 enum class Align {
   kCheck,  ///< warn
-  kRigid,  ///< align every head to the first by the best rotation and translation
+  kRigid,  ///< align every head rigidly with the first head, by the best rotation and translation
   kNone,   ///< do not check
 };
 
 /// Whether a crowd gets a gallery page, on which users select faces.
 enum class Gallery {
-  kAuto,  ///< if there are pictures and this build contains the page
+  kAuto,  ///< a gallery is made if there are pictures and this build contains the page
   kNone,
 };
 
-/// The weights with which a face's textures are blended: the weights of its shape (`kRecipe`), or
-/// independently sampled weights (`kSampled`).
+/// The weights with which the heads' textures are blended into a face's textures: the weights that
+/// blend the face's shape (`kRecipe`), or independently sampled weights (`kSampled`).
 enum class ColourWeights { kRecipe, kSampled };
 
-/// Which textures a face gets.
+/// Which textures a new face gets.
 enum class TextureBlend {
-  kAuto,    ///< a blend of the heads' textures, if these differ
-  kTarget,  ///< the textures of its target
-  kNone,    ///< pictures show no textures; written files are the same as with kTarget
+  kAuto,    ///< a blend of the heads' textures, if the heads' textures differ
+  kTarget,  ///< the textures of the face's target
+  kNone,    ///< no textures in pictures; the written files are the same as with kTarget
 };
 /// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };
 /// Whether rendered images show textures.
 enum class SheetTexture {
-  kAuto,  ///< if any head has textures
+  kAuto,  ///< if at least one head has textures
   kYes,
   kNo,
 };
 
 /// How the smoothed versions of each head are represented.
 enum class Levels {
-  kBasis,  ///< displacement fields fitted to each head, as many as `tolerance_mm` requires
-  kExact,  ///< the smoothing filter computes every level
-  kCubic,  ///< the paper's cubic polynomial in the level L per vertex (§5.1)
+  /// as displacement fields fitted to each head; their number is as large as `tolerance_mm`
+  /// requires
+  kBasis,
+  kExact,  ///< not stored: the smoothing filter computes every level
+  kCubic,  ///< for each vertex, as the paper's cubic polynomial in the level L (§5.1)
 };
 
-/// How rendered images show a material. Overrides the kind that the material's name suggests.
+/// How rendered images show a material. This overrides the kind of surface that the material's name
+/// suggests.
 struct SurfaceChoice {
   SurfaceKind kind = SurfaceKind::kSkin;
-  std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: the colour of `kind`
+  std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: the default colour of `kind`
 };
 
-/// A line of text below a rendered image.
+/// What a line of text below a rendered image shows.
 enum class SheetLabel {
   kId,
   kFamily,
@@ -91,163 +94,194 @@ enum class SheetLabel {
 enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
 enum class SheetFormat { kPng, kExr, kPdf };
 
-/// A config file after reading and checking, with every name resolved. Fields have the names of
-/// their YAML keys; docs/config.md explains each. Paths are absolute or relative to the working
-/// directory.
+/// A config file after reading and checking; all names are replaced by indices. Members have the
+/// names of the YAML keys, which docs/config.md explains. Paths are absolute or relative to the
+/// working directory.
 struct Config {
   std::filesystem::path file;  ///< path of the config file
 
   struct Crowd {
     std::string name;
-    std::uint64_t count = 0;  ///< number of sampled faces; recipes add further faces
+    std::uint64_t count = 0;  ///< number of sampled faces; recipes and families add further faces
     std::uint64_t seed = 1;
-    /// Not a key: the number of sampled faces in the folder, if it has a crowd of this config
+    /// The number of sampled faces of the crowd in the output folder, if that crowd has this
+    /// config. (This is not a config key.)
     std::optional<std::uint64_t> existing_count;
   } crowd;
 
   struct Faces {
-    std::vector<std::filesystem::path> files;    ///< #heads
-    std::vector<std::string> names;              ///< #heads, from names_of_heads
-    LengthUnit units = LengthUnit::kCentimetre;  ///< required in the file, never guessed
+    std::vector<std::filesystem::path> files;  ///< one file for each head
+    std::vector<std::string> names;            ///< name of each head, from names_of_heads
+    /// unit of the heads' positions; required in the config, never guessed
+    LengthUnit units = LengthUnit::kCentimetre;
     Axis up = {1, 1};
     Axis front = {2, 1};
     Align align = Align::kCheck;
-    std::vector<std::vector<std::string>> tags;  ///< #heads, the tags of each head
+    std::vector<std::vector<std::string>> tags;  ///< for each head, its tags
   } faces;
 
   struct Regions {
-    std::vector<std::string> names;  ///< empty: the whole head is one region, "all"
-    std::vector<std::string> mask;   ///< image paths, may contain <UDIM>; channels in this order
+    /// names of the regions; empty: the whole head is one region, "all"
+    std::vector<std::string> names;
+    /// paths of images, which may contain <UDIM>; the images' channels belong to the regions in
+    /// order
+    std::vector<std::string> mask;
   } regions;
 
   struct Smoothing {
     double max_size_mm = 240;
-    std::optional<std::uint64_t> max_iterations;  ///< overrides max_size_mm
+    std::optional<std::uint64_t> max_iterations;  ///< if set, replaces max_size_mm
     Boundary boundary = Boundary::kFixed;
-    OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< key `operator`
+    OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< value of the key `operator`
     Levels levels = Levels::kBasis;
-    double tolerance_mm = 0.05;  ///< maximum error of `levels: basis` at any vertex and level
+    double tolerance_mm = 0.05;  ///< `levels: basis`: largest error at any vertex and level
   } smoothing;
 
   struct Blending {
     Normalization normalization = Normalization::kPartition;
-    Contacts contacts = Contacts::kAuto;  ///< treatment of lips and other nearly touching skin
+    /// how lips and other nearly touching parts of the skin are treated
+    Contacts contacts = Contacts::kAuto;
   } blending;
 
-  /// How eyes, teeth and lashes follow the skin. Parts are named by a material, a group or
-  /// "component N".
+  /// How eyes, teeth and lashes follow the skin. The config names such a part by its material, its
+  /// group, or as "component N".
   struct Parts {
-    bool follow = true;  ///< false: `parts: none`, everything is blended as skin
+    bool follow = true;  ///< false with `parts: none`: everything is blended like skin
     PartShape shape = PartShape::kTarget;
     std::vector<std::string> skin, rigid, bound;
-    std::vector<std::vector<std::string>> together;  ///< each inner list forms one rigid part
+    /// each inner list names parts that move together as one rigid part
+    std::vector<std::vector<std::string>> together;
   } parts;
 
-  /// Expressions of a template or of each head, which are transferred to every face.
+  /// Expressions (blend shapes) of a template or of each head. They are transferred to every face.
   struct Shapes {
     std::filesystem::path neutral;    ///< the template's neutral mesh; empty: no template
     std::filesystem::path directory;  ///< folder of the template's shapes
-    std::filesystem::path heads;      ///< folder with a subfolder for each head; empty: none
-    std::vector<std::string> names;   ///< empty: there are no shapes
-    std::vector<std::filesystem::path>
-        files;  ///< #names, the template's shapes; an empty path: the template lacks that shape
-    std::vector<std::vector<std::filesystem::path>>
-        of_head;  ///< #heads by #names; an empty path: the head lacks that shape
+    /// folder that contains a subfolder with shapes for each head; empty: none
+    std::filesystem::path heads;
+    std::vector<std::string> names;  ///< names of the shapes; empty: there are no shapes
+    /// #names, files of the template's shapes; the path is empty if the template lacks the
+    /// shape
+    std::vector<std::filesystem::path> files;
+    /// #heads by #names, files of the heads' shapes; the path is empty if the head lacks the
+    /// shape
+    std::vector<std::vector<std::filesystem::path>> of_head;
   } shapes;
 
-  /// files from which tags and attachments were read
+  /// files from which tags and attachments have been read
   std::vector<std::filesystem::path> lists;
-  std::filesystem::path points;  ///< file of points that follow the face; empty: none
-  /// file of landmarks that replace the landmarks found on the heads; empty: none
+  /// file of points (positions on the heads) that follow each face; empty: none
+  std::filesystem::path points;
+  /// file of landmarks, which are used instead of landmarks found on the heads; empty: none
   std::filesystem::path landmarks;
-  std::filesystem::path rig;  ///< GLB file of joints and the parts bound to them; empty: none
+  /// GLB file with joints and with the parts bound to these joints; empty: none
+  std::filesystem::path rig;
 
-  /// The ring of vertices at the neck in which all faces end.
+  /// The ring of vertices at the neck where the meshes of all faces end.
   struct Neck {
-    std::filesystem::path body;          ///< the mesh that the faces end on; empty: none
-    std::optional<Eigen::Index> like;    ///< the head whose neck all faces get
-    bool mean = false;                   ///< all faces get the mean of the heads' necks
-    std::filesystem::path rim;           ///< file of the ring's vertices; empty: the open rim
-    std::filesystem::path body_rim;      ///< file of the body's vertices there; empty: an open rim
-    double falloff_mm = 60;              ///< height above the ring up to which faces are bent
-    std::filesystem::path body_texture;  ///< the body's colours, tinted for each face; empty: none
-    bool show_body = false;              ///< whether pictures show the body
-    bool write_body = false;             ///< whether GLB and USD files contain the body
+    std::filesystem::path body;  ///< mesh of the body to which the faces are attached; empty: none
+    std::optional<Eigen::Index> like;  ///< head whose neck all faces get
+    bool mean = false;                 ///< whether all faces get the mean of the heads' necks
+    /// file that lists the ring's vertices; empty: the ring is the open border of the heads' meshes
+    std::filesystem::path rim;
+    /// file that lists the body's vertices at the ring; empty: the vertices are an open border of
+    /// the body
+    std::filesystem::path body_rim;
+    double falloff_mm = 60;  ///< faces are bent to fit the ring up to this height above the ring
+    /// the body's colour texture, which is tinted for each face; empty: none
+    std::filesystem::path body_texture;
+    bool show_body = false;   ///< whether pictures show the body
+    bool write_body = false;  ///< whether GLB and USD files contain the body
 
     bool is_set() const { return !body.empty() || like || mean; }
     bool needs_body_mesh() const { return !body_texture.empty() || show_body || write_body; }
   } neck;
 
-  /// An attachment that a head may wear, such as hair or glasses: a separate mesh.
+  /// An attachment that a face may wear, such as hair or glasses. Each attachment is a separate
+  /// mesh.
   struct Attachment : AttachmentItem {
     std::filesystem::path file;
     AttachmentMove moves = AttachmentMove::kBend;
   };
   struct Attachments {
-    /// All items were fitted to this head, or to the mesh `file`, which has the heads' topology.
-    /// Without either, they were fitted to the mean of the heads.
+    /// The head to which all items were fitted. If the mesh `file` is given instead (with the
+    /// heads' topology), the items were fitted to this mesh. Without either, to the mean of the
+    /// heads.
     std::optional<Eigen::Index> head;
     std::filesystem::path file;
     std::vector<Attachment> items;
-    std::map<std::string, double> none;  ///< by kind: share of faces without an item of that kind
-    std::map<std::string, double>
-        quotas;  ///< by kind, name or colour: share of the sampled faces that wear it
-    std::map<std::string, double> hair_colours;  ///< by name: share of the faces with this colour
+    /// by kind: fraction of the faces that wear no item of the kind
+    std::map<std::string, double> none;
+    /// by kind, name or colour of items: fraction of the sampled faces that wear such an item
+    std::map<std::string, double> quotas;
+    /// by name of a hair colour: fraction of the faces that have this colour
+    std::map<std::string, double> hair_colours;
   } attachments;
 
   struct Textures {
     TextureBlend blend = TextureBlend::kAuto;
-    std::optional<std::uint64_t>
-        size;  ///< texels of the longer side; none: the size of the largest head texture
+    /// number of texels of a texture's longer side; none: the size of the largest texture of
+    /// any head
+    std::optional<std::uint64_t> size;
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// For ColourWeights::kSampled: textures come only from heads that agree with the face's target
-    /// in each of these tags; none: in all tags.
+    /// For ColourWeights::kSampled: the tags that must be equal on the head that lends textures and
+    /// on the face's target. None: all tags must be equal.
     std::optional<std::vector<std::string>> alike;
   } textures;
 
   struct Plane {
     Layout layout = Layout::kCircle;
-    std::map<Eigen::Index, PlanePoint>
-        anchors;  ///< anchors by head, in place of the layout's; kManual needs all
+    /// anchors by head, which replace the anchors of the layout; with kManual, every head needs
+    /// one
+    std::map<Eigen::Index, PlanePoint> anchors;
   } plane;
 
   SamplingOptions sampling;
 
-  /// Which vertices count in the distance between two faces.
+  /// Which vertices count when the distance between two faces is measured.
   struct Distance {
     FaceArea area = FaceArea::kFront;
-    std::optional<std::string> mask;  ///< image path, may contain <UDIM>; first channel = weight
+    /// path of an image, may contain <UDIM>; the first channel is the vertices' weight
+    std::optional<std::string> mask;
   } distance;
   DiversityOptions diversity;
   BelievabilityOptions believability;
   std::vector<ManualRecipe> recipes;
   std::vector<FamilyOptions> families;
   std::vector<Group> groups;
-  std::vector<FaceChange> changes;  ///< changes of single faces; reviews contain further ones
+  /// changes of single faces; reviews may request further changes
+  std::vector<FaceChange> changes;
 
-  /// A table of distributions of measurements.
+  /// A table of distributions of measurements, read from a file.
   struct TraitTable {
-    std::filesystem::path file;        ///< empty: none
-    std::vector<TraitTarget> targets;  ///< the file's content, ascending by trait
+    std::filesystem::path file;        ///< path of the file; empty: no table
+    std::vector<TraitTarget> targets;  ///< the file's content, sorted by measurement
   };
-  TraitTable population;    ///< requested distributions of the sampled faces
-  TraitTable quantiles_of;  ///< distributions for the percents in `traits`; empty: the heads
+  TraitTable population;  ///< distributions that the measurements of the sampled faces should have
+  /// distributions that give the quantiles for percentages in `traits`; empty: the heads give the
+  /// quantiles
+  TraitTable quantiles_of;
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
-    std::vector<std::string> texts;           ///< #files, the files' texts, with the key `count`
-    std::vector<std::string> original_texts;  ///< #files, the files' texts as they were read
-    std::vector<Review> reviews;              ///< #files, the parsed texts
-    bool ignores_kept_reviews = false;        ///< the reviews in the crowd's folder are set aside
+    /// #files, the text of each file, with the key `count` added where it was missing
+    std::vector<std::string> texts;
+    std::vector<std::string> original_texts;  ///< #files, the text of each file as it was read
+    std::vector<Review> reviews;              ///< #files, the review that each text contains
+    /// whether the reviews stored in the crowd's folder are ignored
+    bool ignores_kept_reviews = false;
   } review;
-  std::filesystem::path edits;  ///< file saved by `crowdface edit`, already merged; empty: none
+  /// file that `crowdface edit` has saved; its content is already merged into this config; empty:
+  /// none
+  std::filesystem::path edits;
 
-  /// The mesh that each face is compared with, vertex by vertex, in a colour map.
+  /// The mesh with which each face is compared, vertex by vertex; a colour map shows the distances.
   struct Comparison {
     enum class With { kNothing, kTarget, kNearest, kFile } with = With::kNothing;
-    std::filesystem::path file;  ///< a mesh, or the folder of a crowd whose faces have the same ids
-    double scale_mm = 6;         ///< distance at the end of the colour scale
+    /// a mesh, or the folder of another crowd whose faces have the same ids
+    std::filesystem::path file;
+    double scale_mm = 6;  ///< distance that the last colour of the colour scale represents
   };
   struct ContactSheet {
     int columns = 6;
@@ -258,49 +292,58 @@ struct Config {
     SheetOrder order = SheetOrder::kPlan;
     Comparison compare;
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
-    int shapes = 0;  ///< number of faces whose shapes are shown, on separate pages
+    /// number of faces whose expressions (blend shapes) are shown on separate pages
+    int shapes = 0;
     SheetTexture texture = SheetTexture::kAuto;
 
-    /// The size of a cell without a distance map and with two lines of text, as on the sheets of
-    /// heads and families.
+    /// Returns the size of a cell without a distance map and with two lines of text. Sheets of
+    /// heads and families have such cells.
     CellSize plain_cell_size() const;
   };
   struct Output {
     std::filesystem::path directory;
-    std::vector<MeshFormat> meshes = {MeshFormat::kObj};  ///< no duplicates; may be empty
-    std::vector<double> lods;  ///< levels of detail: percent of the triangles, descending
-    Subdivision subdivision = Subdivision::kNone;  ///< subdivision scheme that USD files declare
-    /// empty for `contact_sheet: none`
+    /// mesh formats to write, without duplicates; may be empty
+    std::vector<MeshFormat> meshes = {MeshFormat::kObj};
+    /// levels of detail: for each level, its percentage of the triangles; descending
+    std::vector<double> lods;
+    /// subdivision scheme that is declared in USD files
+    Subdivision subdivision = Subdivision::kNone;
+    /// no value with `contact_sheet: none`
     std::optional<ContactSheet> contact_sheet = ContactSheet{};
     Gallery gallery = Gallery::kAuto;
-    /// Number of faces in each numbered subfolder of meshes, renders, …; none or 0: no subfolders.
+    /// Number of faces in each numbered subfolder of the folders meshes, renders, …. None or 0:
+    /// there are no subfolders.
     std::optional<std::uint64_t> faces_per_folder;
-    std::map<std::string, SurfaceChoice> surfaces;  ///< settings by material name
+    std::map<std::string, SurfaceChoice> surfaces;  ///< how materials are shown, by material name
   } output;
 
-  /// Returns `regions.names`, or {"all"} if there are no regions. Plans use these names.
+  /// Returns `regions.names`, or {"all"} if the config has no regions. Plans use these names.
   std::vector<std::string> region_names() const;
-  /// Returns the names of the parts that can be locked or inherited: the regions, or with bands
-  /// "top/build", "top/skin", …
+  /// Returns the names of the parts that can be locked or inherited. Without bands, these are the
+  /// regions; with bands, "top/build", "top/skin", ….
   std::vector<std::string> part_names() const;
   PlanNames plan_names() const;
-  /// Returns the measurements that the config names, ascending, as indices into measurements().
+  /// Returns the measurements that the config mentions, as ascending indices into measurements().
   std::vector<std::size_t> named_traits() const;
 };
 
 /// Returns the config as YAML with every default written out and keys in a fixed order. The same
-/// config gives the same bytes. A file in `directory` with this text reads back as the same config.
-/// \param directory  the folder that the written paths are relative to.
+/// config always gives the same bytes. If the text is stored in a file in `directory`, reading this
+/// file gives the same config.
+///
+/// \param directory  the folder to which written paths are relative.
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
-/// Returns the part of the effective config that a face's files may depend on, apart from its
-/// recipe and the input files: every key that is not marked with Key::ignored_by_face_files. Keys
-/// at their default are left out, so that faces written before a key existed stay up to date.
+/// Returns the part of the effective config on which a face's files may depend, apart from the
+/// face's recipe and the input files: every key that is not marked with Key::ignored_by_face_files.
+/// Keys with their default value are left out. So when a new version adds a key, existing faces
+/// stay up to date.
 std::string face_settings(const Config& config);
 
-/// Returns the part of the effective config that a plan depends on, apart from reviews: every key
+/// Returns the part of the effective config on which a plan depends, apart from reviews: every key
 /// that is not marked with Key::ignored_by_recipes, and `changes`.
-/// \param directory  the folder that the paths are relative to.
+///
+/// \param directory  the folder to which the paths are relative.
 std::string plan_settings(const Config& config, const std::filesystem::path& directory);
 
 }  // namespace crowdface

@@ -16,7 +16,7 @@ constexpr const char* kCount = "crowd.count";
 constexpr const char* kDistance = "diversity.min_distance";
 constexpr const char* kFirstDistances = "diversity.min_distance_of_first";
 
-/// Returns a node's path without the numbers of list items: "attachments.items #2.file" gives
+/// Removes the numbers of list items from a node's path: "attachments.items #2.file" becomes
 /// "attachments.items.file".
 std::string path_of_key(std::string path) {
   for (std::size_t at = path.find(" #"); at != path.npos; at = path.find(" #", at)) {
@@ -33,9 +33,11 @@ void remove_keys(const std::set<std::string>& paths, YamlNode& node) {
   for (YamlNode& item : node.items) remove_keys(paths, item);
 }
 
-/// Adds the paths of all values of `b` that `a` lacks or that differ there, and of all values of
-/// `a` that `b` lacks.
-/// \param defaults  values for keys that `a` lacks because an older version wrote `a`; may be null.
+/// Adds the paths of all values that differ between `a` and `b`, or that are missing in one of the
+/// two.
+///
+/// \param defaults  values for keys that are missing in `a` because an older version wrote `a`; may
+///                  be null.
 void add_differences(const YamlNode& a, const YamlNode& b, const YamlNode* defaults,
                      std::vector<std::string>& paths) {
   const auto add = [&](const YamlNode& node) {
@@ -70,8 +72,8 @@ bool is_same(const YamlNode& a, const YamlNode& b) {
   return paths.empty();
 }
 
-/// Removes the keys that a group has from `sampling`, so that a difference in such a key is
-/// reported once.
+/// Removes keys from each group that have the same value in `sampling`. So a difference in such a
+/// key is reported only once.
 void remove_inherited_keys(YamlNode& root) {
   const YamlEntry* sampling = root.find("sampling");
   const auto groups = std::ranges::find(root.entries, "groups", &YamlEntry::key);
@@ -105,13 +107,14 @@ bool casts_one_by_one(const YamlNode& root) {
   return mode == nullptr || mode->text == word_of(DiversityOptions::Mode::kFirstFit);
 }
 
-/// Returns whether the faces of the smaller crowd are the first ones of the larger crowd.
+/// Returns whether the crowd only grows: whether the faces of the smaller crowd are the first faces
+/// of the larger crowd.
 bool only_grows(const YamlNode& old, const YamlNode& root) {
   const auto before = number_at(old, kCount), now = number_at(root, kCount);
   return casts_one_by_one(root) && before && now && *before <= *now;
 }
 
-/// Reads a length that effective_config has written, such as "1.2 mm".
+/// Reads a length in the form in which effective_config writes lengths, such as "1.2 mm".
 std::optional<double> millimetres_of(const YamlNode& node) {
   constexpr std::string_view kUnit = " mm";
   return node.text.ends_with(kUnit)
@@ -138,7 +141,8 @@ std::optional<KeptDistances> distances_of(const YamlNode& root) {
   return distances;
 }
 
-/// Returns whether the same smallest distances are required of the old crowd's faces and families.
+/// Returns whether both configs require the same smallest distances for the old crowd's faces and
+/// families.
 bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   const auto before = distances_of(old), now = distances_of(root);
   const auto count = number_at(old, kCount);
@@ -148,7 +152,8 @@ bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   a.min_distance_of_first_mm = before->min_distance_of_first_mm;
   b.min_distance_mm = now->min_distance_mm;
   b.min_distance_of_first_mm = now->min_distance_of_first_mm;
-  // These are the only face numbers after which the required distance may change.
+  // The required distance is constant between these face numbers, so it is enough to compare the
+  // distances at these numbers.
   std::set<std::uint64_t> ends = {0, *count};
   for (const auto* distances : {&*before, &*now}) {
     for (const auto& first : distances->min_distance_of_first_mm)

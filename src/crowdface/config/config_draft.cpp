@@ -11,7 +11,8 @@ namespace crowdface {
 
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path) {
   std::filesystem::path resolved = (folder / path).lexically_normal();
-  return resolved.has_filename() ? resolved : resolved.parent_path();  // removes a trailing '/'
+  // this removes a trailing '/'
+  return resolved.has_filename() ? resolved : resolved.parent_path();
 }
 
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,

@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// A partly read config. Sections are read in the order of root_keys, and each section may use the
-/// values of earlier sections.
+/// A config of which some sections have been read. Sections are read in the order of root_keys, and
+/// each section may use the values of earlier sections.
 struct ConfigDraft {
   explicit ConfigDraft(Complaints& out) : complaints(out) { config.sampling.regions.resize(1); }
 
@@ -24,16 +24,18 @@ struct ConfigDraft {
   std::optional<double> kept_min_distance_mm;       ///< see ConfigOverrides
   std::filesystem::path ignored_reviews;            ///< see ConfigOverrides
   std::vector<std::string> warnings;                ///< see ConfigReading
-  /// Each flag becomes false after a complaint about the heads, tags, regions or smoothing. Values
-  /// that refer to invalid names are then not checked, so that one mistake gives one message.
+  /// Whether the heads, tags, regions and smoothing are valid. A complaint about
+  /// one of these makes its flag false. Values that refer to invalid names are then not checked,
+  /// so that one mistake gives only one message.
   bool heads_known = false;
   bool tags_known = true;
   bool regions_known = true;
   bool smoothing_known = true;
 };
 
-/// Returns the indices in part_names() that a name selects: a region selects all its bands, a band
-/// selects itself in all regions, a part selects itself. Empty if nothing has that name.
+/// Returns the parts that a name selects, as indices into part_names(). The name of a region
+/// selects all bands of the region, the name of a band selects the band in all regions, and the
+/// name of a part selects this part. Returns nothing if no region, band or part has the name.
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config);
 
 /// Returns whether the tags of a head contain all of `tags`.
@@ -44,20 +46,22 @@ std::vector<Eigen::Index> heads_with_tags(const std::vector<std::string>& tags,
 /// Removes the tags that name an age: young, adult, old.
 std::vector<std::string> remove_age_tags(std::vector<std::string> tags);
 
-/// Resolves a path against the folder and removes "a/../" lexically, without reading links.
+/// Resolves a path against the folder. Removes "a/../" by text alone, without following symbolic
+/// links.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
-/// Returns whether the file exists. If not, adds a complaint of kind kMissingInput.
-/// \param what  text before the file's name in the message.
+/// Returns whether a file exists. If it does not, adds a complaint of kind kMissingInput.
+///
+/// \param what  text that stands before the file's name in the message.
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what = "the file ");
 
-/// Returns the head with that name. If there is none, returns nothing and adds a complaint, unless
-/// the heads are not known.
+/// Returns the head with a name. If no head has the name, returns nothing and, if `heads_known`,
+/// adds a complaint.
 std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& place,
                                       const std::string& path, ConfigDraft& draft);
-/// Returns the head with that name, or all heads with that tag. If there are none, returns an empty
-/// list and adds a complaint, unless heads or tags are not known.
+/// Returns the head that has this name, or all heads that have this tag. If there is no such head,
+/// returns an empty list and, if heads and tags are known, adds a complaint.
 std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& place,
                                      const std::string& path, ConfigDraft& draft);
 

@@ -14,19 +14,19 @@ namespace crowdface {
 
 struct StarterFacts;
 
-/// A key and its comments in a starter config.
+/// What a starter config contains for one key: the key's value and its comments.
 struct StarterLines {
-  std::string value;                ///< value for entry(); empty: only `comment_above` is written
-  std::string comment_beside = {};  ///< comment on the same line
-  std::string comment_above = {};   ///< comment before the key, one or more lines
+  std::string value;  ///< value that is passed to entry(); empty: only `comment_above` is written
+  std::string comment_beside = {};  ///< comment after the value, on the same line
+  std::string comment_above = {};   ///< comment on the lines before the key
 };
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
-/// A row of the tables in docs/config.md.
+/// One row, which describes one key, of the tables in docs/config.md.
 struct KeyRow {
   std::string section, key;
-  std::string accepted_values;  ///< accepted values
-  std::string default_value;    ///< default value; "required"; or empty if there is no default
+  std::string accepted_values;  ///< the values that the key accepts
+  std::string default_value;    ///< the default value, or "required"; empty if the key has neither
   bool affects_recipes = true;  ///< see Key::affects_recipes
 };
 
@@ -36,21 +36,28 @@ template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);
 
-/// One key of a section: its name, how to read and write its value, and its documentation.
+/// One key of a config section: the key's name, functions that read and write its value, and its
+/// documentation.
 template <class Section>
 struct Key {
   std::string_view name;
-  /// Reads the value into the section. After a complaint the section may be unchanged.
+  /// Reads the value into the section. After a complaint, the section may be left unchanged.
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
-  /// Returns the section's value as text for entry(); an empty text leaves the key out.
+  /// Returns the value in the section as a text that can be passed to entry(). If the text is
+  /// empty, the key is left out.
   std::function<std::string(const Section&, const WriteContext&)> write;
-  std::string_view required_example = {};  ///< required keys only: an example, for the message
-  Starter starter = {};                    ///< empty: the key is not in a starter config
-  std::string accepted_values = {};        ///< accepted values, for docs/config.md
-  /// Documents the nested keys, if the value is a mapping. \param section  path of that mapping.
+  /// only for required keys: an example value, for the message when the key is missing
+  std::string_view required_example = {};
+  /// returns what a starter config contains; empty: the key is not in a starter config
+  Starter starter = {};
+  std::string accepted_values = {};  ///< the accepted values, as docs/config.md describes them
+  /// If the value is a mapping: returns the rows of the mapping's keys in docs/config.md.
+  ///
+  /// \param section  path of the mapping.
   std::function<std::vector<KeyRow>(const std::string& section)> rows = {};
-  bool affects_face_files = true;  ///< false: the value itself never affects a face's files
-  bool affects_recipes = true;  ///< false: no recipe depends on the value or on the files it names
+  bool affects_face_files = true;  ///< false: no face file depends directly on the value
+  /// false: no recipe depends on the value or on the files that the value names
+  bool affects_recipes = true;
 
   Key with_starter(const Starter& lines) const {
     Key key = *this;
@@ -65,7 +72,9 @@ struct Key {
     key.accepted_values = values;
     return key;
   }
-  /// Documents a value that is a mapping. \param keys  keys of that mapping; must outlive this key.
+  /// Documents a value that is a mapping.
+  ///
+  /// \param keys  keys of the mapping; must outlive this key.
   template <class Inner>
   Key with_nested_keys(const std::vector<Key<Inner>>& keys, const Inner& initial = {}) const {
     Key key = *this;
@@ -74,20 +83,22 @@ struct Key {
     };
     return key;
   }
-  /// Marks a key whose value no face file depends on directly. Other digests cover the input files
-  /// that the key names, and the recipes that the key leads to.
+  /// Marks a key on whose value no face file depends directly. (Face files may still depend on the
+  /// input files that the key names, and on the recipes that the key affects; other digests cover
+  /// both.)
   Key ignored_by_face_files() const {
     Key key = *this;
     key.affects_face_files = false;
     return key;
   }
-  /// Marks a key that may change in a finished crowd, because no recipe depends on the key.
+  /// Marks a key that users may change after the crowd is finished, because no recipe depends on
+  /// the key.
   Key ignored_by_recipes() const {
     Key key = *this;
     key.affects_recipes = false;
     return key;
   }
-  /// Writes the key only if `is(section, writing)` holds.
+  /// Returns a copy of this key that is written only if `is(section, writing)` is true.
   template <class Is>
   Key written_if(const Is& is) const {
     Key key = *this;
@@ -98,7 +109,7 @@ struct Key {
   }
 };
 
-/// The keys of a section, in the order in which they are read and written.
+/// The keys of a section, in the order in which the keys are read and written.
 template <class Section>
 using Keys = std::vector<Key<Section>>;
 
@@ -107,10 +118,14 @@ std::vector<std::string> names_of(const Keys<Section>& keys) {
   return texts_of(keys, [](const Key<Section>& key) { return key.name; });
 }
 
-/// Returns `comment_above`, then "key: value   # comment_beside"; each line starts with '\n'.
+/// Returns the lines of `comment_above`, then "key: value   # comment_beside". Each line starts
+/// with '
+/// '.
 std::string starter_lines(std::string_view key, const StarterLines& lines);
 
-/// Reads a mapping with these keys into the section. \return whether the node is a mapping.
+/// Reads a mapping with these keys into the section.
+///
+/// \return whether the node is a mapping.
 template <class Section>
 bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section,
                ConfigDraft& draft) {
@@ -124,8 +139,8 @@ bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section
   return node.kind == YamlNode::Kind::kMap;
 }
 
-/// Returns "key: value" for each key of `context.written_keys` whose text is not empty. Unless all keys are
-/// written, skips keys at their default.
+/// Returns "key: value" for each key of `context.written_keys` whose text is not empty. If not all
+/// keys are written, also leaves out the keys with their default value.
 template <class Section>
 std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& section,
                                     const WriteContext& context) {
@@ -142,10 +157,10 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
   return entries;
 }
 
-/// Shortens a value to one line for docs/config.md: removes a leading "default: ".
+/// Shortens a value to one line for docs/config.md, by removing "default: " from its start.
 std::string one_line_text(std::string_view value);
 
-/// Returns the rows of a section's keys and of all nested keys.
+/// Returns the documentation rows of a section's keys and of all keys nested in them.
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& keys,
                              const Section& initial) {
@@ -168,12 +183,12 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
   return rows;
 }
 
-/// Returns the rows of all documented keys of a config.
+/// Returns the documentation rows of all documented keys of a config.
 std::vector<KeyRow> config_key_rows();
-/// Returns the paths of the keys marked with Key::ignored_by_recipes, such as "output".
+/// Returns the paths of the keys that are marked with Key::ignored_by_recipes, such as "output".
 std::set<std::string> keys_ignored_by_recipes();
 
-/// Writes a list of sections that have the same keys.
+/// Writes a list whose items are sections with the same keys.
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
                            const WriteContext& context) {
@@ -182,7 +197,8 @@ std::string write_sections(const Keys<Section>& keys, const std::vector<Section>
   }));
 }
 
-/// Writes the section's keys that have a starter, as the value of that section; empty if none has.
+/// Returns the starter lines of the section's keys, as a text that is the value of the section.
+/// Returns an empty text if no key has starter lines.
 template <class Section>
 std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   std::string text;
@@ -193,7 +209,8 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   return text;
 }
 
-/// Makes the starter of a section with these keys, which must outlive the starter.
+/// Makes the function that writes a section with these keys into a starter config. The keys must
+/// outlive this function.
 template <class Section>
 Starter starter_section(const Keys<Section>& keys, const std::string& above = {}) {
   return [=, &keys](const StarterFacts& facts) -> std::optional<StarterLines> {
@@ -203,7 +220,8 @@ Starter starter_section(const Keys<Section>& keys, const std::string& above = {}
   };
 }
 
-/// A key whose value is stored in one member. An empty optional is not written.
+/// Makes a key whose value is stored in one member of the section. If the member is an empty
+/// optional, the key is not written.
 template <class Section, class Member, class Value>
 Key<Section> key(std::string_view name, Member Section::*member, const Codec<Value>& codec,
                  std::string_view required = {}) {
@@ -225,10 +243,12 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
           codec.accepted_values};
 }
 
-/// Checks a section after it has been read. \param is_valid  whether reading added no complaint.
+/// A function that checks a section after the section has been read.
+///
+/// \param is_valid  whether reading the section added no complaint.
 using SectionCheck = void (*)(const YamlNode& node, bool is_valid, ConfigDraft& draft);
 
-/// A key whose value is a mapping with the given keys.
+/// Makes a key whose value is a mapping with the given keys.
 template <class Section, class Member>
 Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Member>& keys,
                          std::string_view required = {}, SectionCheck check = nullptr) {
@@ -254,8 +274,8 @@ Key<Section> word_key(std::string_view name, Value Section::*member,
   return key(name, member, word<Value>(), required);
 }
 
-/// The top-level keys of a config, in the order in which they are read. Each section has a similar
-/// table.
+/// The top-level keys of a config, in the order in which the keys are read. The functions below
+/// return similar tables for the sections.
 const Keys<Config>& root_keys();
 const Keys<Config::Distance>& distance_keys();
 const Keys<DiversityOptions>& diversity_keys();
@@ -269,24 +289,26 @@ Key<Config> attachments_key();
 Key<Config> believability_key();
 Key<Config> recipes_key();
 Key<Config> groups_key();
-/// Returns the number of heads in the smaller of a starter config's two groups, women and men; 0 if
-/// the starter has no groups.
+/// A starter config may divide the crowd into two groups, women and men. Returns the number of
+/// heads in the smaller group; 0 if the starter config has no groups.
 std::size_t heads_of_smaller_group(const StarterFacts& facts);
 Key<Config> families_key();
 Key<Config> changes_key();
-/// Reads the changes of single faces that a config or a review asks for.
+/// Reads the changes of single faces that a config or a review requests.
 std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);
-/// Writes changes as a mapping from faces.
+/// Writes changes as a mapping whose keys are faces.
 std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context);
-/// Reads a list of regions, bands or bands of regions, as ascending part numbers: region · #bands +
-/// band.
+/// Reads a list of parts to lock, as ascending part numbers: region · #bands + band. Each entry of
+/// the list is a region (all its bands), a band (in all regions), or one band of one region.
 std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& draft);
-/// Whether a sampled face (any face) of this config's crowd has this id.
+/// is_sampled_face: whether a sampled face of this config's crowd has this id. is_face: whether any
+/// face of the crowd has this id.
 bool is_sampled_face(const std::string& id, const Config& config);
 bool is_face(const std::string& id, const Config& config);
-/// Returns the ids of a family's members and of its sampled parents.
+/// Returns the ids of a family's members and of the parents that casting makes for the family.
 std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const std::string& crowd);
-/// The key `hair_colours` of a section: fractions of the faces by the name of their hair colour.
+/// Makes the key `hair_colours` of a section: for each named hair colour, the fraction of the faces
+/// that have this colour.
 template <class Section>
 Key<Section> hair_colours_key(std::map<std::string, double> Section::*shares) {
   const auto some = [=](const Section& section, const auto&) { return !(section.*shares).empty(); };
@@ -296,7 +318,7 @@ Key<Section> hair_colours_key(std::map<std::string, double> Section::*shares) {
 void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
                        ConfigDraft& draft);
 void read_colours(const YamlNode& node, std::vector<WeightedHead>& weights, ConfigDraft& draft);
-/// The key `colours` of a section: the heads that lend textures.
+/// Makes the key `colours` of a section: the heads that lend textures.
 template <class Section>
 Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
   return Key<Section>{

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns the value of a command-line option as a YAML node.
+/// Turns the value of a command-line option into a YAML node.
 YamlNode option_node(const char* option, const std::string& text) {
   YamlNode node;
   node.kind = YamlNode::Kind::kScalar;
@@ -19,7 +19,7 @@ YamlNode option_node(const char* option, const std::string& text) {
   return node;
 }
 
-/// Inserts the reviews stored in the crowd's folder before the reviews that the config names.
+/// Inserts the reviews stored in the crowd's folder before the reviews that the config lists.
 void insert_kept_reviews(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
   YamlNode reviews;
   reviews.kind = YamlNode::Kind::kList;
@@ -52,8 +52,8 @@ void apply(const ConfigOverrides& overrides, YamlNode& root, Complaints& complai
   if (!overrides.kept_reviews.empty()) insert_kept_reviews(overrides.kept_reviews, root);
 }
 
-/// Reads `--review` and `--out`. Their paths are relative to the working directory, not to the
-/// config file.
+/// Reads the options `--review` and `--out`. The paths in these options are relative to the working
+/// directory, not to the config's folder.
 void read_path_options(const ConfigOverrides& overrides, ConfigDraft& draft) {
   draft.folder.clear();
   for (const std::string& file : overrides.review) {
@@ -64,7 +64,9 @@ void read_path_options(const ConfigOverrides& overrides, ConfigDraft& draft) {
   if (folder) draft.config.output.directory = *folder;
 }
 
-/// \param parse  returns the YAML tree; adds complaints to its argument.
+/// Reads a config from a parsed YAML tree.
+///
+/// \param parse  parse(complaints) returns the YAML tree, and adds complaints to its argument.
 template <class Parse>
 ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrides& overrides,
                           Problems& problems, const Parse& parse) {

@@ -12,52 +12,59 @@
 
 namespace crowdface {
 
-/// Command-line options that change a config, as the user typed them.
+/// Options of a command line that change a config, as the user typed the options.
 struct ConfigOverrides {
-  std::vector<std::string> assignments;  ///< `--set`: "key.path=value"; later ones win
-  std::optional<std::string> count;      ///< `--count`, wins over `--set crowd.count`
-  std::optional<std::string> seed;       ///< `--seed`
-  std::optional<std::string> out;        ///< `--out`, relative to the working directory
-  std::vector<std::string> review = {};  ///< `--review`, relative to the working directory; read
-                                         ///< after the files of the key `review`
-  /// `--without-reviews`: the reviews stored in the crowd's folder do not apply
+  /// `--set`: "key.path=value"; later values replace earlier values of the same key
+  std::vector<std::string> assignments;
+  std::optional<std::string> count;  ///< `--count`; replaces a value given by `--set crowd.count`
+  std::optional<std::string> seed;   ///< `--seed`
+  std::optional<std::string> out;    ///< `--out`; a path relative to the working directory
+  /// `--review`; paths relative to the working directory. Read after the files that the key
+  /// `review` lists.
+  std::vector<std::string> review = {};
+  /// `--without-reviews`: whether to ignore the reviews stored in the crowd's folder
   bool without_reviews = false;
-  /// the stored reviews apply even if the folder holds another config's crowd
+  /// whether to apply the stored reviews even if the folder contains the crowd of another config
   bool keep_reviews_of_other_configs = false;
-  /// Reviews stored in the crowd's folder. They are read first; a later copy is ignored.
+  /// Reviews stored in the crowd's folder. They are read first. If the config lists a copy of such
+  /// a review, the copy is ignored.
   std::vector<std::filesystem::path> kept_reviews = {};
-  /// The crowd's number of sampled faces, for kept reviews that do not state it.
+  /// The number of sampled faces of the crowd in the folder, for stored reviews that do not state a
+  /// number.
   std::optional<std::uint64_t> kept_face_count = {};
-  /// The crowd's `diversity.min_distance`, for kept reviews that do not state a distance, if the
-  /// config's distance differs.
+  /// The `diversity.min_distance` of the crowd in the folder, if the config's value is different.
+  /// It applies to stored reviews that do not state a distance.
   std::optional<double> kept_min_distance_mm = {};
-  /// Reviews in this folder are not read; empty: all reviews are read.
+  /// Reviews that are files in this folder are not read. Empty: all reviews are read.
   std::filesystem::path ignored_reviews = {};
 };
 
-/// A config that may be read only in part because of problems.
+/// The result of reading a config. If there were problems, only parts of the config are valid.
 struct ConfigReading {
-  /// if there were problems, only the parts that the flags declare valid may be used
+  /// If there were problems, use only the parts that the flags below declare valid.
   Config config;
-  bool is_complete = false;    ///< there was no problem; the whole config is valid
+  bool is_complete = false;    ///< true if there was no problem, so that the whole config is valid
   bool heads_known = false;    ///< faces.files and faces.names are valid
   bool regions_known = false;  ///< regions.names and regions.mask are valid
-  /// Keys of a complete config that other keys override, a line for each.
+  /// Warnings about keys that are overridden by other keys, if the config is complete; one line for
+  /// each key.
   std::vector<std::string> warnings = {};
 };
 
-/// Reads a config and checks everything that can be checked without opening a mesh or an image.
-/// docs/config.md is the reference. Adds every problem in the order of the file, with exit code 64
-/// for mistakes in the config and 66 for missing files and folders.
+/// Reads a config, and checks everything that can be checked without opening a mesh or an image.
+/// docs/config.md describes all keys. Adds every problem, in the order of the file: with exit code
+/// 64 for mistakes in the config, and with 66 for missing files and folders.
 ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
                                 Problems& problems);
 
 /// Like read_config_parts, but reads the config from a text.
-/// \param file  name in messages, need not exist; relative paths start at its folder.
+///
+/// \param file  name of the text in messages. Relative paths start at the folder of this file,
+///              which need not exist.
 ConfigReading read_config_text(std::string_view text, const std::filesystem::path& file,
                                const ConfigOverrides& overrides, Problems& problems);
 
-/// Like read_config_parts, but returns nothing if there is any problem.
+/// Like read_config_parts, but returns nothing if there was a problem.
 std::optional<Config> read_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems);
 

@@ -21,7 +21,8 @@ std::string unknown_key(const YamlNode& map, const std::string& key,
                 hint.empty() ? concat("; expected one of ", join(keys)) : hint);
 }
 
-/// Returns the node's text for parsing as a number. Refuses quoted numbers and leading zeros.
+/// Returns the node's text so that it can be parsed as a number. Adds a complaint if the number is
+/// in quotes or has leading zeros.
 std::optional<std::string> number_text(const YamlNode& node, const std::string& expected,
                                        Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar) return out.expected(node, expected);
@@ -34,7 +35,7 @@ std::optional<std::string> number_text(const YamlNode& node, const std::string& 
   const std::string digits = first == std::string::npos ? "" : node.text.substr(first);
   if (digits.size() > 1 && digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9' &&
       parse_double(digits)) {
-    // Suggest the number without leading zeros: 7 for "007", 0.5 for "00.5".
+    // Suggest the same number without leading zeros: 7 for "007", 0.5 for "00.5".
     std::size_t kept = std::min(digits.find_first_not_of('0'), digits.size() - 1);
     if (digits[kept] < '0' || digits[kept] > '9') --kept;
     out.add_at(node,
@@ -92,7 +93,7 @@ std::optional<double> read_number(const YamlNode& node, double low, double high,
   if (!text) return std::nullopt;
   const auto value = parse_double(*text);
   if (!value || *value < low || *value > high) return out.expected(node, expected);
-  return *value == 0 ? 0.0 : *value;  // -0 is 0
+  return *value == 0 ? 0.0 : *value;  // turn -0 into 0
 }
 
 std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low, std::uint64_t high,

@@ -14,20 +14,24 @@
 
 namespace crowdface {
 
-inline constexpr double kMaxDistanceMm = 1000;  ///< largest distance between heads, mm
+/// largest distance between two heads or faces that a config may give, in mm
+inline constexpr double kMaxDistanceMm = 1000;
 
-/// Looks up the entries of one mapping. The constructor adds a complaint for each unknown key.
+/// Finds values in one mapping by their keys. The constructor adds a complaint for each unknown
+/// key.
 class MapReader {
  public:
-  /// \param node  if this is not a mapping, the constructor adds one complaint; find() and
-  ///              require() then return null without further complaints. Must outlive the reader.
-  /// \param keys  the known keys.
+  /// \param node  must outlive the reader. If the node is not a mapping, the constructor adds one
+  ///              complaint, and find() and require() return null without further complaints.
+  /// \param keys  all known keys of the mapping.
   MapReader(const YamlNode& node, const std::vector<std::string>& keys, Complaints& complaints);
 
-  /// Returns the key's value; null if the key is missing. A key without a value gives null and a
-  /// complaint.
+  /// Returns the value of a key; null if the key is missing. If the key is there but has no value,
+  /// returns null and adds a complaint.
   const YamlNode* find(std::string_view key) const;
-  /// Like find(), but a missing key is a complaint. \param hint  an example, for the message.
+  /// Like find(), but also adds a complaint if the key is missing.
+  ///
+  /// \param hint  an example value, for the message.
   const YamlNode* require(std::string_view key, std::string_view hint) const;
 
  private:
@@ -35,19 +39,21 @@ class MapReader {
   Complaints& complaints_;
 };
 
-/// Each of these functions reads one value; it returns nothing after a complaint. Bounds are
-/// inclusive.
+/// Each of these functions reads one value. If the value is not accepted, the function adds a
+/// complaint and returns nothing. Bounds are inclusive.
 std::optional<double> read_number(const YamlNode& node, double low, double high, Complaints& out);
 std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low, std::uint64_t high,
                                         Complaints& out);
-/// Reads a non-empty text without control characters.
-/// \param expected  for messages, such as "a file name".
+/// Reads a text that is not empty and contains no control characters.
+///
+/// \param expected  what messages name as the expected value, such as "a file name".
 std::optional<std::string> read_text(const YamlNode& node, const std::string& expected,
                                      Complaints& out);
-/// Reads a text that is a valid part of a file name on every system and contains no path separator.
+/// Reads a name that can be part of a file name on every system: it contains no path separator, for
+/// example.
 std::optional<std::string> read_name(const YamlNode& node, Complaints& out);
 
-/// Applies `text` to each item.
+/// Returns text(item) for each item.
 template <class Items, class Text>
 std::vector<std::string> texts_of(const Items& items, const Text& text) {
   std::vector<std::string> texts;
@@ -55,9 +61,9 @@ std::vector<std::string> texts_of(const Items& items, const Text& text) {
   return texts;
 }
 
-/// Adds a complaint that lists the accepted words.
+/// Adds a complaint that lists the words that are accepted.
 void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out);
-/// Reads one of the words and returns its value.
+/// Reads one of the words, and returns the value that the word stands for.
 template <class Value>
 std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words, Complaints& out) {
   const auto texts = texts_of(words, [](const Word<Value>& word) { return word.text; });
@@ -69,26 +75,27 @@ std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words
   return std::nullopt;
 }
 
-/// Adds a complaint for each item that repeats the text of an earlier item.
+/// Adds a complaint about each item of a list that repeats the text of an earlier item.
 void refuse_repeated(const YamlNode& list, Complaints& out);
 bool is_word(const YamlNode& node, std::string_view word);
 bool has_control_character(std::string_view text);
 
-/// Formats a bound, rounded to a whole number, without exponent: -1000000, not -1e+06.
+/// Formats a number, rounded to a whole number, without an exponent: -1000000, not -1e+06.
 std::string plain_number(double value);
 
 /// Return a list or mapping in YAML's flow style, in one line: "[a, b]", "{a: 1, b: 2}".
 std::string flow_list(const std::vector<std::string>& items);
 std::string flow_map(const std::vector<std::string>& entries);
 std::string flow_names(const std::vector<std::string>& names);
-/// Return a list or mapping in YAML's block style, one line per item, for entry() or block_list(),
-/// which indent the lines; "[]" or "{}" if empty.
+/// Return a list or mapping in YAML's block style, with one line for each item; "[]" or "{}" if
+/// empty. Pass the text to entry() or block_list(), which indent its lines.
 std::string block_list(const std::vector<std::string>& items);
 std::string block_map(const std::vector<std::string>& entries);
-/// Returns "key: value"; indents the lines of a value in block style.
+/// Returns "key: value". If the value is in block style, indents its lines.
 std::string entry(std::string_view key, std::string_view value);
 
-/// Returns `; did you mean "count"?`, or an empty text if no candidate is similar.
+/// Returns `; did you mean "count"?`, where "count" is the candidate most similar to the word.
+/// Returns an empty text if no candidate is similar.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace crowdface

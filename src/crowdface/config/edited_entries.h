@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads and writes the config entries that `crowdface edit` changes, without the rest of the
-// config.
+// Functions that read and write only those config entries that `crowdface edit` changes.
 #pragma once
 
 #include <optional>
@@ -13,24 +12,26 @@
 namespace crowdface {
 
 /// Reads one entry of `recipes` from YAML (or JSON, which is YAML). The entry is checked against
-/// the heads and regions of `config`, but its id may be any name.
+/// the heads and regions of `config`; its id may be any name.
+///
 /// \param source    name of the text in messages.
 /// \param problems  receives every problem.
 /// \return nothing if there is a problem.
 std::optional<ManualRecipe> parse_manual_recipe(std::string_view text, const std::string& source,
                                                 const Config& config, Problems& problems);
 
-/// Writes a recipe as YAML: one item of the list `recipes`, without its leading dash.
+/// Returns a recipe as YAML: one item of the list `recipes`, without the dash that starts an item.
 std::string format_manual_recipe(const ManualRecipe& recipe, const Config& config);
 
-/// Reads the text of a review file as if the crowd's config named that file.
+/// Reads the text of a review file, as if the config listed a file with this text.
+///
 /// \param source    name of the text in messages.
 /// \param problems  receives every problem.
 Review parse_review(std::string_view text, const std::string& source, const Config& config,
                     Problems& problems);
 
 /// Reads the change of a face from YAML (or JSON, which is YAML), such as {age: older}. An empty
-/// mapping is an empty change.
+/// mapping gives an empty change.
 std::optional<FaceChange> parse_change(const std::string& id, std::string_view text,
                                        const Config& config, Problems& problems);
 

@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns a recipe's id; empty if it has none.
+/// Returns the id of a recipe; empty if the recipe has no id.
 std::string id_of(const YamlNode& recipe) {
   const YamlEntry* id = recipe.find("id");
   return id != nullptr ? id->value.text : std::string();

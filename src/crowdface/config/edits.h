@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file of the config key `edits`: recipes, regions and heads that `crowdface edit` saved.
+// The file that the config key `edits` names. It contains recipes, regions and heads that
+// `crowdface edit` saved.
 #pragma once
 
 #include "crowdface/config/config_draft.h"
@@ -7,14 +8,16 @@
 
 namespace crowdface {
 
-/// Appends the heads listed under `faces.also` of the edits to the heads of the config's `faces`.
+/// Appends the heads that the edits list under `faces.also` to the heads in the config's section
+/// `faces`.
 void merge_faces(const YamlNode& faces, YamlNode& own);
 
-/// Replaces each section of `root` by the section in `edits`, except `faces`, see merge_faces, and
-/// `recipes`: each edited recipe replaces the recipe with the same id, or is appended.
+/// Merges edits into the config `root`. A section of the edits replaces the same section of `root`,
+/// with two exceptions: `faces` (see merge_faces) and `recipes`. Each edited recipe replaces the
+/// recipe with the same id or, if there is none, is appended.
 void merge_edits(const YamlNode& edits, YamlNode& root);
 
-/// Merges the file of the key `edits` into `root`, if the config has that key.
+/// If the config has the key `edits`, merges the file that the key names into `root`.
 void read_edits(YamlNode& root, ConfigDraft& draft);
 
 }  // namespace crowdface

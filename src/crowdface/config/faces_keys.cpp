@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `faces`.
+// The config section `faces`.
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Faces = Config::Faces;
 
-/// Adds a head. Refuses a missing file, an invalid name, and a name that already means something
-/// else in a config.
+/// Adds a head to the section. Also adds a complaint if the file is missing, or if the name is
+/// invalid, reserved or already used.
 void add_head(const fs::path& file, const std::string& name, const YamlNode& node, Faces& faces,
               ConfigDraft& draft) {
   const std::string quoted_if_invalid = quoted(file.string());
@@ -82,7 +82,9 @@ void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
 }
 
-/// Reads a list of heads. \return whether all entries are files that may be heads.
+/// Reads a list of files that are heads.
+///
+/// \return whether all entries are files of a kind that may be a head.
 bool read_file_list(const YamlNode& node, std::vector<fs::path>& files,
                     std::vector<const YamlNode*>& nodes, ConfigDraft& draft) {
   bool is_valid = true;
@@ -121,7 +123,8 @@ void read_more_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   std::vector<fs::path> files;
   std::vector<const YamlNode*> nodes;
   const bool is_valid = read_file_list(node, files, nodes, draft);
-  // Each head is named after its own file, so it keeps its name when another head joins.
+  // Name each head after its own file alone, so that a head keeps its name when another head is
+  // added.
   for (std::size_t h = 0; h < files.size(); ++h) {
     add_head(files[h], files[h].stem().string(), *nodes[h], faces, draft);
   }
@@ -154,7 +157,8 @@ Codec<Axis> axis() {
           "axis: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`"};
 }
 
-/// Returns a name for a comment. Quotes an invalid head name, because it may contain a line end.
+/// Returns a head's name for use in a YAML comment. Quotes an invalid name, because it may contain
+/// a line end.
 std::string quoted_if_invalid(const std::string& name) {
   return is_name(name) ? name : quoted(name);
 }
@@ -216,7 +220,8 @@ const Keys<Faces>& faces_keys() {
   return keys;
 }
 
-/// Warns of heads that have tags in tags.yaml, but not in the config, which replaces that file.
+/// Warns about heads that have tags in tags.yaml but not in the config. (If the config has tags,
+/// tags.yaml is not used.)
 void warn_of_lost_tags(const Faces& faces, ConfigDraft& draft) {
   Complaints complaints;
   ConfigDraft beside(complaints);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `families`.
+// The config section `families`.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint64_t kMaxMembers = 1000;
 
-/// Returns whether an earlier family has a member or a sampled parent with this id. The id may lack
-/// the prefix "CROWD_".
+/// Returns whether an earlier family has a member or a new parent with this id. The id may be given
+/// without the prefix "CROWD_".
 bool is_face_of_family(const std::string& id, const Config& config) {
   return std::ranges::any_of(config.families, [&](const FamilyOptions& family) {
     const std::vector<std::string> ids = face_ids_of_family(family, config.crowd.name);
@@ -38,7 +38,9 @@ Codec<std::size_t> group() {
           "name of a [group](#groups)"};
 }
 
-/// \param role  "mother" or "father", part of the name of a sampled parent.
+/// Reads a parent of a family.
+///
+/// \param role  "mother" or "father"; a part of the id if casting makes the parent.
 std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
                                   const FamilyOptions& family, ConfigDraft& draft) {
   Parent drawn{std::nullopt, concat(family.name, '_', role), true};
@@ -51,7 +53,8 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const auto name = read_name(node, draft.complaints);
   if (!name) return std::nullopt;
   if (*name == "drawn") {
-    // Build mothers on heads with the tag `female`, fathers on heads with `male`, if there are any.
+    // If there are heads with the tag `female` (for a mother) or `male` (for a father), the new
+    // parent's target is one of these heads.
     drawn.targets = heads_with_tags({role == word_of(0) ? "female" : "male"}, draft.config.faces);
     return drawn;
   }
@@ -95,7 +98,8 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     draft.complaints.add_at(node, "expected inherit only in a family with parents; add parents");
   }
   if (!draft.regions_known && node.kind == YamlNode::Kind::kMap) return;
-  // Later names override earlier ones: bands override regions, "top/skin" overrides both.
+  // Later names override earlier names: the name of a band overrides the names of regions, and a
+  // name such as "top/skin" overrides both.
   std::vector<std::string> names = draft.config.region_names();
   for (const std::string& more : draft.config.plan_names().bands) names.push_back(more);
   for (const std::string& part : draft.config.part_names()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `groups`.
+// The config section `groups`.
 #include <algorithm>
 
 #include "crowdface/config/config_keys.h"
@@ -12,11 +12,12 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-/// Marks a group that gives neither share nor count; such groups divide the remainder equally.
+/// Marks a group that has neither a share nor a count. Such groups divide the remaining faces
+/// equally.
 constexpr double kUnsetShare = -1;
 
-/// Removes the old and the young heads for which `wanted` is false; keeps all old (or young) heads
-/// if none would remain.
+/// Removes the old heads and the young heads for which `wanted` is false. If no old head would
+/// remain, keeps all old heads; the same holds for young heads.
 template <class Wanted>
 void bind_ages(SamplingOptions& sampling, const Wanted& wanted) {
   for (auto* heads : {&sampling.old_heads, &sampling.young_heads}) {
@@ -26,7 +27,7 @@ void bind_ages(SamplingOptions& sampling, const Wanted& wanted) {
   }
 }
 
-/// Sets targets and sources to the heads that have all of these tags.
+/// Sets the group's targets and sources to the heads that have all of these tags.
 void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
   if (!tags || tags->empty()) return;
@@ -41,8 +42,9 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   bind_ages(group.sampling, [&](Eigen::Index head) { return contains(of_any_age, head); });
 }
 
-/// Keeps the targets that have all tags of the group's key `tags`, also if the key `targets` gives
-/// targets and their weights. Refuses targets that are named but lack a tag.
+/// If a group has both `tags` and `targets`: keeps only the targets that have all of the tags, with
+/// their weights. Adds a complaint about each entry of `targets` that names no head with all of the
+/// tags.
 void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const YamlEntry *tags = node.find("tags"), *targets = node.find("targets");
   if (tags == nullptr || targets == nullptr || !draft.heads_known || !draft.tags_known) return;
@@ -55,7 +57,8 @@ void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
     if (head != heads.end() && contains(bound, head - heads.begin())) return;
     const std::vector<Eigen::Index> called = heads_with_tags({name}, draft.config.faces);
     const auto is_bound = [&](Eigen::Index one) { return contains(bound, one); };
-    const bool is_known = head != heads.end() || !called.empty();  // others are refused already
+    // a complaint about any other name was already added
+    const bool is_known = head != heads.end() || !called.empty();
     if (!is_known || std::ranges::any_of(called, is_bound)) return;
     draft.complaints.add(
         place, concat(head != heads.end() ? "" : "no head tagged ", quoted(name),
@@ -73,7 +76,8 @@ void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
   }
 }
 
-/// Removes the heads that have one of these tags from targets, sources and bands.
+/// Removes all heads that have at least one of these tags from the group's targets, sources and
+/// bands.
 void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, bearded]").read(node, draft);
   if (!tags) return;
@@ -144,7 +148,7 @@ const Keys<Group>& group_keys() {
           return limits.write(group.sampling.traits, context);
         }}.with_accepted_values(limits.accepted_values));
     own.push_back(hair_colours_key(&Group::hair_colours));
-    // `without` must follow all keys that name heads.
+    // `without` must be read after all keys that name heads, because it removes heads.
     own.push_back(
         Key<Group>{"without", read_without, [](const auto&...) { return ""; }}.with_accepted_values(
             "list of tags"));
@@ -163,8 +167,8 @@ void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   }
 }
 
-/// Divides the remaining share equally among the groups that give neither share nor count. Refuses
-/// shares and counts whose sums are too large.
+/// Divides the share that remains equally among the groups that have neither a share nor a count.
+/// Adds a complaint if the sum of the shares or of the counts is too large.
 void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   auto& groups = draft.config.groups;
   std::uint64_t counted = 0;
@@ -223,7 +227,7 @@ std::size_t heads_of_smaller_group(const StarterFacts& facts) {
                                  [&](const auto& tags) { return has_tags(tags, {tag}); });
   };
   const auto fewest = std::min(heads("female"), heads("male"));
-  const bool mixes = fewest > 1;  // a blend needs at least two heads
+  const bool mixes = fewest > 1;  // at least two heads, because a blend needs two
   return facts.attachments.empty() || !mixes ? 0 : static_cast<std::size_t>(fewest);
 }
 

@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// Refuses a tag that is also a head's name, `all` or `target`.
+/// Adds a complaint about a tag that is also a head's name, `all` or `target`.
 void check_tag(const YamlNode& node, const Config::Faces& faces, Complaints& out) {
   const std::string& tag = node.text;
   if (contains(faces.names, tag)) {

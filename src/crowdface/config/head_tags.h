@@ -5,11 +5,13 @@
 
 namespace crowdface {
 
-/// Reads a mapping from heads to tags. Refuses tags that already mean something else in a config.
+/// Reads a mapping from heads to their tags. Adds a complaint about tags that already mean
+/// something else in a config.
 void read_head_tags(const YamlNode& node, Config::Faces& faces, ConfigDraft& draft);
 
-/// Reads the tags from `faces.tags` of each tags.yaml in a folder of heads; `crowdface synth` and
-/// `crowdface import` write this file. Ignores names that are not heads.
+/// Reads tags from the key `faces.tags` of the file tags.yaml, in each folder that contains heads.
+/// (`crowdface synth` and `crowdface import` write this file.) Ignores names that are not heads of
+/// the config.
 void read_tags_beside_heads(Config::Faces& faces, ConfigDraft& draft);
 
 }  // namespace crowdface

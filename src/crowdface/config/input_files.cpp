@@ -42,7 +42,7 @@ std::vector<fs::path> visible_files(const fs::path& folder,
       concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
 }
 
-/// Returns whether the file's extension belongs to a format that may contain a mesh.
+/// Returns whether a file's extension belongs to a format in which meshes may be stored.
 bool may_hold_mesh(const fs::path& path) {
   static const std::set<std::string> endings = {
       ".3ds",  ".3mf",  ".abc", ".blend", ".bgeo", ".c4d", ".dae", ".gz",  ".lwo",
@@ -51,8 +51,9 @@ bool may_hold_mesh(const fs::path& path) {
   return endings.contains(lower_case(path.extension().string())) || is_head_file(path);
 }
 
-/// Returns whether a name matches a pattern with the wildcards `*` and `?`. If the characters after
-/// an asterisk do not match, only the last asterisk takes one more character.
+/// Returns whether a name matches a pattern with the wildcards `*` and `?`. If the text after an
+/// asterisk does not match, only the last asterisk is tried with one more character (so the time
+/// stays small).
 bool matches_wildcards(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, after_asterisk = pattern.npos, taken = 0;
   while (n < name.size()) {
@@ -80,7 +81,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
     return ending == ".gltf" ? ".glb" : ending;
   };
   std::vector<fs::path> files = visible_files(folder, is_head_file);
-  // Find the most frequent format if there are fewer than two OBJ files.
+  // If there are fewer than two OBJ files, find the most frequent format.
   std::map<std::string, std::size_t> counts;
   for (const fs::path& file : files) ++counts[ending_of(file)];
   std::string kind = ".obj";
@@ -89,7 +90,8 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
       if (count > counts[kind]) kind = ending;
     }
   }
-  // Remove files of other formats, and files with the stem of an OBJ file.
+  // Remove files that are neither OBJ files nor of this format, and files that have the same stem
+  // as an OBJ file.
   std::set<std::string> named;
   for (const fs::path& file : files) {
     if (is_obj(file)) named.insert(file.stem().string());
@@ -153,7 +155,8 @@ std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
     return std::set(names.begin(), names.end()).size() == names.size();
   };
   if (all_differ() || files.empty()) return names;
-  // Split the paths into parts. Paths of different depths cannot be compared part by part.
+  // Split the paths at the separators. If the paths do not all have the same number of parts, the
+  // parts cannot be compared.
   std::vector<std::vector<std::string>> parts;
   for (const fs::path& file : files) {
     const fs::path plain = file.lexically_normal();
@@ -162,7 +165,7 @@ std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
     of.push_back(plain.stem().string());
     if (of.size() != parts[0].size()) return names;
   }
-  // Join the parts that differ, from the root down, until all names differ.
+  // Join the parts that differ between the paths, beginning at the root, until all names differ.
   const std::vector<std::string> stems = names;
   names.assign(files.size(), "");
   for (std::size_t p = 0; p < parts[0].size() && !all_differ(); ++p) {

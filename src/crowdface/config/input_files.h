@@ -11,49 +11,55 @@
 
 namespace crowdface {
 
-inline constexpr std::size_t kMinHeads = 2, kMaxHeads = 50;  ///< number of heads of one job
+/// smallest and largest number of heads in a config
+inline constexpr std::size_t kMinHeads = 2, kMaxHeads = 50;
 
-/// Lists the head files directly in the folder, sorted by name: all OBJ files. If there are fewer
+/// Lists the files in a folder that are heads, sorted by name: all OBJ files. If there are fewer
 /// than two OBJ files, also lists the files of the most frequent other format (is_head_file),
-/// except files with the stem of an OBJ file. Skips folders and hidden files, such as the
-/// "._head.obj" that some systems create. Includes dangling links, so that they are reported as
-/// missing files.
+/// except files that have the same stem as an OBJ file. Ignores subfolders and hidden files, such
+/// as the "._head.obj" that some systems create. Includes symbolic links to missing files, so that
+/// these are reported as missing.
+///
 /// \throws MissingInput if the folder cannot be read.
 std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folder);
 
-/// Returns a message that names the files in the folder that may contain a mesh but are not in
-/// list_heads; empty if there are none. \throws MissingInput if the folder cannot be read.
+/// Returns a message about the files in the folder that may contain a mesh but are not listed by
+/// list_heads; an empty text if there are no such files.
+///
+/// \throws MissingInput if the folder cannot be read.
 std::string other_meshes_message(const std::filesystem::path& folder);
 
-/// A hint for a folder without heads whose subfolders contain one mesh each: a pattern for these
-/// meshes, up to two folders deep. Empty if no pattern fits.
+/// Returns a hint for a folder that contains no heads, but whose subfolders contain one mesh each:
+/// a pattern that matches these meshes, up to two folders deep. Empty if no pattern matches all.
 std::string suggested_head_pattern(const std::filesystem::path& folder);
 
-/// The message for a head whose file gives it a name that is_name refuses.
+/// Returns the message for a head whose file name gives an invalid head name (see is_name).
 std::string invalid_head_name_message(const std::string& name, const std::filesystem::path& file);
 
-/// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path: `*`
-/// matches any number of characters except '/', `?` matches one. Wildcards do not match hidden
-/// files.
+/// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path. `*`
+/// matches any number of characters except '/', and `?` matches one character. Wildcards do not
+/// match hidden files.
+///
 /// \throws MissingInput if a folder cannot be read.
 std::vector<std::filesystem::path> files_matching(const std::filesystem::path& pattern);
 
-/// Returns a name for each head: the file's stem. If two stems are equal, uses the parts of the
-/// paths that differ instead ("people/ann/neutral.obj": "ann").
+/// Returns a name for each head, which is the stem of its file's name. If two stems are equal, the
+/// names are the parts in which the paths differ: the name of "people/ann/neutral.obj" is then
+/// "ann".
 std::vector<std::string> names_of_heads(const std::vector<std::filesystem::path>& files);
 
-/// Lists every file that the config names: the config itself, heads, shapes, points, rig,
-/// neck, attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons.
-/// Material files and textures are not listed, because the head files name them.
+/// Returns every file that the config names: the config itself, heads, shapes, points, rig, neck,
+/// attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Material
+/// files and textures are not included, because the config does not name them; the heads' files do.
 std::vector<std::filesystem::path> input_files(const Config& config);
 
-/// \throws UsageError if a path is not UTF-8 or contains a control character, because a config
-/// cannot store such a path.
+/// Checks that a config can store a path.
+///
+/// \throws UsageError if the path is not UTF-8 or contains a control character.
 void require_storable_path(const std::filesystem::path& path);
 
-/// Adds a problem for each path that a config cannot store (see require_storable_path),
-/// among the absolute paths of the input files and the crowd's folder. The crowd's config.yaml
-/// stores these paths.
+/// Adds a problem for each input file, and for the crowd's folder, whose absolute path cannot be
+/// stored in a config (see require_storable_path). The crowd's config.yaml stores these paths.
 void check_paths(const Config& config, Problems& problems);
 
 }  // namespace crowdface

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `neck`.
+// The config section `neck`.
 #include "crowdface/config/config_keys.h"
 
 namespace crowdface {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `output`.
+// The config section `output`.
 #include <algorithm>
 #include <charconv>
 
@@ -39,7 +39,7 @@ std::string write_comparison(const Sheet& sheet, const WriteContext& context) {
                                            : std::string(word_of(sheet.compare.with));
 }
 
-/// Parses "#rrggbb".
+/// Parses a colour such as "#rrggbb".
 std::optional<std::array<std::uint8_t, 3>> parse_colour(std::string_view text) {
   std::uint32_t colour = 0;
   const char* const end = text.data() + text.size();
@@ -69,7 +69,7 @@ void read_surfaces(const YamlNode& node, Output& output, ConfigDraft& draft) {
   }
 }
 
-/// Parses a percentage such as "20 %", above 0 and below 100.
+/// Parses a percentage such as "20 %"; accepts values above 0 and below 100.
 std::optional<double> parse_percent(std::string_view text) {
   if (!text.ends_with('%')) return std::nullopt;
   text.remove_suffix(1);
@@ -79,7 +79,7 @@ std::optional<double> parse_percent(std::string_view text) {
   return percent;
 }
 
-/// Returns whether a name is the name of a level of detail: "LOD1" and so on.
+/// Returns whether a name is used for levels of detail: "LOD1" and so on.
 bool is_level_name(std::string_view name) {
   return name.starts_with("LOD") && parse_unsigned(name.substr(3)).has_value();
 }
@@ -120,9 +120,10 @@ std::string write_surfaces(const Output& output, const WriteContext&) {
   }));
 }
 
-/// Refuses the key `shapes` of a contact sheet if the config has no shapes or writes no meshes.
-/// Returns true in any case.
-/// \param faces  number of faces whose shapes are shown.
+/// Adds a complaint about the key `shapes` of a contact sheet if the config has no shapes or writes
+/// no meshes. Always returns true.
+///
+/// \param faces  number of faces whose shapes the sheet should show.
 bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {
   if (faces > 0 && draft.config.shapes.names.empty()) {
     draft.complaints.add_at(node, "the config has no shapes; add the key shapes");
@@ -163,7 +164,7 @@ const Keys<Sheet>& contact_sheet_keys() {
   return keys;
 }
 
-/// Returns whether a page with these options is within the size limit.
+/// Returns whether the pages of a contact sheet with these options stay below the size limit.
 bool fits_on_a_page(const Sheet& sheet) {
   CellSize cell = sheet.plain_cell_size();
   cell.label_lines = std::max(cell.label_lines, static_cast<int>(sheet.labels.size()));
@@ -195,14 +196,15 @@ std::string write_contact_sheet(const Output& output, const WriteContext& contex
   return block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, context));
 }
 
-/// The first four keys, which users change most, at their defaults.
+/// The first four keys of a contact sheet, which users change most often, with their default
+/// values.
 StarterLines starter_sheet(const StarterFacts&) {
   std::vector<std::string> entries = write_keys(contact_sheet_keys(), Sheet{}, {Config{}, {}});
   entries.resize(4);
   return {flow_map(entries)};
 }
 
-/// Returns the names of all mesh formats except the first.
+/// Returns the names of all mesh formats except the first format.
 std::vector<std::string> other_formats() {
   std::vector<std::string> words =
       texts_of(all_mesh_formats(), [](MeshFormat format) { return name_of(format); });

@@ -14,7 +14,7 @@ namespace {
 
 using Heads = std::vector<Eigen::Index>;
 
-/// Returns the value of a key of a mapping; null if there is none.
+/// Returns the value of a key in a mapping; null if the mapping does not have the key.
 const YamlNode* value_at(const YamlNode& node, std::string_view key) {
   const YamlEntry* entry = node.find(key);
   return entry == nullptr ? nullptr : &entry->value;
@@ -103,8 +103,8 @@ class OverriddenKeys {
     }
   }
 
-  /// Finds the heads without a group's tags that lend detail to the group, and the keys that the
-  /// group's tags replace.
+  /// Finds heads that lend detail to a group although they do not have the group's tags. Also finds
+  /// the keys that the group's tags replace.
   void find_heads_without_group_tags(const YamlNode& node, std::size_t g,
                                      const std::vector<std::string>& tags) {
     const SamplingOptions &own = config_.groups[g].sampling, &all = config_.sampling;
@@ -139,7 +139,7 @@ class OverriddenKeys {
     if (sources == nullptr && all.sources.size() != heads) replaced("sources");
   }
 
-  /// Finds heads that a group names although its key `without` leaves them out.
+  /// Finds heads that a group lists although the group's key `without` removes these heads.
   void find_excluded_heads(const YamlNode& node, std::size_t g,
                            const std::vector<std::string>& tags) {
     const Heads left_out = with_any(tags);
@@ -224,8 +224,9 @@ class OverriddenKeys {
 
   const YamlNode& root_;
   const Config& config_;
-  std::vector<std::uint64_t> sampled_;   ///< #groups, sampled faces
-  std::vector<std::uint64_t> faces_of_;  ///< #groups, with the faces of families
+  std::vector<std::uint64_t> sampled_;  ///< #groups: number of sampled faces
+  /// #groups: number of faces, including the faces of families
+  std::vector<std::uint64_t> faces_of_;
   std::vector<std::string> told_;
 };
 

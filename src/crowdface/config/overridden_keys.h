@@ -9,10 +9,10 @@
 
 namespace crowdface {
 
-/// Returns a line for each key that another key overrides, among the keys that bind faces to heads,
-/// tags or shares. Each line names the keys and the number of faces concerned.
+/// Returns one line of text for each key that another key overrides, among the keys that restrict
+/// faces to heads, tags or shares. Each line names both keys and the number of faces concerned.
 ///
-/// \param root    the config file with all overrides and edits.
+/// \param root    the config file, with all command-line overrides and edits.
 /// \param config  the complete config that was read from `root`.
 std::vector<std::string> overridden_keys(const YamlNode& root, const Config& config);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `recipes`: faces specified by hand.
+// The config section `recipes`, which contains faces specified by hand.
 #include <algorithm>
 #include <map>
 
@@ -35,7 +35,8 @@ const Keys<HandBand>& recipe_band_keys() {
                       return band.weights.empty() ? "" : write_weights(band.weights, context);
                     }}
           .with_accepted_values("`{head: weight}`"),
-      // Both keys are stored in one member; its unit selects the key to write.
+      // Both keys are stored in one member. The unit of the stored value decides which of the keys
+      // is written.
       key("smoothness", &HandBand::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
       key("iterations", &HandBand::smoothness, iterations()).written_if(in_iterations),
       key("extrapolation", &HandBand::extrapolation, extrapolation())};
@@ -96,8 +97,8 @@ HandRegion read_region(const YamlNode& node, ConfigDraft& draft) {
   return region;
 }
 
-/// Reads the values of the regions. A region without an entry takes the entry of `all`; without
-/// `all`, sampling chooses the region's values.
+/// Reads the values of a recipe's regions. A region without an entry has the values of the entry
+/// `all`. Without this entry too, its values are random.
 void read_regions_of(const YamlNode& node, ManualRecipe& recipe, ConfigDraft& draft) {
   if (!draft.complaints.expect_map(node, "a mapping from regions, or all, to their values")) return;
   const std::vector<std::string>& names = draft.config.regions.names;
@@ -125,7 +126,8 @@ std::string write_regions_of(const ManualRecipe& recipe, const WriteContext& con
   return block_map(entries);
 }
 
-/// Returns whether a sampled face of this crowd could get this id: NAME_0001 and so on.
+/// Returns whether an id has the form of the ids of this crowd's sampled faces: NAME_0001 and so
+/// on.
 bool looks_sampled(std::string_view id, std::string_view crowd) {
   constexpr std::size_t kDigits = 4;
   if (crowd.empty() || !id.starts_with(crowd)) return false;
@@ -134,7 +136,9 @@ bool looks_sampled(std::string_view id, std::string_view crowd) {
          id.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 
-/// \param places  locations of the earlier ids in the files.
+/// Checks a recipe's id.
+///
+/// \param places  where each earlier id occurs in the files.
 void check_id(const YamlNode& node, const std::string& id, std::map<std::string, YamlPlace>& places,
               ConfigDraft& draft) {
   if (looks_sampled(id, draft.config.crowd.name)) {

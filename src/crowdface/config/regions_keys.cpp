@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `regions`.
+// The config section `regions`.
 #include <algorithm>
 #include <set>
 
@@ -46,8 +46,8 @@ std::string write_masks(const Regions& regions, const WriteContext& context) {
       regions.mask, [&](const std::string& mask) { return path("").write(mask, context); }));
 }
 
-/// Reads a region name. Region names are also keys of the config and part of the columns of
-/// crowd.csv, hence some words are reserved.
+/// Reads the name of a region. Some words are reserved, because region names are also keys of the
+/// config and parts of the column names in crowd.csv.
 void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
   static const std::set<std::string> reserved = {"all", "default", "none", "iterations"};
   auto& names = regions.names;

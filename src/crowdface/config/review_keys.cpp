@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The key `review` and the review files that it lists.
+// The config key `review`, and the review files that it lists.
 #include <algorithm>
 
 #include "crowdface/cast/family_draws.h"
@@ -17,7 +17,7 @@ using Verdict = ReviewMark::Verdict;
 constexpr std::size_t kLongestNote = 2000;
 constexpr std::uint64_t kMostFaces = 1'000'000;
 
-/// Returns every id of this config's crowd except the ids of sampled faces.
+/// Returns the ids of all faces of this config's crowd, except sampled faces.
 std::vector<std::string> named_ids(const Config& config) {
   std::vector<std::string> ids;
   for (const ManualRecipe& recipe : config.recipes) ids.push_back(recipe.id);
@@ -89,8 +89,8 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   if (faces == nullptr) return review;
   if (!draft.complaints.expect_map(*faces, "a mapping from faces to marks, {market_0007: reject}"))
     return review;
-  // A mark must name a face of this crowd. Parents of children and hand-written recipes cannot be
-  // rejected.
+  // Each mark must name a face of this crowd. Parents that casting made for a family, and faces
+  // written by hand, cannot be rejected.
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;
     mark.id = entry.key;
@@ -117,8 +117,8 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   return review;
 }
 
-/// Adds a key to a review's text: as a new line, or, if the review is written in braces, as the
-/// first key in them.
+/// Adds a key to the text of a review: on a new line or, if the review is written in braces, as the
+/// first key inside the braces.
 std::string insert_key(std::string text, const std::string& key) {
   std::size_t first = 0;
   while (first < text.size() &&
@@ -132,8 +132,8 @@ std::string insert_key(std::string text, const std::string& key) {
   return text + concat(key, '\n');
 }
 
-/// Returns a review's text with the keys `count` and `min_distance` of `kept` that it does not
-/// state.
+/// Returns the text of a review. If the text has no `count` or no `min_distance`, adds the value
+/// that `kept` has.
 std::string add_missing_keys(std::string text, const Review& review, const Review& kept) {
   if (!review.count && kept.count) {
     text = insert_key(std::move(text), concat("count: ", *kept.count));
@@ -144,9 +144,9 @@ std::string add_missing_keys(std::string text, const Review& review, const Revie
   return text;
 }
 
-/// Adds a review file, unless it is a copy of an earlier review file. If the review does not state
-/// how many faces were reviewed, adds this number. To a kept review, also adds the minimum distance
-/// of its faces if the crowd's minimum distance changes.
+/// Adds a review file, unless the file is a copy of an earlier review file. If the review does not
+/// state how many faces were reviewed, adds this number. If the review is stored in the crowd's
+/// folder and the crowd's minimum distance has changed, also adds the former minimum distance.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The top-level keys of a config, and the simple sections: crowd, smoothing, blending, parts,
-// textures, plane.
+// The top-level keys of a config, and the keys of its simple sections: crowd, smoothing, blending,
+// parts, textures, plane.
 #include <algorithm>
 
 #include "crowdface/blend/recipe_bounds.h"
@@ -120,7 +120,7 @@ const Keys<Plane>& plane_keys() {
   return keys;
 }
 
-/// Refuses `layout: manual` if a head has no anchor.
+/// Adds a complaint about `layout: manual` if a head has no anchor.
 void check_plane(const YamlNode& node, bool is_valid, ConfigDraft& draft) {
   const Config& config = draft.config;
   if (config.plane.layout != Layout::kManual || !draft.heads_known || !is_valid) return;
@@ -164,7 +164,7 @@ std::string write_parts(const Config& config, const WriteContext& context) {
   return block_map(write_keys(parts_keys(), config.parts, context));
 }
 
-/// A key whose value is an existing file or `none`.
+/// Makes a key whose value is the path of an existing file, or `none`.
 Key<Config> file_key(std::string_view name, std::filesystem::path Config::*member,
                      const std::string& expected) {
   return {name,
@@ -179,7 +179,8 @@ Key<Config> file_key(std::string_view name, std::filesystem::path Config::*membe
           }};
 }
 
-/// Refuses GLB meshes if textures are EXR only: GLB embeds textures but does not support EXR.
+/// Adds a complaint about GLB meshes if textures are written only as EXR: GLB files contain their
+/// textures, but cannot contain EXR.
 void check_output(const YamlNode& node, bool is_valid, ConfigDraft& draft) {
   const Config& config = draft.config;
   const bool only_exr = std::ranges::all_of(
@@ -191,7 +192,8 @@ void check_output(const YamlNode& node, bool is_valid, ConfigDraft& draft) {
       "GLB files cannot hold EXR textures; add png or jpeg to textures.formats");
 }
 
-/// The crowd's limits on measurements. Groups and families start from these limits.
+/// Makes the key for the crowd's limits on measurements. Groups and families start from these
+/// limits.
 Key<Config> traits_key() {
   const Codec<TraitLimits> codec = trait_limits();
   return Key<Config>{"traits",
@@ -220,7 +222,8 @@ Key<Config> trait_table_key(const char* name, Config::TraitTable Config::*table)
                      }};
 }
 
-/// Written only if it is set, so that the configs of older crowds keep their bytes.
+/// Makes the key `landmarks`. The key is written only if it is set, so that the configs of older
+/// crowds keep their bytes.
 Key<Config> landmarks_key() {
   return file_key("landmarks", &Config::landmarks, "none, or a file of landmarks")
       .written_if([](const Config& config, const auto&) { return !config.landmarks.empty(); });
@@ -232,7 +235,7 @@ void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
   draft.complaints.add_at(node, concat("this crowdface reads schema 1, found ", describe(node)));
 }
 
-/// Returns the default sampling options, for one region.
+/// Returns the default sampling options, with one region.
 SamplingOptions with_a_region() {
   SamplingOptions sampling;
   sampling.regions.resize(1);
@@ -282,14 +285,15 @@ const Keys<Config>& root_keys() {
       families_key().ignored_by_face_files(),
       changes_key().ignored_by_face_files().ignored_by_recipes(),
       Key<Config>{"review", read_review, write_review}.ignored_by_face_files().ignored_by_recipes(),
-      // read_edits merges the file before the keys are read.
+      // The file is merged by read_edits, before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
       section_key("output", &Config::output, output_keys(), {}, check_output).ignored_by_recipes()};
   return keys;
 }
 
 std::string one_line_text(std::string_view value) {
-  constexpr std::string_view kEverywhere = "\ndefault: ";  // start of a value per region
+  // how a value that may differ between regions begins
+  constexpr std::string_view kEverywhere = "\ndefault: ";
   if (value.starts_with(kEverywhere)) value.remove_prefix(kEverywhere.size());
   return std::string(value);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `sampling`.
+// The config section `sampling`.
 #include <algorithm>
 #include <set>
 
@@ -16,24 +16,28 @@ constexpr std::uint64_t kMaxSources = 50;
 using Names = std::vector<std::string>;
 using Kind = PositionDistribution::Kind;
 
-/// A value that may differ between regions.
+/// A value of a config that may differ between regions.
 struct PerRegion {
-  std::optional<YamlNode> whole;  ///< value of the regions that are not in of_region
-  std::vector<std::pair<std::size_t, const YamlNode*>> of_region;  ///< region and its value
+  std::optional<YamlNode> whole;  ///< value of all regions that `of_region` does not contain
+  /// regions with their own values, as pairs of index and value
+  std::vector<std::pair<std::size_t, const YamlNode*>> of_region;
 };
 
-/// Splits a value by region. The value may be one value for all regions, `{default: …, top: …}`, or
-/// a mapping whose keys are parameters of the value and names of regions.
+/// Splits the value of a key by region. The value may be one value for all regions; a mapping
+/// `{default: …, top: …}`; or a mapping whose keys are parameters of the value and also names of
+/// regions.
+///
 /// \param parameters  the keys of a value that is itself a mapping. A region may have the same name
-///                    as a parameter, if the parameter's value is never a mapping: a mapping under
-///                    this name belongs to the region.
+///                    as a parameter if the parameter's value is never a mapping: a mapping under
+///                    this name is then the region's value.
 PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
   PerRegion split;
   if (node.kind != YamlNode::Kind::kMap) {
     split.whole = node;
     return split;
   }
-  // Assign each entry: value of a region, default value, or key of a value for all regions.
+  // Sort the entries: values of regions, the default value, and parameters of a value for all
+  // regions.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
   direct.entries.clear();
@@ -70,7 +74,9 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
   return split;
 }
 
-/// A key with a value for each region of a section. Empty optionals are not written.
+/// Makes a key whose value may differ between the regions of a section. Empty optionals are not
+/// written.
+///
 /// \param parameters  see split_by_region.
 template <class Section, class Region, class Member, class Value>
 Key<Section> per_region_key(std::string_view name, Member Region::*member,
@@ -102,7 +108,7 @@ Key<Section> per_region_key(std::string_view name, Member Region::*member,
           codec.accepted_values};
 }
 
-/// The head that a position refers to: a head's name, or `target` for the target of the face.
+/// The head that a position refers to: the name of a head, or `target` for the face's target.
 const Key<PositionDistribution> kHeadOfPositionKey = {
     "face",
     [](const YamlNode& node, PositionDistribution& position, ConfigDraft& draft) {
@@ -122,7 +128,8 @@ const Keys<PositionDistribution>& position_keys() {
   return keys;
 }
 
-/// The keys of each kind of distribution, and the message if the last one is required and missing.
+/// The keys that belong to each kind of distribution, and the message for the case that the last
+/// key is required and missing.
 struct KindKeys {
   Kind kind;
   Names keys;
@@ -165,7 +172,7 @@ std::string write_position(const PositionDistribution& position, const WriteCont
   return flow_map(write_keys(keys, position, context));
 }
 
-/// A smoothness as in smoothness(), or `{iterations: …}`.
+/// Codec for a smoothness as in smoothness(), or as `{iterations: …}`.
 Codec<SmoothnessDistribution> sampled_smoothness() {
   return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
             if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
@@ -197,7 +204,8 @@ const Keys<BandSampling>& band_keys() {
   return keys;
 }
 
-/// Reads a band: a mapping, or just its smoothness (the size at which the band begins).
+/// Reads a band. The value is a mapping, or only the band's smoothness (the size at which the band
+/// begins).
 void read_band(const YamlNode& node, BandSampling& band, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kMap) {
     read_keys(node, band_keys(), band, draft);
@@ -220,7 +228,8 @@ void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, Co
   if (!why.empty()) draft.complaints.add(entry.key_place, concat(quoted(entry.key), ' ', why));
 }
 
-/// Reads the bands of the crowd, from coarse to fine, or changes to their values in a group.
+/// Reads the bands of the crowd, from coarse to fine. In a group, reads changes to the values of
+/// these bands.
 void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
   draft.complaints.expect_map(
       node, "a mapping from bands to sizes, coarse to fine, {build: 240 mm, skin: 8 mm}");
@@ -235,7 +244,8 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       }
       check_band_name(entry, sampling, draft);
       const bool first = sampling.bands.empty();
-      const bool is_build = first && node.entries.size() > 1;  // the coarsest band does not age
+      // the first band, which is the coarsest, does not age if there are others
+      const bool is_build = first && node.entries.size() > 1;
       band = sampling.bands.insert(band, {entry.key, {}, {}, is_build ? 0.0 : 1.0});
       band->regions.resize(sampling.regions.size());
       const YamlNode& value = entry.value;

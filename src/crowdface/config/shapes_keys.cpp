@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `shapes`.
+// The config section `shapes`.
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -20,7 +20,7 @@ using Shapes = Config::Shapes;
 
 constexpr std::size_t kMaxShapes = 1000;
 
-/// The OBJ files of a folder: name of the shape and path, in the order of the files.
+/// The OBJ files of a folder, in the order of the files: pairs of shape name and path.
 using ShapeFiles = std::vector<std::pair<std::string, fs::path>>;
 ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::path& neutral,
                        ConfigDraft& draft) {
@@ -44,7 +44,8 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
   return shapes;
 }
 
-/// Reads the OBJ files of a folder as shapes, except the neutral mesh, whose key is read first.
+/// Reads the OBJ files of a folder as shapes. Leaves out the neutral mesh, which is therefore read
+/// first.
 void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder of OBJ files").read(node, draft);
   if (!folder) return;
@@ -68,8 +69,8 @@ void add_name(const std::string& name, Shapes& shapes) {
   shapes.files.emplace_back();
 }
 
-/// Reads the shapes of each head from the subfolder with the head's name. The subfolder may also
-/// contain the head's neutral mesh.
+/// Reads the shapes of each head from the subfolder that has the head's name. The subfolder may
+/// also contain the neutral mesh of the head.
 void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder =
       path("a folder that has a subfolder of OBJ files for each head").read(node, draft);
@@ -93,7 +94,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
     }
     for (const auto& [name, file] : found[h]) add_name(name, shapes);
   }
-  // All names are known now: assign each head's files to the names.
+  // All shape names are known now, so each head's files can be assigned to the names.
   for (const auto& files : found) {
     std::vector<fs::path>& of_head = shapes.of_head.emplace_back(shapes.names.size());
     for (const auto& [name, file] : files) {
@@ -119,7 +120,8 @@ const Keys<Shapes>& shapes_keys() {
   return keys;
 }
 
-/// Refuses a shape that a head lacks if the template, which supplies missing shapes, lacks it too.
+/// The template supplies shapes that a head lacks. Adds a complaint about each shape that both a
+/// head and the template lack.
 void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
   for (std::size_t h = 0; h < shapes.of_head.size(); ++h) {
     std::vector<std::string> lacking;

@@ -12,32 +12,37 @@
 
 namespace crowdface {
 
-/// What `crowdface init` knows about a folder of heads.
+/// What `crowdface init` has found out about a folder of heads.
 struct StarterFacts {
-  std::filesystem::path heads;     ///< folder of the heads, relative to the folder of the config
-  std::vector<std::string> names;  ///< #heads
-  LengthUnit units = LengthUnit::kCentimetre;  ///< a guess
-  std::string units_reason;                    ///< "the first mesh is 27.3 units high"
-  double head_height = 0;                      ///< height of the first head, in its own units
-  Eigen::Index vertices = 0;                   ///< number of vertices of each head
+  std::filesystem::path heads;     ///< folder of the heads, relative to the config's folder
+  std::vector<std::string> names;  ///< name of each head
+  LengthUnit units = LengthUnit::kCentimetre;  ///< unit of the heads' positions, which is guessed
+  /// why this unit was guessed, such as "the first mesh is 27.3 units high"
+  std::string units_reason;
+  double head_height = 0;     ///< height of the first head, in the head's own units
+  Eigen::Index vertices = 0;  ///< number of vertices of each head
   Axis up = {1, 1};
   Axis front = {2, 1};
-  bool align_rigidly = false;  ///< some heads are rotated or shifted relative to the others
+  /// true if some heads are rotated or shifted relative to the other heads
+  bool align_rigidly = false;
   std::string crowd_name = "crowd";
-  std::string mask;  ///< region mask, relative to the folder of the config; empty: none
+  std::string mask;  ///< region mask, relative to the config's folder; empty: none
   std::vector<std::string> regions = {"top", "middle", "bottom"};  ///< names of the mask's channels
-  std::vector<std::vector<std::string>> tags = {};                 ///< #heads, or empty
-  /// folder of attachments that some head may wear, relative to the folder of the config; empty:
-  /// none
+  std::vector<std::vector<std::string>> tags = {};  ///< the tags of each head, or empty
+  /// folder of attachments of which at least one head may wear some, relative to the config's
+  /// folder; empty: none
   std::filesystem::path attachments = {};
 };
 
-/// Returns a first config for these heads: short, with comments, ready to run.
+/// Returns a config with which users can start: it is short, has comments, and can be run without
+/// changes.
 std::string starter_config(const StarterFacts& facts);
 
-/// Checks attachments.yaml in a folder of attachments.
+/// Checks the file attachments.yaml in a folder of attachments.
+///
 /// \param facts  names and tags of the heads.
-/// \return whether some head may wear some of the attachments; false after a complaint.
+/// \return whether at least one head may wear at least one of the attachments; false after a
+///         complaint.
 bool has_attachments(const std::filesystem::path& folder, const StarterFacts& facts,
                      Complaints& complaints);
 

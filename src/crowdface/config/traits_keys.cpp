@@ -11,19 +11,19 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLargestTrait = 1000;  ///< mm, degrees or ratio
+constexpr double kLargestTrait = 1000;  ///< in mm, in degrees, or as a ratio
 
 std::vector<std::string> measurement_names() {
   return texts_of(measurements(), [](const Measurement& of) { return of.name; });
 }
 
-/// Returns a complaint about an unknown measurement.
+/// Returns a complaint about a name that is not the name of a measurement.
 std::string unknown_measurement(const std::string& name) {
   return concat("no measurement is called ", quoted(name), suggestion(name, measurement_names()),
                 "; docs/traits.md lists all");
 }
 
-/// Reads "38 mm", "104" (degrees or a ratio) or "70 %" (a quantile).
+/// Reads a bound such as "38 mm", "104" (degrees or a ratio) or "70 %" (a quantile).
 std::optional<TraitBound> read_bound(const YamlNode& node, const Measurement& measurement,
                                      ConfigDraft& draft) {
   const bool is_length = measurement.kind == Measurement::Kind::kDistance;
@@ -119,7 +119,7 @@ std::vector<TraitTarget> read_trait_table(const YamlNode& node, const std::files
   std::size_t number = 0;
   for (std::string_view line : split_lines(text)) {
     ++number;
-    if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);  // a byte order mark
+    if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);  // remove a byte order mark
     if (line.ends_with('\r')) line.remove_suffix(1);
     std::vector<std::string> fields;
     for (std::string_view field : split(line, ',')) {

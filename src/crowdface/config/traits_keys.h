@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The key `traits` of the crowd, of groups, recipes and families.
+// The key `traits`, which the crowd, groups, recipes and families have.
 #pragma once
 
 #include "crowdface/config/codec.h"
@@ -7,12 +7,12 @@
 
 namespace crowdface {
 
-/// Limits on measurements: `{nose_width: {at_least: 38 mm}, intercanthal: [0 %, 30 %]}`. Empty
-/// limits are not written.
+/// Codec for limits on measurements: `{nose_width: {at_least: 38 mm}, intercanthal: [0 %, 30 %]}`.
+/// Empty limits are not written.
 Codec<TraitLimits> trait_limits();
 
-/// Reads a table of distributions: lines of a measurement, its mean and its standard
-/// deviation, separated by commas. Adds complaints at `node`.
+/// Reads a table of distributions. Each line of the table consists of a measurement, its mean and
+/// its standard deviation, separated by commas. Adds complaints at `node`.
 std::vector<TraitTarget> read_trait_table(const YamlNode& node, const std::filesystem::path& file,
                                           ConfigDraft& draft);
 

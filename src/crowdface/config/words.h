@@ -11,18 +11,18 @@
 
 namespace crowdface {
 
-/// A value of an enumeration and its word in a config.
+/// A value of an enumeration, and the word that stands for it in a config.
 template <class Value>
 struct Word {
   std::string_view text;
   Value value;
 };
 
-/// Words of one type, in the order in which messages list them.
+/// The words for the values of one enumeration, in the order in which messages list them.
 template <class Value>
 using Words = std::vector<Word<Value>>;
 
-/// Makes words from values that have a function `name_of`.
+/// Makes words from values; each word is the value's `name_of`.
 template <class Values>
 auto words_by_name(const Values& values) {
   Words<typename Values::value_type> words;
@@ -30,17 +30,18 @@ auto words_by_name(const Values& values) {
   return words;
 }
 
-/// The words of every enumeration in configs and command-line options, for reading and writing.
+/// The words of all enumerations in configs and command-line options. Both reading and writing use
+/// these words.
 inline const auto& all_words() {
   using Kind = PositionDistribution::Kind;
   using Mode = DiversityOptions::Mode;
   using Meshes = BelievabilityOptions::Meshes;
   using Verdict = ReviewMark::Verdict;
   using AgeStep = FaceChange::AgeStep;
-  using With = Config::Comparison::With;  // kFile has no word: a config gives the file's path
+  // kFile has no word, because a config gives the path of the file instead
+  using With = Config::Comparison::With;
   static const std::tuple words = {
-      Words<bool>{{"true", true}, {"false", false}},
-      words_by_name(all_mesh_formats()),
+      Words<bool>{{"true", true}, {"false", false}}, words_by_name(all_mesh_formats()),
       Words<AgeStep>{{"older", AgeStep::kOlder}, {"younger", AgeStep::kYounger}},
       Words<Align>{{"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}},
       Words<Boundary>{{"fixed", Boundary::kFixed}, {"free", Boundary::kFree}},
@@ -111,7 +112,8 @@ inline const auto& all_words() {
                          {"teeth", SurfaceKind::kTeeth},
                          {"gums", SurfaceKind::kGums},
                          {"hidden", SurfaceKind::kHidden}},
-      Words<int>{{"mother", 0}, {"father", 1}, {"drawn", -1}}};  // FamilyOptions::inherited_parents
+      // for FamilyOptions::inherited_parents
+      Words<int>{{"mother", 0}, {"father", 1}, {"drawn", -1}}};
   return words;
 }
 
@@ -120,7 +122,9 @@ const Words<Value>& words_of() {
   return std::get<Words<Value>>(all_words());
 }
 
-/// Returns the word of a value. \param value  must have a word.
+/// Returns the word that stands for a value.
+///
+/// \param value  must have a word.
 template <class Value>
 std::string_view word_of(Value value) {
   const auto& words = words_of<Value>();

@@ -18,14 +18,16 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxNodes = 100'000;
-constexpr std::size_t kMaxComplaints = 50;  // per file; a longer list would hide the first problems
-constexpr std::size_t kMaxPath = 120;  // bytes; limits messages, and memory for malicious files
+// largest number of complaints for each file; a longer list would hide the first problems
+constexpr std::size_t kMaxComplaints = 50;
+// longer paths of keys are cut to this length, in bytes; limits the length of messages, and the
+// memory that a malicious file can use
+constexpr std::size_t kMaxPath = 120;
 
-/// Exception that ends the parsing of a file. The code that throws it has already added a
-/// complaint.
+/// Exception that ends the parsing of a file, after a complaint was added.
 struct Stop {};
 
-/// Builds a YamlNode tree from yaml-cpp's events.
+/// Builds a tree of YamlNodes from the events that yaml-cpp reports.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(const YamlText& text, Complaints& out) : text_(text), out_(out) {}
@@ -42,8 +44,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
     YamlNode node = make(YamlNode::Kind::kNothing, mark);
-    // yaml-cpp reports an empty value at the position of the next token. Report the key or the list
-    // that lacks the value instead.
+    // yaml-cpp reports an empty value at the position of the next token. Instead, report the
+    // position of the key (or the list) whose value is empty.
     if (!frames_.empty() && !expects_key()) {
       const Frame& frame = frames_.back();
       if (frame.node.kind == YamlNode::Kind::kMap) {
@@ -107,14 +109,15 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
  private:
-  /// A list or map whose end has not been reached.
+  /// A list or mapping whose end has not been reached yet.
   struct Frame {
     YamlNode node;
     bool has_key = false;
     bool key_refused = false;
     std::string key;
     YamlPlace key_place;
-    std::unordered_map<std::string, int> lines;  ///< line of each key so far
+    /// for each key so far, the line in which the key occurs
+    std::unordered_map<std::string, int> lines;
   };
 
   bool expects_key() const {

@@ -9,28 +9,33 @@
 
 namespace crowdface {
 
-/// Reads one YAML document. Adds a complaint about everything that is not plain YAML: syntax
-/// errors, duplicate keys (the second is refused), anchors and aliases, tags, several documents,
-/// bytes that are not UTF-8, and inputs beyond the limits (100,000 values; by default 1 MiB and 64
-/// levels, see input_limits).
+/// Parses one YAML document. Adds a complaint about everything that is not plain YAML: syntax
+/// errors, duplicate keys (the second key is refused), anchors and aliases, tags, several
+/// documents, bytes that are not UTF-8, and inputs beyond the limits (100,000 values; by default 1
+/// MiB and 64 levels of nesting, see input_limits).
+///
 /// \param source  name of the file in messages.
 /// \return        the tree without the refused parts; nothing after a syntax error.
 std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& source,
                                    Complaints& out);
 
-/// Like parse_yaml, for a file. A file that cannot be read is a complaint of kind kMissingInput
-/// (66).
+/// Like parse_yaml, but reads a file. If the file cannot be read, adds a complaint of kind
+/// kMissingInput (66).
 std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out);
 
-/// Returns a YAML scalar that reads back as this text: plain if that is safe, else in quotes.
+/// Returns the YAML scalar that a reader reads back as this text: without quotes if this is safe,
+/// otherwise in quotes.
 std::string write_scalar(std::string_view text);
 
-/// Sets one value of the tree, as the option `--set` does. Creates missing mappings on the path.
+/// Sets one value of the tree, like the option `--set`. Creates mappings on the path to the value
+/// where they are missing.
+///
 /// \param assignment  "key.path=value" with a YAML value, such as "sampling.smoothness=[0.1, 0.5]".
 ///                    Messages show "--set key.path=value" in place of a line number.
 void set_value(YamlNode& root, std::string_view assignment, Complaints& out);
 
-/// Sets one value of the tree to this text, without parsing it as YAML.
+/// Sets one value of the tree to a text, without parsing the text as YAML.
+///
 /// \param shown  what the user typed, for messages: "--count 24".
 void set_text(YamlNode& root, std::string_view key_path, std::string_view text,
               const std::string& shown, Complaints& out);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kMaxKeys = 8;
 
-/// Returns whether every YAML reader would read this text, written without quotes, as the same
-/// text.
+/// Returns whether every YAML reader reads this text back unchanged if it is written without
+/// quotes.
 bool is_plain(std::string_view text) {
   static const std::set<std::string_view> words = {
       "null", "Null", "NULL", "true", "True", "TRUE", "false", "False", "FALSE",
@@ -32,7 +32,8 @@ bool is_plain(std::string_view text) {
                             "_-./") == std::string_view::npos;
 }
 
-/// Sets the location of every node of a command-line value to the location of the option.
+/// Sets the location of a command-line value and of all nodes inside it to the location of the
+/// option.
 void set_locations(YamlNode& node, const YamlPlace& place, const std::string& path) {
   node.place = place;
   node.path = path;
@@ -45,7 +46,7 @@ void set_locations(YamlNode& node, const YamlPlace& place, const std::string& pa
   }
 }
 
-/// Returns the value of a key of a mapping; adds the key without value if it is missing.
+/// Returns the value of a key in a mapping. If the key is missing, adds the key without a value.
 YamlNode& child(YamlNode& map, std::string_view key, const YamlPlace& place) {
   for (YamlEntry& entry : map.entries) {
     if (entry.key == key) return entry.value;
@@ -57,10 +58,10 @@ YamlNode& child(YamlNode& map, std::string_view key, const YamlPlace& place) {
   return map.entries.back().value;
 }
 
-/// Sets the value at the path of keys; creates missing mappings.
+/// Sets the value at a path of keys. Creates mappings on the path where they are missing.
 void put(YamlNode& root, const std::vector<std::string_view>& keys, YamlNode value,
          const YamlPlace& place, Complaints& out) {
-  if (root.kind != YamlNode::Kind::kMap) return;  // reading the root adds the complaint
+  if (root.kind != YamlNode::Kind::kMap) return;  // the complaint is added when the root is read
   YamlNode* target = &root;
   for (const std::string_view key : keys) {
     if (target->kind == YamlNode::Kind::kNothing) target->kind = YamlNode::Kind::kMap;
@@ -91,7 +92,8 @@ std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
   if (is_folder(file)) {
     return refuse("expected a config file, found a folder");
   }
-  // Read at most a few bytes beyond the limit: YamlText::find_problem then refuses longer files.
+  // Read at most a few bytes more than the limit. This is enough for YamlText::find_problem to
+  // refuse longer files.
   std::string text(input_limits().yaml_bytes + 4, '\0');
   try {
     const OpenedFile opened = open_for_reading(file);
@@ -128,7 +130,8 @@ void set_value(YamlNode& root, std::string_view assignment, Complaints& out) {
   if (equals == std::string_view::npos || keys.size() > kMaxKeys || contains(keys, "")) {
     return out.add(place, "expected key.path=value, such as crowd.count=20");
   }
-  // An empty value becomes a null node, as in a file; the code that reads the key complains.
+  // An empty value becomes a null node, as in a file. The code that reads the key then adds a
+  // complaint.
   const std::string_view value = assignment.substr(equals + 1);
   const bool empty = value.find_first_not_of(' ') == std::string_view::npos;
   Complaints of_value;

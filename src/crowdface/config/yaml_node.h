@@ -8,11 +8,11 @@
 
 namespace crowdface {
 
-/// The location of a config value: in a file, or (line 0) on the command line.
+/// The place where a config value is written: in a file, or on the command line (line 0).
 struct YamlPlace {
   std::shared_ptr<const std::string> source;  ///< file name, or the option as the user typed it
-  int line = 0;                               ///< from 1; 0: command line or whole file
-  int column = 0;                             ///< from 1, in characters, not bytes
+  int line = 0;    ///< counts from 1; 0: on the command line, or the whole file
+  int column = 0;  ///< counts from 1, in characters, not in bytes
   /// Returns "file:line:column", or `source` alone if line is 0.
   std::string text() const;
 };
@@ -27,17 +27,20 @@ struct YamlNode {
     kScalar,
     kList,
     kMap,
-    kRefused,  ///< not usable; a complaint about the node exists
+    kRefused,  ///< not usable; a complaint about the node has been added
   };
   Kind kind = Kind::kNothing;
   YamlPlace place;
-  std::string path;  ///< keys from the root, "crowd.count"; list items count from 1: "recipes #2"
-  std::string text;  ///< kScalar: the value as written
-  bool quoted = false;             ///< kScalar: in quotes, hence text and never a number
-  std::vector<YamlNode> items;     ///< kList
-  std::vector<YamlEntry> entries;  ///< kMap, in the order of the file
+  /// path of keys from the root, such as "crowd.count"; items of lists count from 1, as in "recipes
+  /// #2"
+  std::string path;
+  std::string text;  ///< kScalar: the value as it is written
+  /// kScalar: whether the value is in quotes, so that it is a text and not a number
+  bool quoted = false;
+  std::vector<YamlNode> items;     ///< kList: the items of the list
+  std::vector<YamlEntry> entries;  ///< kMap: keys and values, in the order of the file
 
-  /// Returns the entry with this key, or null.
+  /// Returns the entry that has this key; null if there is none.
   const YamlEntry* find(std::string_view key) const;
 };
 

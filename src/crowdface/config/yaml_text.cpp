@@ -13,15 +13,15 @@ bool is_utf16(std::string_view text) {
   return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
 }
 
-/// Returns whether the text starts with a control character. Tab, '\n' and "\r\n" are allowed.
+/// Returns whether the text starts with a control character, other than a tab, '\n' or "\r\n".
 bool is_control(std::string_view text) {
   const auto c = static_cast<unsigned char>(text[0]);
   if (c == '\r') return text.size() < 2 || text[1] != '\n';
   return c == 0x7f || (c < 0x20 && c != '\t' && c != '\n');
 }
 
-/// Returns the offset of the first tab in a line's indentation, or npos. Ignores blank lines and
-/// comments.
+/// Returns the offset of the first tab in the indentation of a line; npos if there is no such tab.
+/// Ignores blank lines and comments.
 std::size_t find_indenting_tab(std::string_view line) {
   const std::size_t text = line.find_first_not_of(" \t\r\n");
   if (text == std::string_view::npos || line[text] == '#') return std::string_view::npos;
@@ -71,7 +71,7 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
   if (is_utf16(text_)) {
     return Problem{place_of(0), "expected UTF-8 text, found UTF-16; save the file as UTF-8"};
   }
-  // Decode the text, one character at a time.
+  // Decode the text character by character.
   for (std::size_t at = 0; at < text_.size();) {
     const std::string_view rest = text_.substr(at);
     const std::size_t length = utf8_length(rest);
@@ -85,7 +85,7 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
     }
     at += length;
   }
-  // Search each line's indentation for tabs.
+  // Search the indentation of each line for tabs.
   for (std::size_t row = 0; row < line_starts_.size(); ++row) {
     const std::size_t end = row + 1 < line_starts_.size() ? line_starts_[row + 1] : text_.size();
     const std::size_t tab =
@@ -112,7 +112,7 @@ bool YamlText::is_unclosed_quote_at(int line, int byte_column) const {
       ++i;
     } else if (rest[i] == quote) {
       if (quote == '"' || i + 1 >= rest.size() || rest[i + 1] != '\'') return false;
-      ++i;  // '' is an escaped quote
+      ++i;  // inside single quotes, '' is one quote character
     }
   }
   return true;

@@ -10,11 +10,13 @@
 
 namespace crowdface {
 
-/// The text of a YAML file. Finds problems that yaml-cpp accepts, and converts yaml-cpp's positions
-/// (lines and columns from 0, in bytes) to the positions of text editors (from 1, in characters).
+/// The text of a YAML file. Finds problems that yaml-cpp does not report. Also converts yaml-cpp's
+/// positions (lines and columns from 0, in bytes) to the positions that text editors show (from 1,
+/// in characters).
 class YamlText {
  public:
-  /// \param text  must outlive this object; a byte order mark at its start is skipped.
+  /// \param text  must outlive this object. If the text starts with a byte order mark, the mark is
+  ///              skipped.
   YamlText(std::string_view text, const std::string& source);
 
   std::string_view text() const { return text_; }
@@ -24,14 +26,14 @@ class YamlText {
     YamlPlace place;
     std::string what;
   };
-  /// Returns the first of these problems: the file is too long, is not UTF-8, contains a control
-  /// character, or has a tab in an indentation.
+  /// Returns the first problem of these kinds: the file is too long, is not UTF-8, contains a
+  /// control character, or has a tab in the indentation of a line.
   std::optional<Problem> find_problem() const;
 
-  /// Returns whether `~` or `null` is written at this position.
+  /// Returns whether the value at this position is written as `~` or `null`.
   bool is_null_at(int line, int byte_column) const;
-  /// Returns whether a quote starts at this position and is never closed. yaml-cpp accepts such a
-  /// quote and reads the rest of the file as its text.
+  /// Returns whether a quote starts at this position and is never closed. yaml-cpp accepts this,
+  /// and takes all of the remaining file as the quoted text.
   bool is_unclosed_quote_at(int line, int byte_column) const;
 
  private:

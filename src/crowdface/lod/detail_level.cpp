@@ -29,7 +29,8 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());
   level.topology.corner_vertices = std::move(vertices);
   for (std::uint32_t t = 1; t <= triangles.size(); ++t) {
-    level.topology.face_offsets.push_back(3 * t);  // face_offsets already holds the leading 0
+    // face_offsets already contains the 0 with which it starts
+    level.topology.face_offsets.push_back(3 * t);
   }
   if (heads.topology.corner_uvs.empty()) return level;
   std::vector<std::uint32_t> used;

@@ -10,39 +10,43 @@
 
 namespace crowdface {
 
-/// A level of detail: fewer triangles over a subset of the whole mesh's vertices. All faces of a
-/// crowd share one level's topology, so a face or shape at this level consists of some rows of the
-/// whole face or shape.
+/// A level of detail: a mesh with fewer triangles, whose vertices are a subset of the whole mesh's
+/// vertices. All faces of a crowd have the same topology at one level. So a face or a shape at this
+/// level consists of some rows of the whole face or shape.
 struct DetailLevel {
-  double share = 1;                     ///< requested fraction of the whole mesh's triangles
-  std::vector<std::uint32_t> vertices;  ///< vertices of the whole mesh, ascending
-  Topology topology;                    ///< triangles over `vertices` and rows of `uvs`
-  TextureCoordinates uvs;               ///< #T by 2, a subset of the whole mesh's; may be empty
-  std::vector<std::uint32_t>
-      faces;  ///< #triangles: a face of the whole mesh with the same material as the triangle
+  double share = 1;  ///< requested number of triangles, as a fraction of the whole mesh's triangles
+  /// indices of the level's vertices in the whole mesh, ascending
+  std::vector<std::uint32_t> vertices;
+  Topology topology;  ///< triangles, whose indices are rows of `vertices` and of `uvs`
+  /// #T by 2, a subset of the whole mesh's texture coordinates; may be empty
+  TextureCoordinates uvs;
+  /// #triangles: for each triangle, a polygon of the whole mesh that has the same material
+  std::vector<std::uint32_t> faces;
 
-  /// Restricts positions or displacements of the whole mesh to this level.
+  /// Returns the rows of the whole mesh's positions or displacements that belong to this level.
+  ///
   /// \param whole  #V by 3.
   Positions restrict_rows(const Positions& whole) const;
   Displacements restrict_rows(const Displacements& whole) const;
 };
 
-/// Statistics of the distances between the vertices of the whole mesh and the surface of a level.
+/// Statistics of the distances from the vertices of the whole mesh to the surface of a level.
 struct LevelError {
   double max = 0;
   double root_mean_square = 0;
 };
 
-/// Makes levels by edge collapse on the mean head, each level directly from the whole mesh (quadric
-/// error metrics, Garland & Heckbert 1997, with meshoptimizer). Open borders, texture seams and
-/// borders between materials are preserved. Here, a material is a pair of a material label and a
-/// texture tile.
-/// \param materials  #F: the material label of each face; kNoIndex omits the face. Triangles of one
-///                   material are contiguous.
-/// \param shares     fractions of the triangles, each in (0, 1). A level has more triangles if its
-///                   borders need them.
+/// Makes levels of detail by edge collapse on the mean head (quadric error metrics, Garland &
+/// Heckbert 1997, with meshoptimizer). Each level is made directly from the whole mesh. Open
+/// borders, texture seams and borders between materials are preserved. Here, a material is a pair
+/// of a material label and a texture tile.
+///
+/// \param materials  #F: the material label of each polygon; kNoIndex omits the polygon. The
+///                   triangles of one material are contiguous in the result.
+/// \param shares     requested fractions of the triangles, each in (0, 1). A level has more
+///                   triangles than requested if its borders need more.
 /// \param borders    how edge collapse treats the vertices of open borders.
-/// \return           #shares levels.
+/// \return           one level for each entry of `shares`.
 std::vector<DetailLevel> detail_levels(const HeadSet& heads,
                                        std::span<const std::uint32_t> materials,
                                        std::span<const double> shares,

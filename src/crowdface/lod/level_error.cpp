@@ -24,8 +24,9 @@ double distance_to(const Positions& rows, const Triangle& triangle, const Eigen:
   return std::isnan(distance) ? to_corner : distance;
 }
 
-/// Walks along the surface from a vertex towards `point`: each step searches the faces around the
-/// nearest vertex so far. Returns the smallest distance of the visited faces from `point`.
+/// Walks along the surface of a level from a vertex towards `point`. Each step searches the
+/// polygons around the vertex nearest to `point` so far. Returns the smallest distance between
+/// `point` and the polygons that were searched.
 double walk(const DetailLevel& level, const VertexFaces& around, const Positions& rows,
             std::uint32_t start, const Eigen::Vector3d& point) {
   constexpr int kMaxSteps = 16;
@@ -87,7 +88,7 @@ LevelError level_error(const DetailLevel& level, const LevelMap& map,
     parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
       distances[i] = distance_to(rows, map.triangles[i], point(i));
     });
-    // Improve the distances of vertices that are far from their mapped triangle.
+    // If a vertex is far from its mapped triangle, look for a nearer triangle.
     const double far = 4 * std::sqrt(mean_square());
     parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
       if (distances[i] <= far) return;

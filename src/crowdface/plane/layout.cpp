@@ -14,10 +14,11 @@ namespace {
 
 using Eigen::Index;
 
-/// Rounds to 10⁻⁹, because results differ between C libraries by far less than that.
+/// Rounds to 10⁻⁹. (Results of different C libraries differ by far less than this, so the rounded
+/// values are the same.)
 double rounded(double value) {
   const double result = std::round(value * 1e9) / 1e9;
-  return result == 0 ? 0.0 : result;  // no negative zero in a plan
+  return result == 0 ? 0.0 : result;  // plans must not contain a negative zero
 }
 
 double cross(const PlanePoint& o, const PlanePoint& a, const PlanePoint& b) {
@@ -54,7 +55,7 @@ std::vector<PlanePoint> grid_layout(Index heads) {
 std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances) {
   const Index n = distances.rows();
   require(distances.cols() == n, "similarity layout: ", n, " by ", distances.cols(), " distances");
-  // Double centring gives the Gram matrix of points with these distances.
+  // Double centring of the squared distances gives the Gram matrix of points with these distances.
   const Eigen::MatrixXd squared = distances.array().square();
   const Eigen::VectorXd row_means = squared.rowwise().mean();
   const double mean = row_means.mean();
@@ -67,10 +68,11 @@ std::vector<PlanePoint> similarity_layout(const Eigen::MatrixXd& distances) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
   Eigen::MatrixXd points = Eigen::MatrixXd::Zero(n, 2);
   for (Index c = 0; c < std::min<Index>(2, n); ++c) {
-    const Index k = n - 1 - c;  // eigenvalues are in ascending order
+    // take the largest eigenvalues first (Eigen sorts eigenvalues in ascending order)
+    const Index k = n - 1 - c;
     Eigen::VectorXd direction = solver.eigenvectors().col(k);
-    // An eigenvector's sign is arbitrary: make its largest entry positive, so that this head lies
-    // to the right (or top).
+    // The sign of an eigenvector is arbitrary. Make its largest entry positive, so that the head
+    // with this entry lies to the right (or at the top).
     Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
     if (direction(largest) < 0) direction = -direction;
@@ -90,7 +92,7 @@ std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points) {
   std::ranges::sort(points, before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
-  // Monotone chain (Andrew 1979): lower hull, then upper hull.
+  // Monotone chain (Andrew 1979): first the lower half of the hull, then the upper half.
   std::vector<PlanePoint> hull;
   const auto extend = [&](const PlanePoint& p, std::size_t fixed) {
     while (hull.size() >= fixed + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0) {
@@ -101,7 +103,7 @@ std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points) {
   for (const PlanePoint& p : points) extend(p, 0);
   const std::size_t lower = hull.size() - 1;
   for (auto p = points.rbegin() + 1; p != points.rend(); ++p) extend(*p, lower);
-  hull.pop_back();  // the last point repeats the first
+  hull.pop_back();  // the last point is the first point again
   return hull;
 }
 
@@ -113,7 +115,8 @@ PlanePoint sample_polygon(const std::vector<PlanePoint>& polygon, double pick, d
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     total += cross(polygon[0], polygon[i], polygon[i + 1]);
   }
-  // Find the triangle of the fan that contains the fraction `pick` of the area.
+  // The polygon is divided into a fan of triangles. Find the triangle that contains the fraction
+  // `pick` of the polygon's area.
   std::size_t triangle = 1;
   double left = pick * total;
   for (; triangle + 2 < polygon.size(); ++triangle) {
@@ -121,7 +124,7 @@ PlanePoint sample_polygon(const std::vector<PlanePoint>& polygon, double pick, d
     if (left < area) break;
     left -= area;
   }
-  if (a + b > 1) {  // reflect the other half of the unit square into the triangle
+  if (a + b > 1) {  // (a, b) is in the other half of the unit square: reflect it into the triangle
     a = 1 - a;
     b = 1 - b;
   }

@@ -19,7 +19,8 @@ std::vector<double> inverse_square_weights(const std::vector<PlanePoint>& anchor
   const double nearest = *std::ranges::min_element(weights);
   double sum = 0;
   for (double& weight : weights) {
-    // Eq. 4, scaled by the nearest anchor's squared distance, so that no quotient overflows.
+    // Eq. 4, multiplied by the squared distance of the nearest anchor, so that no quotient
+    // overflows.
     weight = nearest > 0 ? nearest / weight : (weight == 0 ? 1.0 : 0.0);
     sum += weight;
   }

@@ -53,11 +53,11 @@ std::size_t landmark(const std::string& name) {
 
 using Kind = Measurement::Kind;
 
-/// Adds measurements to the table of all measurements.
+/// Fills the table of all measurements.
 class TableWriter {
  public:
-  /// Adds a distance between two landmarks on the midline of the face, or between the two landmarks
-  /// of a pair if `b` is empty.
+  /// Adds a distance. With `b`, it is the distance between the landmarks a and b on the midline of
+  /// the face; without `b`, the distance between the left and the right landmark of the pair a.
   void distance(std::string_view name, std::string_view symbol, const char* a, const char* b,
                 std::string_view definition) {
     const std::string first = a, second = b;
@@ -181,14 +181,14 @@ Eigen::Vector3d unit(const Eigen::Vector3d& vector) {
   return length > 0 ? Eigen::Vector3d(vector / length) : vector;
 }
 
-/// The angle at `apex` between the directions to a and c.
+/// Returns the angle at `apex` between the directions to a and c.
 double angle_at(const Eigen::Vector3d& a, const Eigen::Vector3d& apex, const Eigen::Vector3d& c) {
   return rounded_degrees(std::acos(std::clamp(unit(a - apex).dot(unit(c - apex)), -1.0, 1.0)));
 }
 
-/// The axes of a face: to the left along the line between the inner corners of the eyes, and up
-/// along the nose. They come from the face's own landmarks, so that the pose of the head has no
-/// effect.
+/// Two axes of a face: `left` along the line between the inner corners of the eyes, and `up` along
+/// the nose. The axes are computed from the face's own landmarks, so that the pose of the head has
+/// no effect on measurements.
 struct FaceAxes {
   Eigen::Vector3d left, up;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurements of faces after Farkas (1994), and the landmarks that they need.
+// The measurements of faces after Farkas (1994), and the landmarks that these measurements need.
 #pragma once
 
 #include <array>
@@ -13,47 +13,55 @@
 
 namespace crowdface {
 
-/// A landmark of a face.
+/// A landmark: a named point of the human face.
 struct TraitLandmark {
-  std::string name;         ///< as in landmark files: "eye_inner_left"
-  std::string_view symbol;  ///< Farkas' abbreviation: "en"
-  std::string_view where;   ///< description of the position for the user
+  std::string name;         ///< name in landmark files, such as "eye_inner_left"
+  std::string_view symbol;  ///< Farkas' abbreviation, such as "en"
+  std::string_view where;   ///< description, for the user, of where the landmark is
 };
-/// All landmarks of the measurements.
+/// Returns all landmarks that measurements use.
 const std::vector<TraitLandmark>& trait_landmarks();
 
-/// A measurement of a face.
+/// A measurement of a human face.
 struct Measurement {
   enum class Kind {
     kDistance,  ///< distance between two landmarks, in millimetres
-    kAngle,     ///< angle at the second of three landmarks, in degrees
-    kSlope,     ///< inclination of the line from the first landmark to the second, in degrees
-    kRatio,     ///< ratio of two other measurements
+    /// angle at the second of three landmarks, between the directions to the first and the third,
+    /// in degrees
+    kAngle,
+    /// how steeply the line from the first to the second landmark rises on an upright face, in
+    /// degrees
+    kSlope,
+    kRatio,  ///< ratio of two other measurements
   };
-  std::string_view name;    ///< key in configs: "nose_width"
-  std::string_view symbol;  ///< "al-al"
+  std::string_view name;    ///< key in configs, such as "nose_width"
+  std::string_view symbol;  ///< the landmarks' symbols, such as "al-al"
   Kind kind;
   std::string_view definition;
-  /// The landmarks of each side, as indices into trait_landmarks(). The value is the mean over the
-  /// sides. Paired measurements have two sides, other measurements one side, ratios none.
+  /// For each side of the face, the landmarks, as indices into trait_landmarks(). The value of the
+  /// measurement is the mean over the sides. Paired measurements have two sides, other measurements
+  /// one side. Ratios have none.
   std::vector<std::array<std::size_t, 3>> sides = {};
-  std::size_t dividend = 0, divisor = 0;  ///< for a ratio, indices into measurements()
+  std::size_t dividend = 0, divisor = 0;  ///< only for ratios: indices into measurements()
 };
-/// All measurements, in the order of docs/traits.md. A ratio follows its dividend and divisor.
+/// Returns all measurements, in the order of docs/traits.md. A ratio comes after its dividend and
+/// its divisor.
 const std::vector<Measurement>& measurements();
-/// The index of the measurement with this name; nothing if there is none.
+/// Returns the index of the measurement with this name; nothing if no measurement has the name.
 std::optional<std::size_t> find_measurement(std::string_view name);
 
-/// Unit of a measurement, preceded by a space: " mm", " degrees" or empty for a ratio.
+/// Returns the unit of a measurement with a space before it: " mm" or " degrees"; empty for a
+/// ratio.
 std::string_view unit_of(const Measurement& measurement);
 
-/// The landmarks that a measurement needs: ascending indices into trait_landmarks().
+/// Returns the landmarks that a measurement needs, as ascending indices into trait_landmarks().
 std::vector<std::size_t> landmarks_of(const Measurement& measurement);
 
 /// Returns the value of a measurement of a face: in millimetres, in degrees, or a ratio. Angles are
 /// rounded to 10⁻⁶ degrees, because arc functions differ between versions of the C library.
-/// \param landmarks  #landmarks by 3, positions in millimetres in the order of trait_landmarks();
-///                   rows that the measurement does not need may hold anything.
+///
+/// \param landmarks  #landmarks by 3, positions in millimetres in the order of trait_landmarks().
+///                   Rows that the measurement does not need may contain any values.
 double measure(const Measurement& measurement, const Positions& landmarks);
 
 }  // namespace crowdface

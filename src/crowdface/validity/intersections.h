@@ -8,31 +8,34 @@
 
 namespace crowdface {
 
-/// Returns the pairs of triangles whose bounding boxes overlap after growing by `margin` on all
-/// sides; see TriangleScene::near_pairs.
+/// Returns the pairs of triangles whose bounding boxes overlap after each box has grown by `margin`
+/// on all sides; see TriangleScene::near_pairs.
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin);
 
-/// Returns the given pairs whose triangles intersect; see triangles_intersect.
+/// Returns those of the given pairs whose two triangles intersect each other; see
+/// triangles_intersect.
 std::vector<TrianglePair> intersecting_pairs(const std::vector<Triangle>& triangles,
                                              const Positions& positions,
                                              const std::vector<TrianglePair>& pairs);
 
-/// Counts the triangles of a face that take part in intersections that the target does not have.
-/// Where the target already intersects itself, for example at the corner of the mouth, triangles
-/// next to the intersection may intersect too. Therefore a pair is ignored if each of its triangles
-/// shares a vertex with a triangle that intersects in the target.
+/// Counts the triangles of a face that take part in new intersections, which the target does not
+/// have. Where the target already intersects itself (for example at the corner of the mouth),
+/// triangles next to the intersection may intersect too. Therefore a pair is ignored if each of its
+/// triangles shares a vertex with a triangle that intersects another triangle in the target.
 class NewIntersections {
  public:
-  /// \param target_pairs  the intersecting pairs of the target itself.
+  /// \param target_pairs  all pairs of triangles that intersect in the target.
   NewIntersections(const std::vector<Triangle>& triangles, Index vertex_count,
                    const std::vector<TrianglePair>& target_pairs);
-  /// Returns the number of triangles in new intersections.
-  /// \param face_pairs  all intersecting pairs of the face.
+  /// Returns the number of triangles that take part in new intersections.
+  ///
+  /// \param face_pairs  all pairs of triangles that intersect in the face.
   Index count(const std::vector<TrianglePair>& face_pairs) const;
 
  private:
-  /// #T: whether the triangle shares a vertex with a triangle that intersects in the target.
+  /// #T: whether the triangle shares a vertex with a triangle that intersects another triangle in
+  /// the target.
   std::vector<bool> near_target_intersection_;
 };
 

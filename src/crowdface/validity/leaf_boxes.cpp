@@ -22,7 +22,8 @@ struct Lanes3 {
   Lanes x[3];
 };
 
-/// Returns corner `k` of consecutive triangles, starting at triangle `begin`.
+/// Returns the positions of corner `k` (0 to 2) of consecutive triangles, beginning with triangle
+/// `begin`.
 Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
                  const float* points) {
   const hn::RebindToSigned<decltype(kLanes)> integers;
@@ -37,7 +38,8 @@ Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
 
 void measure_boxes(const LeafCorners& corners, const float* points, float margin,
                    LeafBoxes& boxes) {
-  // An upper bound of the error from rounding coordinates and margins to single precision.
+  // Upper bound of the relative error that is caused by rounding coordinates and margins to single
+  // precision.
   const auto rounding = hn::Set(kLanes, 1e-6F), grown = hn::Set(kLanes, margin);
   for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
     const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
@@ -101,8 +103,8 @@ unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
   return all;
 }
 
-/// Compares all pairs of triangles from two leaves. Bit 8 i + j of the result is the value of
-/// `compare` for triangle i of the first leaf and triangle j of the second.
+/// Compares each triangle of one leaf with each triangle of another leaf. Bit 8 i + j of the result
+/// is the value of `compare` for triangle i of the first leaf and triangle j of the second.
 template <class Compare>
 std::uint64_t compared(const Compare& compare) {
   std::uint64_t all = 0;
@@ -177,7 +179,8 @@ HWY_EXPORT(met_boxes);
 HWY_EXPORT(overlapping_boxes);
 
 BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
-  // Large but finite, so that no product with a distance of zero becomes NaN.
+  // This number stands for 1/0. It is large but finite, so that its product with a distance of zero
+  // is not NaN.
   constexpr double kHuge = 1e300;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto axis = static_cast<Index>(c);
@@ -213,7 +216,7 @@ std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, fl
   return HWY_DYNAMIC_DISPATCH(alike_normals)(a, b, min_cosine);
 }
 
-/// Without branches, because the processor could not predict them.
+/// This code has no branches, because the processor could not predict them.
 bool boxes_overlap(const Box& a, const Box& b) {
   unsigned apart = 0;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -25,7 +25,7 @@ PartsThroughSkin::PartsThroughSkin(const Topology& topology, const Components& c
 double PartsThroughSkin::exposed_mm2(const Positions& positions) const {
   if (triangles_.size() == skin_count_) return 0;
   const TriangleScene scene(triangles_, tree_, positions, ray_margin(positions));
-  std::set<std::uint32_t> through;  // triangles of parts
+  std::set<std::uint32_t> through;  // triangles of parts that pass through the skin
   for (const auto& [a, b] : scene.intersecting_pairs()) {
     if (a < skin_count_ && b >= skin_count_) through.insert(b);
   }

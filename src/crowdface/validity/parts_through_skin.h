@@ -10,22 +10,23 @@
 
 namespace crowdface {
 
-/// Measures how much of the parts behind the skin, such as gums and teeth, protrudes through the
-/// skin. Const methods are thread-safe.
+/// Measures the area of the parts behind the skin, such as gums and teeth, where these parts show
+/// through the skin. Const methods are thread-safe.
 class PartsThroughSkin {
  public:
-  /// \param parts  components that are behind the skin
+  /// \param parts  indices of the components that are behind the skin
   /// \param mean   a typical head, #V by 3
   PartsThroughSkin(const Topology& topology, const Components& components,
                    std::span<const std::uint32_t> parts, const Positions& mean,
                    ViewSetup view_setup);
 
-  /// Returns the area of the parts' triangles that pass through the skin and are visible, in mm².
+  /// Returns the visible area, in mm², of those triangles of the parts that pass through the skin.
   double exposed_mm2(const Positions& positions) const;
 
  private:
-  std::vector<Triangle> triangles_;  ///< triangles of the skin, then of the parts
-  std::uint32_t skin_count_ = 0;     ///< number of triangles of the skin
+  /// first the triangles of the skin, then the triangles of the parts
+  std::vector<Triangle> triangles_;
+  std::uint32_t skin_count_ = 0;  ///< number of triangles of the skin
   TriangleTree tree_;
   ViewSetup view_setup_;
 };

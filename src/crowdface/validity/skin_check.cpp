@@ -21,13 +21,13 @@ const Head& first_of(const std::vector<Head>& heads) {
   return heads.front();
 }
 
-/// A view of a back side counts only if the cosine between the direction to the viewer and the
-/// normal of the back side exceeds this value. At smaller cosines, little of the back side is
+/// A viewer counts as seeing a back side only if the cosine between the direction to the viewer and
+/// the normal of the back side exceeds this value. At smaller cosines, little of the back side is
 /// visible.
 constexpr double kFlattestCosine = 0.2;
 
-/// Orients the skin's triangles so that their normals point outwards: flips all if the enclosed
-/// volume is negative.
+/// Orients the skin's triangles so that their normals point outwards. If the enclosed volume is
+/// negative, reverses all triangles.
 std::vector<Triangle> oriented_outwards(std::vector<Triangle> triangles, const Positions& head) {
   if (triangles.empty()) return triangles;
   const Eigen::Vector3d origin = row3(head, triangles.front()[0]);
@@ -41,7 +41,7 @@ std::vector<Triangle> oriented_outwards(std::vector<Triangle> triangles, const P
   return triangles;
 }
 
-/// Returns the indices of the view directions from which the back of a triangle is seen, with a
+/// Returns the indices of the view directions from which the back of a triangle is visible with a
 /// cosine above kFlattestCosine.
 std::vector<std::size_t> viewers_behind(const Corners& at, const ViewSetup& view_setup) {
   const Eigen::Vector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
@@ -55,10 +55,12 @@ std::vector<std::size_t> viewers_behind(const Corners& at, const ViewSetup& view
   return behind;
 }
 
-/// Returns the area of a skin's back side that is visible, in the positions' unit squared. The back
-/// side shows where skin passes through other skin, such as the lining of a nostril through the
-/// wing of the nose. The search begins at intersecting triangles and continues across triangles
-/// with a visible back side, at samples about a millimetre apart.
+/// Returns the visible area of the skin's back side, in the square of the positions' unit. The back
+/// side becomes visible where skin passes through other skin, such as the lining of a nostril
+/// through the wing of the nose. The search begins at intersecting triangles and continues to
+/// neighbouring triangles as long as their back side is visible. Visibility is tested at samples
+/// about a millimetre apart.
+///
 /// \param around        the triangles at each vertex.
 /// \param intersecting  pairs of intersecting triangles.
 double visible_back_area(const TriangleScene& scene, const std::vector<Triangle>& triangles,
@@ -95,7 +97,8 @@ double visible_back_area(const TriangleScene& scene, const std::vector<Triangle>
   return exposed;
 }
 
-/// The self-intersections of a skin, and the visible area of the skin's back side.
+/// The pairs of triangles of one skin that intersect each other, and the visible area of the skin's
+/// back side.
 struct SelfIntersections {
   std::vector<TrianglePair> pairs;
   double exposed;
@@ -165,7 +168,7 @@ std::uint64_t SkinCheck::memory_bytes() const {
 }
 
 std::uint64_t SkinCheck::compare_bytes() const {
-  // Measured: 120 bytes per triangle with 2.4 million triangles.
+  // Measured with 2.4 million triangles: 120 bytes per triangle.
   constexpr std::uint64_t kBytesPerTriangle = 150;
   return kBytesPerTriangle * triangles_.size();
 }

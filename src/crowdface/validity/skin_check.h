@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The directions from which the skin is viewed to measure how much of its back side is visible,
-/// and the length of the mesh's unit.
+/// The directions from which the skin is viewed, to measure how much of its back side is visible.
+/// Also the length of one unit of the positions.
 struct ViewSetup {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;
@@ -20,33 +20,39 @@ struct ViewSetup {
 
 /// Defects of a face's skin compared with its target's skin.
 struct SkinDefects {
-  LocalDefects local;      ///< defects of single triangles
-  Index intersecting = 0;  ///< triangles in intersections that the target does not have
-  /// How much a gap at a contact of the skin (such as between the lips) exceeds the widest gap of
-  /// any head at the same contact. Not set by SkinCheck, but by callers that know the contacts.
+  LocalDefects local;  ///< defects of single triangles
+  /// number of triangles that take part in intersections which the target does not have
+  Index intersecting = 0;
+  /// How much the gap at a contact of the skin (such as between the lips) exceeds the widest gap of
+  /// any head at the same contact. SkinCheck does not set this value; callers that know the
+  /// contacts do.
   double gap_excess_mm = 0;
-  double exposed_mm2 = 0;  ///< visible area of the skin's back side, in excess of the target's
+  double exposed_mm2 = 0;  ///< how much more of the skin's back side is visible than on the target
 };
 
-/// Compares meshes of one topology with their targets. Const methods are thread-safe.
+/// Compares the skin of meshes that have the same topology with the skin of their targets. Const
+/// methods are thread-safe.
 class SkinCheck {
  public:
-  /// \param heads    each with #V by 3 positions; the first one determines which side of the skin
-  ///                 is outside.
-  /// \param targets  indices of the heads that `compare` may name.
+  /// \param heads    #V by 3 positions each. The first head determines which side of the skin is
+  ///                 outside.
+  /// \param targets  indices of the heads that may be passed to `compare` as targets.
   /// \throws BrokenPrecondition if there is no head.
   SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
             const std::set<Index>& targets, ViewSetup view_setup);
 
-  /// Compares positions with a target.
-  /// \param target  one of the targets passed to the constructor.
+  /// Compares the positions of a face with one of the heads.
+  ///
+  /// \param target  index of a head that was passed to the constructor as a target.
   SkinDefects compare(const Positions& positions, Index target) const;
-  /// Compares positions with any target, such as a mixture of heads. Takes twice as long.
+  /// Compares the positions of a face with any target, such as a mixture of heads. Takes twice as
+  /// long as comparing with a head that is known as a target.
   SkinDefects compare(const Positions& positions, const Positions& target) const;
 
-  /// Memory of this object in bytes.
+  /// Returns the memory that this object uses, in bytes.
   std::uint64_t memory_bytes() const;
-  /// Upper bound of the temporary memory of one `compare` (boxes and pairs), in bytes.
+  /// Returns an upper bound of the temporary memory that one `compare` uses (for boxes and pairs),
+  /// in bytes.
   std::uint64_t compare_bytes() const;
 
  private:
@@ -58,7 +64,8 @@ class SkinCheck {
   Target prepared_target(const Positions& positions) const;
   SkinDefects compare(const Positions& positions, const Target& target) const;
 
-  std::vector<Triangle> triangles_;  ///< oriented with normals pointing outwards
+  /// the skin's triangles, oriented so that their normals point outwards
+  std::vector<Triangle> triangles_;
   TriangleTree tree_;
   VertexFaces triangles_at_vertex_;
   ViewSetup view_setup_;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = TriangleTree::kLeafSize;
 
-/// Whether a ray hits a triangle.
-/// Source: Möller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection".
+/// Returns whether a ray hits a triangle. Source: Möller & Trumbore 1997, "Fast, minimum storage
+/// ray/triangle intersection".
 bool meets_triangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                     const Positions& positions, const Triangle& triangle) {
   const Eigen::Vector3d a = row3(positions, triangle[0]);
@@ -62,7 +62,8 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   }
 }
 
-/// Adds to `into` the overlapping pairs of children of two nodes that are not both leaves.
+/// Replaces a pair of nodes (at least one of which is not a leaf) by pairs of their children. Adds
+/// to `into` the pairs whose boxes overlap.
 void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) const {
   const TriangleTree::Node &a = tree_.nodes[pair.a], &b = tree_.nodes[pair.b];
   const auto add = [&](std::uint32_t first, std::uint32_t second) {
@@ -84,7 +85,8 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
 template <class Keep>
 void TriangleScene::compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                                    std::vector<TrianglePair>& found) const {
-  // The bits 8 i + j with j > i: for a leaf compared with itself, each pair of triangles once.
+  // If a leaf is compared with itself, use only the bits 8 i + j with j > i, so that each pair of
+  // triangles occurs once.
   constexpr std::uint64_t kPairsWithinLeaf = 0x0080c0e0f0f8fcfe;
   const auto ones = tree_.leaf(one), others = tree_.leaf(other);
   std::uint64_t left = overlap_mask(leaves_[one], leaves_[other]);
@@ -186,8 +188,8 @@ std::uint32_t TriangleScene::find_any_hit(const Eigen::Vector3d& origin,
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;
   const BoxRay box_ray(origin, direction);
-  // Size of the stack: sufficient for 2³² triangles, because each level of the tree halves their
-  // number.
+  // Size of the stack. It is sufficient for 2³² triangles, because each level of the tree halves
+  // the number of triangles in a node.
   constexpr std::size_t kMaxStackDepth = 40;
   std::array<std::uint32_t, kMaxStackDepth> waiting;
   std::size_t count = 0;
@@ -197,8 +199,8 @@ std::uint32_t TriangleScene::find_any_hit(const Eigen::Vector3d& origin,
     if (!ray_hits_box(box_ray, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
-      // First visit the child that holds the guess: a triangle that blocked the previous ray often
-      // blocks this one too.
+      // First visit the child that contains the guess. The guess blocked the previous ray, and
+      // triangles near it often block this ray too.
       const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.second].begin;
       waiting[count++] = right_first ? n + 1 : node.second;
       waiting[count++] = right_first ? node.second : n + 1;

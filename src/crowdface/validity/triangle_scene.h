@@ -10,38 +10,41 @@
 
 namespace crowdface {
 
-/// Indices of two triangles, the smaller first.
+/// Indices of two triangles; the smaller index comes first.
 using TrianglePair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The triangles of one mesh in a bounding volume hierarchy, for proximity and ray queries. Boxes
-/// have single precision and are rounded outwards, so that they contain the exact boxes; triangle
-/// tests use double precision.
+/// are stored in single precision and rounded outwards, so that they contain the exact boxes. Tests
+/// of triangles use double precision.
 class TriangleScene {
  public:
-  /// \param triangles, tree, positions  must outlive the scene; the tree must be built of
-  ///        `triangles`.
+  /// \param triangles, tree, positions  must outlive the scene. The tree must have been built from
+  /// `triangles`.
   /// \param margin  distance by which the boxes grow on all sides.
   TriangleScene(const std::vector<Triangle>& triangles, const TriangleTree& tree,
                 const Positions& positions, double margin);
 
-  /// Returns the pairs of triangles whose boxes overlap and that share no vertex, ascending. Omits
-  /// triangles at vertices with more than a thousand triangles, because the tree does not contain
-  /// them.
+  /// Returns the pairs of triangles whose boxes overlap but which share no vertex, in ascending
+  /// order. The tree omits triangles at vertices with more than a thousand triangles, so the result
+  /// omits them too.
   std::vector<TrianglePair> near_pairs() const;
 
   /// Returns the pairs from near_pairs() whose triangles intersect, ascending.
   std::vector<TrianglePair> intersecting_pairs() const;
 
-  /// Returns the leaves i ≥ `leaf`, ascending, in which the box of a triangle may overlap the box
-  /// of a triangle in `leaf`.
+  /// Returns, in ascending order, the leaves i ≥ `leaf` that may contain a triangle whose box
+  /// overlaps the box of a triangle in `leaf`.
   std::vector<std::uint32_t> leaves_near(std::uint32_t leaf) const;
 
-  /// Finds any triangle that a ray hits, not necessarily the nearest; ignores triangle `start`.
-  /// Returns the position of the found triangle in the tree's order, or kNoIndex if there is none.
+  /// Finds any triangle that a ray hits, not necessarily the nearest such triangle. Returns the
+  /// found triangle's position in the order of the tree, or kNoIndex if the ray hits no triangle.
+  ///
   /// \param direction  of any length except zero
-  /// \param start      index of the triangle from which the ray starts, or kNoIndex
-  /// \param guess      position in the tree's order to test first, usually the previous ray's
-  ///                   result, because neighbouring rays often hit the same triangle; or kNoIndex
+  /// \param start      index of the triangle from which the ray starts, which is ignored; or
+  ///                   kNoIndex
+  /// \param guess      position (in the order of the tree) of the triangle to test first, or
+  ///                   kNoIndex. Usually the result for the previous ray, because neighbouring rays
+  ///                   often hit the same triangle.
   std::uint32_t find_any_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                              std::uint32_t start, std::uint32_t guess) const;
 
@@ -54,15 +57,18 @@ class TriangleScene {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
-  /// Returns pairs of nodes that together contain all pairs of leaves that may overlap. Each pair
-  /// is one parallel task.
+  /// Returns pairs of nodes whose leaves include all pairs of leaves that may overlap. Each pair of
+  /// nodes can be processed as one parallel task.
   std::vector<NodePair> initial_node_pairs() const;
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
   template <class Keep>
   std::vector<TrianglePair> filtered_pairs(const Keep& keep) const;
+  /// Appends to `found` the pairs of overlapping triangles from two leaves, except triangles that
+  /// share a vertex.
+  ///
   /// \param one, other  leaf numbers, equal or in ascending order
-  /// \param keep        keep(pair): whether to return the pair
+  /// \param keep        keep(pair): whether to append the pair
   template <class Keep>
   void compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,
                       std::vector<TrianglePair>& found) const;
@@ -71,7 +77,7 @@ class TriangleScene {
   const TriangleTree& tree_;
   const Positions& positions_;
   std::vector<LeafBoxes> leaves_;
-  std::vector<Box> boxes_;  ///< boxes of the tree's nodes
+  std::vector<Box> boxes_;  ///< the bounding box of each node of the tree
 };
 
 }  // namespace crowdface

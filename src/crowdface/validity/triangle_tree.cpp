@@ -7,8 +7,9 @@
 namespace crowdface {
 namespace {
 
-/// Marks triangles at vertices with more than kMaxAround triangles. The boxes of triangles at one
-/// vertex all overlap: with 60,000 such triangles, pair tests took 90 seconds per face.
+/// Marks the triangles at vertices with more than kMaxAround triangles. The boxes of all triangles
+/// at such a vertex overlap each other: with 60,000 triangles at one vertex, the tests of pairs
+/// took 90 seconds per face.
 std::vector<bool> is_at_hub(const std::vector<Triangle>& triangles, Index vertex_count) {
   constexpr std::uint32_t kMaxAround = 1000;
   std::vector<std::uint32_t> around(static_cast<std::size_t>(vertex_count), 0);
@@ -23,8 +24,8 @@ std::vector<bool> is_at_hub(const std::vector<Triangle>& triangles, Index vertex
   return left_out;
 }
 
-/// Builds the tree from the triangles' centroids, scaled by 3 and offset along the normals by
-/// `normal_offset`.
+/// Builds the tree. Each triangle is represented by its centroid, shifted along the normal by
+/// `normal_offset`. All coordinates are multiplied by 3.
 MedianSplitTree split_triangles(const std::vector<Triangle>& triangles, const Positions& positions,
                                 double normal_offset) {
   const std::vector<bool> left_out = is_at_hub(triangles, positions.rows());

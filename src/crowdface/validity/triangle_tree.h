@@ -12,24 +12,25 @@
 
 namespace crowdface {
 
-/// A median split tree of triangles, without the triangles at vertices with more than a thousand
-/// triangles. Build the tree once per mesh: TriangleScene refits the boxes to any positions, and
-/// the boxes stay tight if the positions are similar to the constructor's.
+/// A median split tree of the triangles of a mesh. It omits triangles at vertices with more than a
+/// thousand triangles. Build the tree once for each mesh topology: TriangleScene fits the boxes to
+/// any positions, and the boxes are small if the positions are similar to the positions from which
+/// the tree was built.
 struct TriangleTree : MedianSplitTree {
-  /// Triangles per leaf; the last leaf may have fewer.
+  /// Number of triangles in a leaf; the last leaf may have fewer.
   static constexpr std::uint32_t kLeafSize = LeafBoxes::kCount;
-  std::vector<LeafCorners> corners;  ///< corners of each leaf's triangles
+  std::vector<LeafCorners> corners;  ///< for each leaf, the corners of the leaf's triangles
 
   TriangleTree() = default;
-  /// \param normal_offset  distance by which triangles are shifted along their normals before the
-  ///                       split, in the unit of the positions. The shift puts sheets that lie on
-  ///                       each other into different leaves.
+  /// \param normal_offset  distance, in the unit of the positions, by which triangles are shifted
+  ///                       along their normals before the tree is split. The shift puts layers of
+  ///                       skin that touch each other into different leaves.
   TriangleTree(const std::vector<Triangle>& triangles, const Positions& positions,
                double normal_offset = 0);
 
   std::size_t leaf_count() const { return corners.size(); }
   static std::uint32_t leaf_number(const Node& node) { return node.begin / kLeafSize; }
-  /// The triangle indices of a leaf.
+  /// Returns the indices of the triangles in a leaf.
   std::span<const std::uint32_t> leaf(std::size_t number) const {
     const std::size_t begin = number * kLeafSize;
     return std::span(order).subspan(begin, std::min<std::size_t>(kLeafSize, order.size() - begin));

@@ -15,7 +15,9 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// Computes scaled signed distances of the corners of `other` from the plane of `t`.
+/// Computes the signed distances of the corners of `other` from the plane of `t`, all scaled by the
+/// same factor.
+///
 /// \return  whether `other` has corners strictly on both sides of the plane.
 bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
                    std::array<double, 3>& distance) {
@@ -24,13 +26,14 @@ bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
   return least < 0 && most > 0;
 }
 
-/// The interval in which triangle `t` meets the line common to both triangles' planes, as
-/// coordinates along `axis`.
-/// \param distance  signed distances of the corners of `t` from the other triangle's plane; at
+/// Returns the interval in which triangle `t` meets the line that both triangles' planes have in
+/// common. The interval is given by coordinates along `axis`.
+///
+/// \param distance  signed distances of the corners of `t` from the other triangle's plane. At
 ///                  least one is positive and one negative.
 std::pair<double, double> interval_on_line(const Corners& t, const std::array<double, 3>& distance,
                                            Index axis) {
-  std::size_t alone = 0;  // the corner that is alone on its side of the plane
+  std::size_t alone = 0;  // the corner that has no other corner on its side of the plane
   for (std::size_t c = 0; c < 3; ++c) {
     const double one = distance[c], two = distance[(c + 1) % 3], three = distance[(c + 2) % 3];
     if ((one > 0 && two <= 0 && three <= 0) || (one < 0 && two >= 0 && three >= 0)) alone = c;
@@ -45,7 +48,8 @@ std::pair<double, double> interval_on_line(const Corners& t, const std::array<do
 }  // namespace
 
 TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target) {
-  constexpr double kSliver = 1e-4;  // sine of the corner angle below which a triangle is degenerate
+  // a triangle is degenerate if the sine of a corner's angle is below this value
+  constexpr double kSliver = 1e-4;
   frames_.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     const Vector u = row3(target, t[1]) - row3(target, t[0]);
@@ -72,8 +76,8 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const bool collapsed =
         normal.squaredNorm() < kCollapsed * kCollapsed * frame.normal.squaredNorm();
     if (turned || collapsed) ++defects.flipped;
-    // The largest singular value, squared, of the linear map from the target triangle to this one.
-    // x and y are the images of the axes of `frame`.
+    // Compute the square of the largest singular value of the linear map from the target triangle
+    // to this triangle. x and y are the images of the axes of `frame`.
     const Vector x = u / frame.length;
     const Vector y = (v - frame.shift * x) / frame.height;
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();

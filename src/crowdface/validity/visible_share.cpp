@@ -6,8 +6,9 @@
 namespace crowdface {
 namespace {
 
-constexpr double kSpacingMm = 1;  ///< distance of the samples on a triangle
-constexpr int kMaxAlongEdge = 8;  ///< largest number of samples along an edge
+/// approximate distance between neighbouring samples on a triangle
+constexpr double kSpacingMm = 1;
+constexpr int kMaxAlongEdge = 8;  ///< largest number of samples along an edge of a triangle
 
 int points_along_edge(const Corners& at, double mm_per_unit) {
   const double longest =

@@ -10,17 +10,19 @@
 
 namespace crowdface {
 
-/// Returns a margin for the boxes of a TriangleScene, so that no ray misses a box through rounding.
+/// Returns a margin for the boxes of a TriangleScene. The margin is large enough that rounding
+/// errors make no ray miss a box.
 double ray_margin(const Positions& positions);
 
-/// Returns the fraction of a triangle that is visible to any of the given viewers, sampled at points
-/// about a millimetre apart: the centroids of equal subtriangles.
+/// Returns the fraction of a triangle that at least one of the given viewers can see. The fraction
+/// is measured at samples about a millimetre apart, which are the centroids of equal subtriangles.
+///
 /// \param at          corners of the triangle.
 /// \param triangle    index of the triangle in the scene; a triangle never hides its own samples.
-/// \param directions  directions towards viewers, of any non-zero length.
-/// \param viewers     indices into `directions`: the viewers that count.
-/// \param last_occluders  #directions: the last occluder found for each viewer; the next ray to the
-///                        viewer tests it first.
+/// \param directions  directions towards all viewers, of any non-zero length.
+/// \param viewers     indices into `directions` of the viewers that count.
+/// \param last_occluders  #directions: for each viewer, the triangle that last hid a sample. The
+///                        next ray to the viewer tests this triangle first.
 double visible_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
                      double mm_per_unit, std::span<const Eigen::Vector3d> directions,
                      std::span<const std::size_t> viewers, std::span<std::uint32_t> last_occluders);
