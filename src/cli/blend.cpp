@@ -16,7 +16,7 @@
 namespace crowdface::cli {
 namespace {
 
-/// Reads the face with the id `ID` from the plan `FILE`. \param reference  "FILE#ID".
+/// Reads one face from a plan. \param reference "FILE#ID": path of the plan and id of the face.
 PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
   const std::size_t hash = reference.rfind('#');
   if (hash == reference.npos || hash == 0 || hash + 1 == reference.size()) {
@@ -33,7 +33,7 @@ PlanLine find_recipe(const std::string& reference, const PlanNames& names) {
                             nearest ? concat("; did you mean ", *nearest, "?") : ""));
 }
 
-/// Checks the smoothing levels of a recipe.
+/// Checks that the fitted smoothing levels of the heads suffice for a recipe.
 /// \throws InvalidInput if the recipe needs more iterations than the fitted levels contain, which
 /// is possible in a hand-edited plan.
 void check_levels(const Recipe& recipe, const Job& job, const std::string& reference) {

@@ -58,8 +58,8 @@ void describe(const Job& job) {
       job.config.output.directory.string(), "\n"));
 }
 
-/// Returns a colour for each region, #R by 3: red, green and blue if the regions are the channels
-/// of one image, otherwise colours of a palette.
+/// Returns the colours in which to show the regions, #R by 3. If the regions are the channels of
+/// one image, the colours are red, green and blue; otherwise colours of a palette.
 VertexColours painted_colours(const Config::Regions& regions, Index count) {
   const bool channels = regions.mask.size() == 1 && count > 1;
   VertexColours colours(count, 3);
@@ -75,7 +75,7 @@ VertexColours painted_colours(const Config::Regions& regions, Index count) {
   return colours;
 }
 
-/// Writes one image per region, which shows the region's mask on the mean head.
+/// Writes one image for each region. The image shows the mask of the region on the mean head.
 void write_masks(const Job& job, const std::filesystem::path& directory) {
   const Positions mean = mean_head(job.inputs.faces);
   Config::ContactSheet sheet;

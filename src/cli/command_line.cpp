@@ -73,7 +73,8 @@ OptionHandle add_repeated(CLI::App& command, const std::string& name,
 
 namespace {
 
-/// Splits a type such as "WORD:{fixed,free}" into the value's name and the accepted values.
+/// Splits an option's type, such as "WORD:{fixed,free}", into the name of the value (WORD) and the
+/// accepted values.
 void split_words(OptionDescription& option) {
   const std::size_t colon = option.type.find(":{");
   if (colon == option.type.npos) return;

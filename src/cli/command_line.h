@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-// Only command_line.cpp and main.cpp include CLI11, because this header-only library is slow to
-// compile.
+// These declarations stand in for the headers of CLI11. Only command_line.cpp and main.cpp include
+// these headers, because they are slow to compile.
 namespace CLI {
 class App;
 class Option;
@@ -15,7 +15,7 @@ class Option;
 
 namespace crowdface::cli {
 
-/// Sets further properties of an option, argument or flag that was added to a command.
+/// A handle to an option, argument or flag that was added to a command; sets further properties.
 class OptionHandle {
  public:
   explicit OptionHandle(CLI::Option& option) : option_(&option) {}
@@ -34,22 +34,25 @@ CLI::App& add_subcommand(CLI::App& program, const char* name, const char* descri
 OptionHandle add_flag(CLI::App& command, const std::string& name, bool& value,
                       const std::string& help);
 
-/// Adds an option with a value, "-o,--output", or an argument, "config". The help shows the initial
-/// content of `value` as the default. \param type  name of the value in the help, such as "DIR".
+/// Adds an option with a value (name such as "-o,--output") or a positional argument (name such as
+/// "config"). The help shows the initial content of `value` as the default. \param type name of the
+/// value in the help, such as "DIR".
 OptionHandle add_option(CLI::App& command, const std::string& name, std::string& value,
                         const std::string& type, const std::string& help);
 
-/// Adds an option; if the user gives the option, `take` receives its value.
+/// Adds an option. If the user gives the option, calls `take` with the option's value.
 OptionHandle add_option(CLI::App& command, const std::string& name,
                         const std::function<void(const std::string&)>& take,
                         const std::string& type, const std::string& help);
 
-/// Adds an option; if the user does not give the option, `value` stays empty.
+/// Adds an option that stores its value in `value`. If the user does not give the option, `value`
+/// stays empty.
 OptionHandle add_optional(CLI::App& command, const std::string& name,
                           std::optional<std::string>& value, const std::string& type,
                           const std::string& help);
 
-/// Adds an option that may be repeated; `values` receives all values in order.
+/// Adds an option that the user may give several times. `values` receives all values in the order
+/// of the command line.
 OptionHandle add_repeated(CLI::App& command, const std::string& name,
                           std::vector<std::string>& values, const std::string& type,
                           const std::string& help);

@@ -10,10 +10,11 @@ class App;
 
 namespace crowdface::cli {
 
-/// An option, flag or argument of a command, as the help shows it.
+/// The description of an option, flag or argument of a command, with the texts that the help shows.
 struct OptionDescription {
-  std::vector<std::string> names;  ///< "-o", "--output"; for an argument its name, "config"
-  std::string type;                ///< name of the value, "DIR"; empty for a flag
+  /// such as "-o", "--output"; for an argument its name, such as "config"
+  std::vector<std::string> names;
+  std::string type;                          ///< name of the value, such as "DIR"; empty for a flag
   std::vector<std::string> accepted_values;  ///< empty: any value
   std::string default_value;                 ///< may be empty
   std::string help;
@@ -31,7 +32,7 @@ struct ProgramDescription : CommandDescription {
   std::vector<CommandDescription> commands;
 };
 
-/// Reads from the CLI11 parser the description of all commands and options.
+/// Returns the description of all commands and options that were added to the CLI11 parser.
 ProgramDescription describe_program(const CLI::App& program);
 
 }  // namespace crowdface::cli

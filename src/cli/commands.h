@@ -10,7 +10,8 @@ namespace crowdface::cli {
 /// Executes a command, after the command line has been parsed.
 using Run = std::function<void()>;
 
-/// Each function adds its subcommand to the program and returns the function that executes it.
+/// Each of these functions adds one subcommand to the program, and returns the function that
+/// executes this subcommand.
 Run add_generate(CLI::App& program);
 Run add_prepare(CLI::App& program);
 Run add_plan(CLI::App& program);

@@ -23,7 +23,8 @@
 namespace crowdface::cli {
 namespace {
 
-/// Returns whether a file may be a log file: it is empty or starts with a date such as 2026-11-22T.
+/// Returns whether a file looks like a log file: the file is empty or starts with a date such as
+/// 2026-11-22T.
 bool begins_like_a_log(const std::string& path) {
   constexpr std::string_view kForm = "dddd-dd-ddT";
   std::ifstream stream(path);

@@ -25,9 +25,10 @@ struct CommonOptions {
   std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
-  /// Returns the `--limit` arguments of this run, for the processes that this run starts.
+  /// Returns the `--limit` arguments that this run received, to pass on to the processes that this
+  /// run starts.
   std::vector<std::string> limit_arguments() const;
-  /// Applies the options. \return holds the thread limit during its lifetime.
+  /// Applies the options. \return an object that limits the number of threads during its lifetime.
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
 };
 
@@ -46,13 +47,13 @@ struct ConfigOptions : CacheOption {
   ConfigOverrides overrides;
 
   void add_to(CLI::App& command);
-  /// Adds `--review`; for commands that plan a crowd.
+  /// Adds the option `--review`. For commands that plan a crowd.
   void add_review_to(CLI::App& command);
-  /// Adds `--without-reviews`, for commands that write a plan.
+  /// Adds the option `--without-reviews`. For commands that write a plan.
   void add_without_reviews_to(CLI::App& command);
 };
 
-/// `--force`, `--dry-run`, `--memory`: options of the commands that write into a crowd's folder.
+/// The options of commands that write into a crowd's folder: `--force`, `--dry-run`, `--memory`.
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
@@ -61,7 +62,7 @@ struct WriteOptions {
   bool planned = false;
 
   void add_to(CLI::App& command);
-  /// Adds `--shard` and `--planned`, for commands that build faces.
+  /// Adds the options `--shard` and `--planned`. For commands that build faces.
   void add_shard_to(CLI::App& command);
   GenerateOptions generate_options(const std::filesystem::path& cache) const;
 };
@@ -69,11 +70,11 @@ struct WriteOptions {
 /// Parses the value `I/N` of `--shard`; an empty text gives the shard 1/1. \throws UsageError.
 Shard parse_shard_option(const std::string& text);
 
-/// Parses a size with its unit, "4 GiB"; returns 0 if `text` is empty.
-/// \param option  for messages. \throws UsageError.
+/// Parses a size in bytes with a unit, such as "4 GiB"; returns 0 if `text` is empty.
+/// \param option  name of the option, for messages. \throws UsageError.
 std::uint64_t parse_byte_size(std::string_view option, const std::string& text);
 
-/// \throws UsageError unless the name of `--output` ends in .obj.
+/// Checks that the file name given with `--output` ends in .obj. \throws UsageError if not.
 void require_obj_output(const std::string& out);
 
 /// Writes the result of a command to standard output, with control characters escaped as in logs.
@@ -81,8 +82,8 @@ void print(std::string_view text);
 
 enum class Browser { kOpen, kNone };
 
-/// Prints the address of the page that the process serves. With kOpen and a display, also opens the
-/// page in the browser; a failure to start the browser is ignored.
+/// Prints the address of the page that the process serves. With kOpen, also opens the page in the
+/// browser if there is a display. Ignores a failure to start the browser.
 void show_page(const std::string& address, Browser browser);
 
 /// Parses a whole number in [least, most]. \param option  name of the option, for messages. \throws

@@ -31,7 +31,7 @@ std::string escaped(const std::string& text, std::string_view characters) {
   return result;
 }
 
-/// The first sentence of a help text, for menus.
+/// Returns the first sentence of a help text, for the menus of completions.
 std::string short_help(const std::string& help) {
   return help.substr(0, help.find_first_of(";\n"));
 }
@@ -48,7 +48,7 @@ std::vector<std::string> option_names(const CommandDescription& command) {
   return names;
 }
 
-/// Returns the case of bash's completion function that completes one command.
+/// Returns the `case` branch, in the bash completion function, that completes one command.
 std::string bash_case(const CommandDescription& command) {
   std::string values, words;
   for (const OptionDescription& option : command.options) {
@@ -101,13 +101,14 @@ std::string bash_script(const ProgramDescription& program) {
       "complete -o bashdefault -o default -F _crowdface crowdface\n");
 }
 
-/// Returns zsh's completion action for the value of an option.
+/// Returns the action with which zsh completes the value of an option.
 std::string zsh_action(const OptionDescription& option) {
   if (!option.accepted_values.empty()) return concat('(', join(option.accepted_values, " "), ')');
   return is_folder_type(option) ? "_files -/" : "_files";
 }
 
-/// The specifications of one command's options and arguments for zsh's _arguments.
+/// The specifications of the options and arguments of one command, in the format of zsh's function
+/// _arguments.
 std::string zsh_arguments(const CommandDescription& command) {
   std::string specifications;
   for (const OptionDescription& option : command.options) {
@@ -194,8 +195,8 @@ std::string fish_script(const ProgramDescription& program) {
   return lines;
 }
 
-/// Escapes a text for groff: control characters at the start of a line, and hyphens, so that they
-/// can be copied as ASCII.
+/// Escapes a text for groff. Escapes control characters at the start of a line. Also escapes
+/// hyphens, so that a user can copy them from the manual page as ASCII.
 std::string roff(const std::string& text) {
   std::string result;
   bool at_start = true;

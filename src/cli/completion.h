@@ -7,7 +7,7 @@
 
 namespace crowdface::cli {
 
-/// The script with which a shell completes commands, options and their values.
+/// Returns the script with which a shell completes commands, options and the values of options.
 /// \param shell  "bash", "zsh" or "fish".
 std::string completion_script(const ProgramDescription& program, const std::string& shell);
 

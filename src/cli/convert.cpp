@@ -83,8 +83,8 @@ void write_mesh(const FileMesh& mesh, MeshFormat format, const fs::path& out,
   }
 }
 
-/// Copies faces, texture coordinates and materials from the mesh file `like` to a mesh that has
-/// only positions.
+/// Copies polygons, texture coordinates and materials from the mesh file `like` to `mesh`, which
+/// has only positions.
 void copy_polygons(const std::string& like, FileMesh& mesh) {
   FileMesh other = read_joined_mesh(like);
   if (other.positions.rows() != mesh.positions.rows()) {

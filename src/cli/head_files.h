@@ -18,7 +18,7 @@ inline constexpr int kMaskSize = 1024;  ///< width and height of masks in pixels
 inline constexpr std::uint64_t kMinTexturePx = 64,
                                kMaxTexturePx = 8192;  ///< width and height of textures in pixels
 
-/// A file in a folder of heads. Its content depends only on the command line.
+/// A file to write into a folder of heads. The content depends only on the command line.
 struct HeadFile {
   std::filesystem::path path;
   std::function<EncodedFile()> make;
@@ -26,10 +26,11 @@ struct HeadFile {
 
 HeadFile text_file(const std::filesystem::path& path, std::string text);
 
-/// Writes the missing files and their folders. First compares the existing files with their
-/// intended content. An interrupted command can thus continue, and edited files are not lost.
-/// \param what     for progress messages, such as "synthetic heads".
-/// \param replace  whether to overwrite all files without comparing.
+/// Writes the missing files and creates their folders. Before writing, compares each existing file
+/// with the content that this function would write. An interrupted command can therefore continue,
+/// and files that the user edited are not lost.
+/// \param what     what the files are, for progress messages, such as "synthetic heads".
+/// \param replace  whether to overwrite existing files without comparing them.
 /// \throws UsageError, before writing, with the name of every file that has other content;
 /// CannotCreate if an existing path is not a regular file; IoError.
 void write_head_files(const std::string& what, const std::vector<HeadFile>& files, bool replace);
@@ -45,12 +46,12 @@ struct TaggedHead {
 /// Returns "young" below 35 years, "adult" from 35 to below 55 years, and "old" from 55 years on.
 std::string_view age_class(double years);
 
-/// Returns YAML with the section `faces`, which contains only tags ([female, old]). The ages are
-/// comments in this YAML.
+/// Returns YAML text with the section `faces`, which contains only tags, such as [female, old]. The
+/// heads' ages are comments in this text.
 /// \param title  first line of the comment at the top, without "# ": a description of the heads.
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view title);
 
-/// Returns a name with at least two digits: "synth_01".
+/// Returns the name of a head, such as "synth_01"; the number has at least two digits.
 std::string head_name(std::string_view kind, std::uint64_t index);
 
 }  // namespace crowdface::cli

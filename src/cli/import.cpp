@@ -37,9 +37,11 @@ struct HeadRequest {
   std::uint64_t count, seed;
 };
 
-/// Adds the files of all heads, and a file of their tags if the model defines sex and age.
-/// \param encode       encodes a head with the given positions and name.
-/// \param further_tag  returns an additional tag for a head's number, or an empty text.
+/// Adds the files of all heads. If the model defines sex and age, also adds a file with the tags of
+/// the heads.
+/// \param encode       returns the mesh file of a head with the given positions and name.
+/// \param further_tag  returns an additional tag for the head with the given number, or an empty
+///                     text.
 void add_heads(const HeadModel& model, const std::string& kind, const HeadRequest& request,
                const std::function<EncodedFile(const Positions&, const std::string& name)>& encode,
                const std::function<std::string(std::uint64_t)>& further_tag,
@@ -60,8 +62,8 @@ void add_heads(const HeadModel& model, const std::string& kind, const HeadReques
   files.push_back(text_file(request.directory / "tags.yaml", format_tags(tagged, title)));
 }
 
-/// Paints the region masks. Call this function before writing files, because it fails for a model
-/// without eyes or teeth. \param first  see paint_masks.
+/// Paints the region masks. Fails for a model without eyes or teeth; therefore call this function
+/// before files are written. \param first see paint_masks.
 template <class Model>
 PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                       const std::vector<bool>& first = {}) {
@@ -85,8 +87,8 @@ void add_masks(const PaintedMasks& masks, const std::string& kind, const HeadReq
   }
 }
 
-/// Marks the vertices of the skin, #V. Where polygons overlap in the texture, polygons of the skin
-/// take priority.
+/// Returns one value for each vertex: whether the vertex belongs to the skin. Where polygons
+/// overlap in the texture, skin polygons take priority over other polygons.
 std::vector<bool> skin_of(const MakeHumanHeads& model) {
   const Topology& topology = model.neutral().topology;
   std::vector<bool> skin(static_cast<std::size_t>(topology.vertex_count), false);
@@ -118,8 +120,9 @@ void import_makehuman(const ImportOptions& options, const HeadRequest& request) 
   const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
   const auto refined = [&](Mesh mesh, std::vector<MaterialRange>& materials) {
     for (int round = 0; round < rounds; ++round) {
-      // Subdivision replaces a face by one quad per corner. The first face of a material range
-      // becomes the quad at the first corner of the old first face.
+      // Subdivision replaces each polygon by one quad per corner. After subdivision, a material
+      // range begins with the quad at the first corner of the polygon with which the range began
+      // before.
       for (MaterialRange& range : materials) {
         range.first_face = mesh.topology.face_offsets[static_cast<std::size_t>(range.first_face)];
       }

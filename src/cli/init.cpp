@@ -40,8 +40,8 @@ bool has_three_bands(const fs::path& image) {
   }
 }
 
-/// Returns the name of the three-region mask that `synth` or `import` wrote to the folder of the
-/// heads; empty if there is none.
+/// Returns the file name of the three-region mask that `synth` or `import` wrote into the folder of
+/// the heads; empty if there is no such mask.
 std::string find_mask(const fs::path& heads) {
   for (const char* name : {"regions.png", "makehuman_bands.png", "ict_bands.png"}) {
     if (is_file(heads / name) && has_three_bands(heads / name)) return name;
@@ -73,7 +73,7 @@ std::vector<std::vector<std::string>> read_tags(const std::vector<fs::path>& fil
   return faces.tags;
 }
 
-/// The folder of attachments that `synth` and `import` write.
+/// Name of the folder into which `synth` and `import` write attachments.
 constexpr const char* kAttachments = "attachments";
 
 /// Returns whether there is a folder of attachments beside the heads, and at least one head may
@@ -97,14 +97,14 @@ void declare_init(CLI::App& command, InitOptions& options) {
   add_flag(command, "--force", options.force, "Replace an existing file");
 }
 
-/// Formats a number with four decimals if it is below 1, otherwise with two.
+/// Formats a number below 1 with four decimals, and any other number with two decimals.
 std::string format_number_of(double value) {
   return format_fixed(value, value < 1 ? 4 : 2);
 }
 
 constexpr std::size_t kHeadsLookedAt = 8;
 
-/// Properties of the heads, found from their shapes.
+/// Properties of the heads that are computed from the shapes of the heads.
 struct ShapeAnalysis {
   Positions first;                         ///< vertices of the first head
   std::optional<Orientation> orientation;  ///< up and front axes
@@ -114,8 +114,8 @@ struct ShapeAnalysis {
   double face = 0;            ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 
-/// Leaves out heads that `check` refuses because of their pose, and logs warnings. With such heads,
-/// the mean head would not look like a face.
+/// Removes heads that the command `check` would refuse because of their pose, and logs warnings. A
+/// mean that included these heads would not look like a human face.
 void remove_odd_heads(HeadSet& set, const Components& components) {
   const std::vector<HeadPose> poses = head_poses(set, components);
   std::vector<Head> kept;
@@ -130,8 +130,8 @@ void remove_odd_heads(HeadSet& set, const Components& components) {
   set.heads = std::move(kept);
 }
 
-/// Analyses a sample of the heads. If no regions can be proposed, logs a warning and does not fail,
-/// because a config without regions is valid.
+/// Analyses the shapes of some of the heads. If it can propose no regions, logs a warning instead
+/// of failing, because a config without regions is valid.
 ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks) {
   Config::Faces faces;
   for (std::size_t i = 0; i < std::min(files.size(), kHeadsLookedAt); ++i) {
@@ -145,7 +145,8 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
     log_warning(concat("no regions: ", problems.messages().front()));
     return {read_mesh_as_obj(files[0]).positions, {}, {}};
   }
-  // Align the heads as the config will, because only the mean of aligned heads looks like a face.
+  // Align the heads in the same way as the new config does, because only the mean of aligned heads
+  // looks like a human face.
   const Components components = find_components(build_adjacency(set->topology));
   remove_odd_heads(*set, components);
   const bool stands_apart = needs_rigid_alignment(*set, components);
@@ -170,9 +171,9 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
   return analysis;
 }
 
-/// Guesses the unit of the meshes: the named unit in which the face has human size (or the head, if
-/// no face was found); tries inches last. If no named unit fits, uses the unit length that gives
-/// the face human size.
+/// Guesses the length unit of the meshes: the named unit in which the face (or, if no face was
+/// found, the head) has the size of a human's. Tries inches last. If no named unit fits, computes
+/// the length of a unit that gives the face human size.
 void guess_units(const ShapeAnalysis& analysis, StarterFacts& facts) {
   constexpr double kTypicalHeightMm = 280;  // heads with and without neck and shoulders
   constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;
@@ -226,7 +227,7 @@ void init(const InitOptions& options) {
   beside.push_back(heads / kAttachments / "attachments.yaml");
   refuse_to_write_over(beside, {file});
   refuse_existing(file, options.force);
-  // Collect what the config states about the heads.
+  // Collect the facts about the heads that the new config states.
   StarterFacts facts;
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();
   facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
@@ -255,7 +256,7 @@ void init(const InitOptions& options) {
   facts.crowd_name = "crowd";
   facts.tags = read_tags(files, facts.names);
   if (!mask.empty()) facts.mask = (facts.heads / mask).string();
-  // Propose a mask if the heads have none.
+  // Propose a region mask if there is no mask for the heads.
   MaskFiles proposed;
   if (analysis.masks) {
     proposed = encode_masks(*analysis.masks, here / concat(file.stem().string(), "_bands.png"));
@@ -264,7 +265,7 @@ void init(const InitOptions& options) {
     facts.regions = {"brow", "nose", "mouth"};
   }
   if (has_wearable_attachments(heads, facts)) facts.attachments = facts.heads / kAttachments;
-  // Write the files and report the guesses for the user to check.
+  // Write the files, and report the guessed values so that the user can check them.
   for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
   write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(),

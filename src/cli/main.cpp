@@ -47,8 +47,8 @@ constexpr const char* kFooter =
 constexpr const char* kLack =
     "the system cannot provide more threads, memory or open files; use fewer threads (--threads): ";
 
-/// Returns whether an exception reports a lack of system resources. If TBB cannot start a thread,
-/// only the message text of its exception names the cause.
+/// Returns whether an exception reports a lack of system resources. Compares the message text: if
+/// TBB cannot start a thread, only the text of TBB's exception names the cause.
 bool is_lack_of_resources(const std::exception& error) {
   const std::string_view what = error.what();
   for (const std::errc lack : {std::errc::resource_unavailable_try_again,
@@ -60,8 +60,8 @@ bool is_lack_of_resources(const std::exception& error) {
 
 constexpr const char* kOutOfMemory = "out of memory; use fewer threads (--threads)";
 
-/// Logs an error and returns the exit code. If memory ran out, also logs this fact, because a
-/// library may report a failed allocation as an invalid file.
+/// Logs an error and returns the exit code. If an allocation has failed, also logs that memory ran
+/// out, because a library may report a failed allocation as an invalid file.
 int fail(ExitCode code, std::string_view message) {
   log_error(message);
   if (!is_out_of_memory()) return static_cast<int>(code);
@@ -69,7 +69,8 @@ int fail(ExitCode code, std::string_view message) {
   return static_cast<int>(ExitCode::kIoError);
 }
 
-/// Runs a command. Only this function translates exceptions to messages and exit codes.
+/// Runs a command and returns the exit code. Only this function translates exceptions to messages
+/// and exit codes.
 int run(const Run& command) {
   try {
     command();
@@ -112,7 +113,8 @@ int run(const Run& command) {
   ::_exit(static_cast<int>(code));
 }
 
-/// Throws a helpful error for an unknown command; CLI11 only reports that a command is required.
+/// Throws an error that names an unknown command. Without this function, CLI11 would only report
+/// that a command is required.
 void refuse_unknown_command(const CLI::App& program, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
@@ -124,8 +126,9 @@ void refuse_unknown_command(const CLI::App& program, int argc, const char* const
                                   : concat("; expected one of ", join(names))));
 }
 
-/// Refuses values that CLI11 accepts: empty values, such as `--shard "$PART"` if PART is not set,
-/// and values with line breaks, because a file name with line breaks could imitate a log message.
+/// Refuses two kinds of option values that CLI11 accepts. Empty values, such as `--shard "$PART"`
+/// if PART is not set, are probably mistakes. A file name with line breaks could imitate a log
+/// message.
 void refuse_senseless_values(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands()) {
     for (const CLI::Option* option : command->get_options()) {
@@ -142,13 +145,14 @@ void refuse_senseless_values(const CLI::App& program) {
   }
 }
 
-/// Opens /dev/null for each closed standard stream. Otherwise the next opened file would get the
-/// stream's number and receive messages.
+/// Opens /dev/null for each standard stream that is closed. Otherwise the next opened file would
+/// get the number of this stream, and messages would be written into the file.
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1) continue;
     // open() returns the lowest free file descriptor, which is `stream`. For standard output,
-    // /dev/null is opened for reading only, so that writing still fails.
+    // /dev/null is opened for reading only, so that writing to a closed standard output still
+    // fails.
     if (::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR) < 0) return;
   }
 }
@@ -160,8 +164,8 @@ int run_program(int argc, char** argv) {
   // reported as a write error.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  // The image library may load OpenBLAS, which raises SIGINT if it cannot start threads. Nothing
-  // needs these threads.
+  // Limit OpenBLAS, which the image library may load, to one thread. OpenBLAS raises SIGINT if it
+  // cannot start its threads, and crowdface does not need these threads.
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
   watch_for_out_of_memory();
   watch_mapped_files();

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An image in memory: sRGB and alpha, 8 bits each.
+/// An image in memory, with 8 bits each for sRGB red, green, blue and for alpha.
 struct Picture {
   int width = 0, height = 0;
   bool has_alpha = false;
@@ -59,8 +59,8 @@ std::uint8_t srgb8_of_light(double light) {
   return srgb8_of_densities()[density_of_light(static_cast<float>(light))];
 }
 
-/// Downsamples an image to at most `max_texels` in width and height by averaging square blocks, in
-/// linear light and weighted by alpha.
+/// Downsamples an image to at most `max_texels` in width and height. Averages square blocks of
+/// texels in linear light, weighted by alpha.
 Picture downsampled(Picture picture, int max_texels) {
   const int block = (std::max(picture.width, picture.height) + max_texels - 1) / max_texels;
   if (block <= 1) return picture;
@@ -96,9 +96,9 @@ Picture downsampled(Picture picture, int max_texels) {
   return small;
 }
 
-/// Makes a hair texture neutral, so that it can be tinted with any hair colour: grey with the mean
-/// linear light kNeutralTextureMean. Keeps the relative brightness of the texels, with less
-/// contrast.
+/// Makes a hair texture neutral, so that any hair colour can tint it. The result is grey, and the
+/// mean of its linear light is kNeutralTextureMean. Brighter texels stay brighter than darker
+/// texels, but with less contrast.
 void make_neutral(Picture& picture) {
   const std::vector<float>& light = light_of_srgb8_values();
   const auto lightness = [&](const std::array<std::uint8_t, 4>& texel) {
@@ -140,7 +140,8 @@ HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels
           [from, max_texels] { return encoded(downsampled(read_picture(from), max_texels)); }};
 }
 
-/// Blends skin textures in optical density, because the densities of mixed pigments add up.
+/// Blends skin textures. Averages optical densities instead of colours, because the densities of
+/// mixed pigments add up.
 /// \param tone  factor on the densities.
 Picture blended_skin(const std::vector<SkinShare>& shares, double tone) {
   std::vector<Picture> pictures;

@@ -15,25 +15,25 @@
 
 namespace crowdface::cli {
 
-/// The files that `import makehuman --dress` writes in addition to the heads. A texture is computed
-/// only when its file is written.
+/// The files that `import makehuman --dress` writes in addition to the heads. The object computes a
+/// texture only when the texture's file is written.
 class MakeHumanDress {
  public:
   /// Adds eyes, lashes, teeth and tongue to the model's heads.
   /// \param model        must outlive this object.
-  /// \param max_texels  maximum width and height; larger textures are downsampled.
+  /// \param max_texels  maximum width and height of textures; larger textures are downsampled.
   MakeHumanDress(const std::filesystem::path& package, MakeHumanHeads& model, int max_texels);
 
   /// Adds a person's material file `NAME.mtl`, skin texture `NAME_skin.png`, and eye texture.
   void add_person(const std::filesystem::path& folder, const std::string& name, std::uint64_t seed,
                   std::uint64_t index, std::vector<HeadFile>& files);
-  /// Adds the body's material file `body.mtl` and its texture `body.png`: the mean of the skins of
-  /// a woman and a man of mixed ancestry.
+  /// Adds the body's material file `body.mtl` and texture `body.png`. The texture is the mean of
+  /// two skin textures: of a woman and of a man of mixed ancestry.
   void add_body(const std::filesystem::path& folder, std::vector<HeadFile>& files) const;
-  /// Adds the files that all heads share: textures of lashes, teeth and tongue; `licences.txt`; the
-  /// folder `attachments` with hair, brows and beards for the added persons and with the config
-  /// section that lists these attachments.
-  /// \param base  the average head, in the heads' topology.
+  /// Adds the files that all heads share: textures of lashes, teeth and tongue; `licences.txt`; and
+  /// the folder `attachments`. This folder contains hair, brows and beards for the added persons,
+  /// and the config section that lists these attachments.
+  /// \param base  the average head, with the same topology as the heads.
   void add_common(const std::filesystem::path& folder, HeadFile base, std::vector<HeadFile>& files);
 
  private:
@@ -44,7 +44,7 @@ class MakeHumanDress {
   const MakeHumanHeads& model_;
   MakeHumanParts parts_;
   int max_texels_;
-  /// the different tag sets of the added persons
+  /// all different sets of tags that added persons have
   std::set<std::set<std::string>> tags_;
   std::map<std::string, std::filesystem::path> eyes_;  ///< eye textures in use, by colour
 };

@@ -28,7 +28,7 @@ struct MaskOptions : CommonOptions {
   bool force = false;
 };
 
-/// The heads, and their up and front axes if a config defines these.
+/// The heads to mask. Also the up and front axes of the heads, if a config defines these axes.
 struct MaskInputs {
   Config::Faces faces;
   std::optional<Orientation> orientation;
@@ -47,8 +47,8 @@ MaskInputs heads_of_folder(const fs::path& folder) {
   return wanted;
 }
 
-/// Reads the heads from a config. Ignores problems in other parts of the config, because the mask
-/// file that the config names may not exist yet.
+/// Reads the heads that a config names. Ignores problems in the rest of the config: for example,
+/// the mask file that the config names may not exist yet.
 MaskInputs heads_of_config(const fs::path& file) {
   Problems problems;
   const ConfigReading reading = read_config_parts(file, {}, problems);

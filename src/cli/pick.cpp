@@ -15,8 +15,8 @@
 namespace crowdface::cli {
 namespace {
 
-/// Returns the file that `--landmarks` names; the page saves landmarks to this file, which need not
-/// exist.
+/// Returns the path that `--landmarks` gives. The file need not exist; the page saves landmarks to
+/// this file.
 std::filesystem::path landmarks_file(const WrapOptions& options) {
   if (options.landmarks.empty()) {
     throw UsageError("--pick: expected --landmarks FILE.yaml, the file to save the landmarks to");
@@ -30,8 +30,9 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
   return file;
 }
 
-/// Returns the scans and their landmark files: one scan with the file of --landmarks, or with
-/// --batch all scans of a folder, each with a YAML file of the same name in that folder.
+/// Returns the scans with their landmark files. Without --batch: one scan and the file of
+/// --landmarks. With --batch: all scans of a folder; the landmark file of a scan is the YAML file
+/// with the same name in this folder.
 std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
   if (options.batch.empty()) return {{options.scan, landmarks_file(options)}};
   std::vector<PickScans::Entry> entries;

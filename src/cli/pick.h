@@ -9,7 +9,7 @@
 
 namespace crowdface::cli {
 
-/// The command line of `wrap`.
+/// The options and arguments of the command `wrap`.
 struct WrapCommand : CommonOptions, WrapOptions {
   std::string template_argument;  ///< the template, without --batch
   std::string shard_text;         ///< part of the batch, such as 2/7
@@ -17,7 +17,8 @@ struct WrapCommand : CommonOptions, WrapOptions {
   bool pick = false, no_browser = false;
 };
 
-/// Executes `wrap --pick`: serves the page on which the user picks landmarks of template and scan.
+/// Executes `wrap --pick`: serves the page on which the user picks landmarks on the template and on
+/// the scan.
 /// \throws Error
 void pick(const WrapCommand& options);
 

@@ -26,7 +26,8 @@ struct SmoothOptions : CommonOptions {
   bool plain = false;
 };
 
-/// Parses levels such as "500,2500"; refuses duplicates.
+/// Parses a list of smoothing levels (numbers of iterations), such as "500,2500"; refuses
+/// duplicates.
 std::vector<std::uint64_t> levels_of(const std::string& text) {
   std::vector<std::uint64_t> levels;
   for (const std::string_view level : split(text, ',')) {
@@ -38,8 +39,8 @@ std::vector<std::uint64_t> levels_of(const std::string& text) {
   return levels;
 }
 
-/// Returns the output file of a level: OUT.obj if there is only one level, otherwise a name with
-/// the level, such as OUT_500.obj.
+/// Returns the output file for a smoothing level. If there is only one level, the file is OUT.obj;
+/// otherwise the file name contains the level, such as OUT_500.obj.
 std::filesystem::path output_of(const SmoothOptions& options, std::uint64_t level, bool alone) {
   if (alone) return options.out;
   const std::filesystem::path path = options.out;
@@ -71,7 +72,7 @@ void smooth_file(const SmoothOptions& options) {
   }
 }
 
-/// Adds an option whose value is one of the words of the enumeration `Value`, see words_of.
+/// Adds an option whose value must be one of the words of the enumeration `Value` (see words_of).
 template <class Value>
 void add_word_option(CLI::App& command, const char* name, Value& value, const char* help) {
   std::vector<std::string> words;

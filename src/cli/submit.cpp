@@ -62,8 +62,8 @@ fs::path full_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal();
 }
 
-/// Returns the command-line arguments for this config, with absolute paths, so that every machine
-/// can use them.
+/// Returns the command-line arguments that name the config and its overrides. Paths are absolute,
+/// so that the arguments are valid on every machine.
 std::vector<std::string> config_arguments(const ConfigOptions& options, const fs::path& out) {
   std::vector<std::string> arguments = {full_path(options.config).string(), "--out", out.string()};
   const auto add = [&](const char* name, const std::string& value) {
@@ -85,7 +85,7 @@ Engine engine_from(const std::string& name) {
 }
 
 /// Checks the options.
-/// \throws UsageError if a given option does not apply to the engine.
+/// \throws UsageError if a given option does not apply to the chosen job engine.
 void refuse_inapplicable_options(const SubmitOptions& options, Engine engine) {
   const EngineOptions& of_engine = options.of_engine;
   const auto only_for = [&](const char* name, bool given, Engine wanted) {
@@ -130,7 +130,7 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   return tasks;
 }
 
-/// Runs a generated script and waits for it; passes its exit code on.
+/// Runs a generated script, waits until the script ends, and passes the script's exit code on.
 void run_script(const fs::path& script) {
   std::string program = "bash", argument = script.string();
   std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};

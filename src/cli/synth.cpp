@@ -30,15 +30,17 @@ struct SynthOptions : CommonOptions {
   bool hair = false, body = false, tags = false, skin_only = false, force = false;
 };
 
-/// Returns whether two paths name the same folder, which need not exist.
+/// Returns whether two paths name the same folder. The folder need not exist.
 bool same_folder(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::weakly_canonical(fs::absolute(a / "", error), error) ==
          fs::weakly_canonical(fs::absolute(b / "", error), error);
 }
 
-/// Returns a material file: skin and eyes with textures, teeth with a plain colour.
-/// \param head  name of the head, whose textures are HEAD_albedo.png and so on.
+/// Returns the text of a head's material file. Skin and eyes have textures; teeth have a plain
+/// colour.
+/// \param head  name of the head; the file names of the textures begin with it, such as
+///              HEAD_albedo.png.
 std::string material_file(const std::vector<MaterialRange>& materials, const std::string& head) {
   std::string text;
   for (const MaterialRange& material : materials) {
@@ -51,8 +53,8 @@ std::string material_file(const std::vector<MaterialRange>& materials, const std
   return text;
 }
 
-/// Adds the body. If there are skin textures, also adds the body's material file and its texture,
-/// which shows the skin of the first head.
+/// Adds the mesh of the body. If the heads have skin textures, also adds the body's material file
+/// and the body's texture, which shows the skin of the first head.
 void add_body(const fs::path& folder, const SyntheticHeads& heads, const SyntheticSkins* skins,
               std::uint64_t seed, std::vector<HeadFile>& files) {
   const std::string library = skins != nullptr ? "body.mtl" : "";

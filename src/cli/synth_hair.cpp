@@ -41,7 +41,8 @@ bool is_for(const synth::HairCut& cut, bool female, bool curly, bool bald) {
   return cut.female == female && cut.curly == curly && cut.has_bald_crown == bald;
 }
 
-/// Returns the condition on the age class of those who wear a cut, or an empty text.
+/// Returns the config text that excludes heads of one age class from a haircut, such as ", without:
+/// [old]"; empty if all age classes may wear the haircut.
 const char* age_condition(const synth::HairCut& cut) {
   if (cut.young) return ", without: [old]";
   return cut.receding > 0 ? ", without: [young]" : "";
@@ -59,7 +60,7 @@ std::string item_line(std::string_view name, std::string_view kind, const std::s
   return concat("    - {name: ", name, ", kind: ", kind, ", file: ", name, ".obj, ", more, "}\n");
 }
 
-/// The skin of the average head.
+/// The skin of the average head, without other parts.
 Mesh average_skin(const SyntheticHeads& heads) {
   Mesh skin{{}, heads.average(), heads.uvs()};
   Index end = heads.topology().face_count();

@@ -16,18 +16,18 @@
 
 namespace crowdface::cli {
 
-/// Attachments for synthetic heads: hair cards for every haircut that a head may wear, brows and
-/// beards. Each attachment exists once and has a neutral texture.
+/// Attachments for synthetic heads: brows, beards, and hair cards for every haircut that a head may
+/// wear. All heads share each attachment, which has a neutral texture.
 class SynthHair {
  public:
-  /// Registers a head. \return its tags: skin, hair colour and hair form, such as "light_skin,
-  /// brown_hair, straight_hair". The colour is the hair colour of the person's youth; the form is
-  /// "bald" if the crown is bald.
+  /// Registers a head. \return the tags of the head for skin, hair colour and hair form, such as
+  /// "light_skin, brown_hair, straight_hair". The hair colour is the colour in the person's youth.
+  /// The hair form is "bald" if the crown of the head is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
-  /// Adds the files of the folder `attachments`, inside the folder of the heads: meshes, materials,
-  /// textures, the average head that the meshes are fitted to, and attachments.yaml with the
-  /// config's section.
+  /// Adds the files of the folder `attachments`, which is inside the folder of the heads: meshes,
+  /// materials, textures, the average head to which the meshes are fitted, and attachments.yaml
+  /// with the config section `attachments`.
   void add_files(const std::filesystem::path& directory, const SyntheticHeads& heads,
                  const std::vector<MaterialRange>& materials, std::vector<HeadFile>& files) const;
 

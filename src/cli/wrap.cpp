@@ -8,8 +8,8 @@
 namespace crowdface::cli {
 namespace {
 
-/// Checks that the options are compatible. Without --batch, moves the template's path from
-/// `template_argument` to `template_file`.
+/// Checks that the options are compatible with each other, and returns them. Without --batch, moves
+/// the path of the template from `template_argument` to `template_file`.
 WrapCommand checked_options(WrapCommand options) {
   if (options.pick && !options.out.empty()) {
     throw UsageError("--pick: expected no -o, --output, because --pick wraps nothing");

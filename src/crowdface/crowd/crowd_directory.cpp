@@ -33,7 +33,7 @@ void remove_file(const fs::path& path) {
   }
 }
 
-/// The folders that a crowd may have, parents before their children.
+/// The subfolders that a crowd's folder may have. A parent folder precedes its subfolders.
 std::vector<fs::path> crowd_folders(const CrowdDirectory& directory) {
   const fs::path data = directory.gallery() / "data";
   std::vector<fs::path> folders;
@@ -60,7 +60,8 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
           directory.rejected(), directory.plan_marker(), directory.stage()};
 }
 
-/// Names of the files that the folder's ledgers list under items whose names begin with `items`.
+/// Names of the files that the ledgers in the folder list. Reads only ledger items whose names
+/// begin with `items`.
 std::set<std::string> recorded_files(const CrowdDirectory& directory, std::string_view items) {
   std::set<std::string> names;
   for (const fs::path& ledger : directory.ledgers()) {
@@ -71,8 +72,8 @@ std::set<std::string> recorded_files(const CrowdDirectory& directory, std::strin
   return names;
 }
 
-/// The files of faces: the recorded files, and files of the plan's faces that a killed run did not
-/// record.
+/// The files of all faces: the files that ledgers record, and files of faces in the plan that a
+/// killed run wrote but did not record.
 std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   const std::set<std::string> recorded = recorded_files(directory, "faces/");
   std::set<std::string> ids;
@@ -110,8 +111,8 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   return files;
 }
 
-/// Removes the crowd's own files, which have fixed names, and the files that its ledgers list,
-/// unless they were altered. Keeps all other files, because they belong to the user.
+/// Removes the crowd's files with fixed names, and the unaltered files that the crowd's ledgers
+/// list. Keeps all other files, because other files belong to the user.
 void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
   for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
@@ -136,10 +137,10 @@ void remove_crowd(const CrowdDirectory& directory) {
   remove_file(directory.config());
 }
 
-/// Checks each path with a single call, because another run may remove its lock file between two
-/// calls.
-/// \throws CannotCreate if one of the crowd's folders is a file or not writable, or one of its
-///         files is a folder.
+/// Checks that the crowd's paths can be written. Checks each path with a single system call,
+/// because another run may remove its lock file between two calls.
+/// \throws CannotCreate if one of the crowd's folders is a file or not writable, or if one of the
+///         crowd's files is a folder.
 void refuse_obstacles(const CrowdDirectory& directory) {
   const auto stands_at = [](const fs::path& path) {
     std::error_code error;
@@ -168,8 +169,9 @@ void refuse_obstacles(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether a folder without a config has files that a crowd would overwrite. False if a ledger
-/// proves that this crowd's config was in the folder, so that only the config was lost.
+/// Whether a folder without a config.yaml has other files that a crowd would overwrite. False if a
+/// ledger records this crowd's config.yaml, because then the files belong to this crowd and only
+/// the config.yaml was lost.
 bool holds_other_files(const CrowdDirectory& directory, const std::string& effective_config) {
   if (path_exists(directory.config())) return false;
   const std::string name = directory.relative(directory.config());
@@ -182,7 +184,8 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
                          std::ranges::any_of(crowd_folders(directory), [](const fs::path& folder) {
                            return !list_folder(folder).empty();
                          });
-  // Another shard may have begun in the meantime; it writes its config first.
+  // Check again: another shard may have begun in the meantime. A shard writes config.yaml before
+  // its other files.
   return holds_any && !path_exists(directory.config());
 }
 
@@ -206,7 +209,7 @@ void set_reviews_aside(const CrowdDirectory& directory) {
 }
 
 /// \throws UsageError if the folder has reviews that this run would overwrite or not apply, because
-///         another run has added them.
+///         another run added these reviews after this run read its config.
 void refuse_unread_reviews(const CrowdDirectory& directory, const CrowdConfig& config) {
   const std::vector<fs::path> kept = directory.kept_reviews();
   for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -221,7 +224,8 @@ void refuse_unread_reviews(const CrowdDirectory& directory, const CrowdConfig& c
   }
 }
 
-/// Refuses links that would lead a run to write, append or remove outside the crowd's folder.
+/// Refuses symbolic links through which a run would write, append or remove files outside the
+/// crowd's folder.
 /// \throws CannotCreate if there is such a link.
 void refuse_links(const CrowdDirectory& directory) {
   for (const fs::path& folder : crowd_folders(directory))
@@ -238,7 +242,7 @@ void refuse_links(const CrowdDirectory& directory) {
   }
 }
 
-/// Whether a file in the sheets folder has a name that crowdface gives to sheets.
+/// Whether a file in the folder of sheets has the name of a numbered contact sheet.
 bool is_numbered_sheet(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string ending = path.extension().string();

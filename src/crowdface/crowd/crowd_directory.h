@@ -17,7 +17,8 @@
 
 namespace crowdface {
 
-/// Name of the file with the points that follow a face; the face's id and '+' precede this name.
+/// Second part of the name of the file with the points that follow a face. The first part is the
+/// face's id and '+'.
 inline constexpr const char* kFollowingPointsFile = "points.json";
 
 /// Paths of the files in a crowd's folder (docs/crowd-directory.md).
@@ -29,11 +30,13 @@ struct CrowdDirectory {
 
   std::filesystem::path config() const { return root / "config.yaml"; }
   std::filesystem::path plan() const { return root / "plan.jsonl"; }
-  /// The hidden founders of families, in the format of the plan.
+  /// The founders of families, in the format of the plan. Founders are hidden faces from which the
+  /// members of a family are made.
   std::filesystem::path founders() const { return root / "founders.jsonl"; }
   /// The faces that reviews rejected, in the format of the plan.
   std::filesystem::path rejected() const { return root / "rejected.jsonl"; }
-  /// Copies of the reviews that the crowd depends on, in their order; `number` counts from 1.
+  /// The folder with copies of the reviews that the crowd depends on. `number` is the position of a
+  /// review in the order of the reviews, counted from 1.
   std::filesystem::path reviews() const { return root / "reviews"; }
   std::filesystem::path review(std::size_t number) const;
   std::vector<std::filesystem::path> kept_reviews() const;
@@ -44,20 +47,20 @@ struct CrowdDirectory {
   std::filesystem::path log() const { return root / "crowdface.log"; }
   std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
   std::filesystem::path lock() const { return root / ".crowdface.lock"; }
-  /// A file that identifies the job to which the plan belongs, so that a shard uses only the plan
-  /// of its own job; see read_planned_faces.
+  /// A file that identifies the job to which the plan belongs. A shard uses only a plan of its own
+  /// job; see read_planned_faces.
   std::filesystem::path plan_marker() const { return root / "planned.json"; }
-  /// Progress of a shard, for `crowdface status` and other observers.
+  /// File with the progress of a shard, for `crowdface status` and other observers.
   std::filesystem::path progress(const Shard& shard) const {
     return shard_path(root / "progress.json", shard);
   }
   std::vector<std::filesystem::path> all_progress() const {
     return existing_shard_paths(root / "progress.json");
   }
-  /// Scripts and logs of tasks that run on other machines.
+  /// Folder with the scripts and logs of the tasks that run on other machines.
   std::filesystem::path task_folder() const { return root / "submit"; }
-  /// The shard's own log, ledger and lock. If the shard is the whole crowd: the crowd's log, ledger
-  /// and lock.
+  /// The log, ledger and lock of a shard. If the shard is the whole crowd: the log, ledger and lock
+  /// of the crowd.
   std::filesystem::path log(const Shard& shard) const { return shard_path(log(), shard); }
   std::filesystem::path ledger(const Shard& shard) const { return shard_path(ledger(), shard); }
   std::filesystem::path lock(const Shard& shard) const { return shard_path(lock(), shard); }
@@ -66,7 +69,7 @@ struct CrowdDirectory {
     return existing_shard_paths(ledger());
   }
   std::vector<std::filesystem::path> shard_logs() const { return existing_shard_paths(log()); }
-  /// The ledgers of all shards, then the crowd's own ledger, which need not exist.
+  /// The existing ledgers of all shards, then the ledger of the whole crowd, which need not exist.
   std::vector<std::filesystem::path> ledgers() const;
   std::filesystem::path meshes() const { return root / "meshes"; }
   std::filesystem::path renders() const { return root / "renders"; }
@@ -77,15 +80,16 @@ struct CrowdDirectory {
   ///              because no face's id contains '+'.
   std::filesystem::path mesh(const std::string& id, MeshFormat format,
                              const std::string& part = {}) const;
-  /// Arrays that define the polygons of positions-only meshes (MeshFormat::kPoints).
+  /// Folder of arrays that define the polygons for mesh files that contain only positions
+  /// (MeshFormat::kPoints).
   std::filesystem::path topology() const { return meshes() / "topology"; }
   /// Folder with the meshes of a face. Subfolders hold the textures that the face's material file
   /// names.
   std::filesystem::path meshes_of(const std::string& id) const {
     return meshes() / numbered_subfolder(id);
   }
-  /// Relative path from a face's meshes to files that all faces share, such as material files: ".."
-  /// or empty.
+  /// Relative path from the folder of a face's meshes to the folder of files that all faces share
+  /// (such as material files): ".." or empty.
   std::string path_from_mesh_to_shared() const { return faces_per_folder > 0 ? ".." : ""; }
   std::filesystem::path render(const std::string& id) const {
     return renders() / numbered_subfolder(id) / (id + ".png");
@@ -102,7 +106,8 @@ struct CrowdDirectory {
   std::filesystem::path gallery_face(const std::string& id) const {
     return gallery_faces() / numbered_subfolder(id) / (id + ".js");
   }
-  /// Scripts with the recipes of a large crowd; each script holds `faces_per_folder` faces.
+  /// Folder of scripts with the recipes of a large crowd, for the gallery. Each script holds
+  /// `faces_per_folder` faces.
   std::filesystem::path gallery_pages() const { return gallery() / "data/pages"; }
   std::filesystem::path gallery_head(const std::string& name) const {
     return gallery() / "data/heads" / (name + ".js");
@@ -110,19 +115,19 @@ struct CrowdDirectory {
   std::filesystem::path gallery_attachment(const std::string& name) const {
     return gallery() / "data/attachments" / (name + ".js");
   }
-  /// Path of a file relative to the crowd's folder, as the ledger lists it.
+  /// Path of a file relative to the crowd's folder. Ledgers list files by this relative path.
   std::string relative(const std::filesystem::path& file) const {
     return file.lexically_relative(root).generic_string();
   }
   /// Path of sheet number `page`, counted from 1. Each numbered subfolder holds `faces_per_folder`
   /// sheets.
   std::filesystem::path sheet(std::size_t page) const;
-  /// Subfolder of a face, such as "012", from the number at the end of its id; empty if the crowd
-  /// has no subfolders.
+  /// Name of the subfolder for the files of a face, such as "012", computed from the number at the
+  /// end of the face's id. Empty if the crowd has no subfolders.
   std::filesystem::path numbered_subfolder(std::string_view id) const;
 };
 
-/// A folder and its existing numbered subfolders.
+/// Returns a folder followed by the existing numbered subfolders of this folder.
 std::vector<std::filesystem::path> folder_and_numbered_subfolders(
     const std::filesystem::path& folder);
 
@@ -135,16 +140,16 @@ void refuse_link_out_of_crowd(const CrowdDirectory& directory, const std::filesy
 /// valid file name.
 std::vector<std::string> ids_in_plan(const CrowdDirectory& directory);
 
-/// Files of the gallery's page, in the gallery's folder; the page reads its content from the
-/// subfolder `data`.
+/// Names of the files of the gallery's page, which are in the gallery's folder. The page reads the
+/// content to show from the subfolder `data`.
 inline constexpr std::array<std::string_view, 4> kGalleryPageFiles = {
     "index.html", "gallery.js", "gallery.css", "three.LICENSE.txt"};
 inline bool is_gallery_page_file(const std::filesystem::path& path) {
   return contains(kGalleryPageFiles, path.filename().string());
 }
 
-/// Folder with the material files of an attachment and the textures that they name, relative to the
-/// folder of the meshes that all faces share.
+/// Folder with the material files of an attachment and the textures that these files name. The path
+/// is relative to the folder of meshes.
 /// \param colour  text from colour_label, or empty.
 inline std::filesystem::path attachment_folder(const std::string& name,
                                                const std::string& colour = {}) {
@@ -152,44 +157,47 @@ inline std::filesystem::path attachment_folder(const std::string& name,
   return colour.empty() ? folder : folder / colour;
 }
 
-/// Ledger item of the contact sheets and of all files that are made with them.
+/// Name of the ledger item of the contact sheets. The item also lists all files that are made
+/// together with the sheets.
 inline constexpr std::string_view kSheetsItem = "sheets";
 
-/// The contact sheets in the folder. Sheets of families have arbitrary names, so they are looked up
-/// in the ledger; other sheets are recognised by their names.
+/// The contact sheets in the folder. Looks up the sheets of families in the ledger, because these
+/// sheets have arbitrary names. Recognises other sheets by their names.
 std::vector<std::filesystem::path> crowd_sheets(const CrowdDirectory& directory);
 
-/// The files made together with the sheets: images of heads and founders, and the gallery except
-/// for the meshes of faces.
+/// The files that are made together with the contact sheets: images of heads and founders, and the
+/// files of the gallery except the meshes of faces.
 /// \throws IoError if a folder cannot be read.
 std::vector<std::filesystem::path> files_made_with_sheets(const CrowdDirectory& directory);
 
-/// \throws MissingInput if the folder is not a crowd's folder.
+/// Checks that the folder is the folder of a crowd. \throws MissingInput if not.
 void require_crowd(const CrowdDirectory& directory);
 
 enum class Replace { kRefuse, kForce };
 
-/// A crowd's config as it is compared with the config.yaml in a folder.
+/// A crowd's config, for comparison with the config.yaml that is already in a folder.
 struct CrowdConfig {
   std::string text;                  ///< content to write to config.yaml
   std::vector<std::string> reviews;  ///< content of each review file
-  /// Returns the keys in which another config.yaml differs; none if it describes the same crowd.
+  /// Returns the keys in which another config.yaml differs from this config; no keys if the other
+  /// config.yaml describes the same crowd.
   std::function<std::vector<std::string>(const std::string& other)> differences;
-  /// #reviews: the content of each review file when this run read it
+  /// one per review: the content of the review file at the time when this run read the file
   std::vector<std::string> original_reviews = {};
-  /// Whether to rename the folder of reviews to a name with the date.
+  /// Whether to rename the existing folder of reviews to a name with the date.
   bool rename_review_folder = false;
 };
 
-/// Checks before any heavy work whether open_crowd_directory would succeed; changes nothing.
+/// Checks whether open_crowd_directory would succeed, but changes nothing. For use before any heavy
+/// work.
 /// \throws UsageError if the folder holds another crowd; CannotCreate if the folder is not
 ///         writable.
 void check_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,
                            Replace replace);
 
-/// Prepares the folder for this crowd: creates the folder, and either refuses a folder that holds
-/// another crowd or (kForce) first removes the files of that crowd. Never removes reviews or other
-/// files that a person wrote.
+/// Prepares the folder for this crowd. Creates the folder if necessary. If the folder holds another
+/// crowd, refuses the folder or (with kForce) removes the files of that crowd. Never removes
+/// reviews or other files that a person wrote.
 /// \throws UsageError if the folder holds another crowd, or reviews that this run did not read;
 ///         CannotCreate, IoError.
 void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& config,

@@ -10,17 +10,17 @@
 
 namespace crowdface {
 
-/// Holds the write lock of a crowd's folder during its lifetime. A run over the whole crowd holds
-/// the lock exclusively; different shards share the lock, but two runs of the same shard exclude
-/// each other.
+/// Holds the write lock of a crowd's folder during its lifetime. A run over the whole crowd
+/// excludes all other runs. Runs of different shards can hold the lock at the same time; two runs
+/// of the same shard cannot.
 class CrowdLock {
  public:
-  /// Creates the folder if necessary, waits for the lock and logs that it waits. Then removes files
-  /// that killed runs left half written.
+  /// Creates the folder if necessary, and waits for the lock; logs a message if the lock is not
+  /// free. Then removes files that killed runs left half written.
   /// \throws CannotCreate, IoError, Interrupted.
   CrowdLock(const CrowdDirectory& directory, const Shard& shard);
 
-  /// Call this before a run reports success.
+  /// Checks that the locked folder still has its path. Call this before a run reports success.
   /// \throws IoError if the folder was removed or replaced since the lock was taken.
   void require_same_folder() const { root_->require_same(); }
 

@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the content of a file, or an empty text if another process has just removed the file.
+/// Returns the content of a file. If another process has just removed the file, returns an empty
+/// text.
 std::string text_of(const fs::path& path) {
   try {
     return read_file(path);
@@ -28,7 +29,8 @@ std::string text_of(const fs::path& path) {
   }
 }
 
-/// The text between `start` and the next quote if the line begins with `start`; otherwise empty.
+/// If the line begins with `start`: the text between `start` and the next quotation mark. Otherwise
+/// empty.
 std::string_view quoted_after(std::string_view line, std::string_view start) {
   if (!line.starts_with(start)) return {};
   line.remove_prefix(start.size());
@@ -48,8 +50,8 @@ void for_each_line_of(const fs::path& path, const Use& use) {
   }
 }
 
-/// Ids of faces that have a line in any ledger. Does not check the lines; runs that continue or
-/// gather the crowd check them.
+/// Ids of faces that have a line in any ledger. Does not verify the lines, because runs that
+/// continue or gather the crowd verify the lines.
 std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory) {
   std::unordered_set<std::string> ids;
   for (const fs::path& path : directory.ledgers()) {
@@ -61,8 +63,8 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
   return ids;
 }
 
-/// Returns the number of shards: from the last submission to a farm, or else from the shards' file
-/// names; 1 if there are no shards.
+/// Returns the number of shards: the number of tasks that was last submitted to a farm; without a
+/// submission, the number in the file names of shards; 1 if there are no shards.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
   const auto job = parse_shallow_json(text_of(directory.task_folder() / "job.json"));
   if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {
@@ -104,7 +106,8 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
   }
 }
 
-/// Adds the error from the log of a task that died without a report in the crowd's folder.
+/// For a task that died without writing a report into the crowd's folder: adds the error from the
+/// task's log to the status.
 void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
   const TaskEnd end = parse_task_end(
       text_of(directory.task_folder() / "log" / concat("blend-", status.shard.index, ".log")));
@@ -125,7 +128,7 @@ ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
   return status;
 }
 
-/// Derives the final state and the remaining time. Call this once `done` is known.
+/// Computes the final state and the remaining time of a shard. Call this once `done` is known.
 void finish(const CrowdDirectory& directory, ShardStatus& status) {
   if (status.faces > 0 && status.finished_faces == status.faces) {
     status.state = ShardState::kDone;
@@ -157,7 +160,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
 
 TaskEnd parse_task_end(std::string_view log) {
   TaskEnd end;
-  // An incomplete last line is still being written.
+  // Skip an incomplete last line, which is still being written.
   for (const std::string_view line : split_lines(log.substr(0, log.rfind('\n') + 1))) {
     if (line.starts_with("=== ended with code ")) {
       end.code = parse_unsigned(line.substr(line.rfind(' ') + 1));

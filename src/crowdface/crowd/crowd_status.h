@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The progress of a crowd on all machines, read from its folder alone.
+// The progress of a crowd on all machines. The crowd's folder is the only source of information.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct CrowdStatus {
   std::vector<std::string> failures;     ///< last error of each failed task that is not a shard
 };
 
-/// The end of the last attempt in a task's log.
+/// How the last attempt to run a task ended, according to the task's log.
 struct TaskEnd {
   std::optional<std::uint64_t> code;  ///< exit code; nothing if the task has not ended
   std::string reason;                 ///< last error in the log

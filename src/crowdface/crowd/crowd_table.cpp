@@ -23,7 +23,8 @@ namespace {
 struct TableColumn {
   std::string name;
   std::function<std::string(const FacePlan& face)> value;
-  /// The table has the column if it applies to any face. Empty: the table always has the column.
+  /// Whether the column applies to a face. The table has the column if it applies to at least one
+  /// face. An empty function means that the table always has the column.
   std::function<bool(const FacePlan& face)> applies = {};
 };
 using TableColumns = std::vector<TableColumn>;
@@ -48,7 +49,8 @@ std::string weights_text(const std::vector<SourceWeight>& weights, const PlanNam
   return join(parts, ";");
 }
 
-/// Adds the columns of one band of a region; their fields are empty for faces without this band.
+/// Adds the columns of one band of a region. Faces without this band have empty fields in these
+/// columns.
 void add_band(const std::string& start, std::size_t region, std::size_t band,
               const PlanNames& names, TableColumns& columns) {
   const auto add = [&](const char* name, const auto& value) {
@@ -70,7 +72,7 @@ void add_band(const std::string& start, std::size_t region, std::size_t band,
   add("extrapolation", [](const BandRecipe& own) { return format_number(own.extrapolation); });
 }
 
-/// The skin's colour at the neck. \param colours  see table_text
+/// Adds the column with the colour of the skin at the neck. \param colours see table_text
 void add_neck_colours(const std::vector<FacePlan>& crowd,
                       const std::vector<Eigen::Array3d>& colours, TableColumns& columns) {
   if (colours.empty()) return;
@@ -85,7 +87,8 @@ void add_neck_colours(const std::vector<FacePlan>& crowd,
   columns.push_back({"neck_srgb", [=](const FacePlan& face) { return srgb_hex(colour(face)); }});
 }
 
-/// By face id: the families that the face is a parent of, and its role in each, by family.
+/// Maps the id of each parent to a map from the parent's families to the parent's role ("mother",
+/// "father") in that family.
 using Parenthood = std::map<std::string, std::map<std::string, std::string>>;
 
 Parenthood parenthood_in(const std::vector<FacePlan>& crowd) {
@@ -98,7 +101,8 @@ Parenthood parenthood_in(const std::vector<FacePlan>& crowd) {
   return parents;
 }
 
-/// The face's own family; for a face without one, the families that it is a parent of.
+/// The family of which the face is a member. For a face that is no member: the families of which
+/// the face is a parent.
 std::string family_of(const FacePlan& face, const Parenthood& parenthood) {
   if (face.family) return *face.family;
   std::vector<std::string> families;
@@ -108,7 +112,8 @@ std::string family_of(const FacePlan& face, const Parenthood& parenthood) {
   return join(families, ";");
 }
 
-/// Role of a member whose family has no parents. family_role returns, for example, "child;mother".
+/// Role of a member of a family without parents. (family_role may return several roles, for example
+/// "child;mother".)
 constexpr const char* kMember = "member";
 
 std::string family_role(const FacePlan& face, const Parenthood& parenthood) {
@@ -137,7 +142,7 @@ bool has_any_tag(const HeadTags& tags) {
   return std::ranges::any_of(tags, [](const auto& own) { return !own.empty(); });
 }
 
-/// Columns that tell who a face is.
+/// Adds the columns with the identity of a face, such as id, family and role.
 void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names, const TableFacts& facts,
              TableColumns& columns) {
   using Face = const FacePlan&;

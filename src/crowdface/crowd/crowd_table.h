@@ -18,25 +18,26 @@ inline const std::vector<Eigen::Array3d> kNoNeckColours;
 
 /// Tags of heads and kinds of attachments, for the columns that describe the person.
 struct TableFacts {
-  HeadTags tags;                   ///< #heads, or empty
-  std::vector<std::string> kinds;  ///< #attachments, or empty
+  HeadTags tags;                   ///< the tags of each head; or empty
+  std::vector<std::string> kinds;  ///< the kind of each attachment; or empty
 };
 
 /// The text of crowd.csv: the crowd as a flat table (RFC 4180) for spreadsheets, one line for each
-/// face. The table needs only plan and heads, so every run over a whole crowd can write it. All
-/// arguments except `facts` must outlive the text.
-/// \param neck_colours  #crowd, linear light of the skin above the neck's ring; or empty
+/// face. The table is computed from the plan and the heads alone, so every run over a whole crowd
+/// can write the table. All arguments except `facts` must outlive the text.
+/// \param neck_colours  one per face: colour, in linear light, of the skin above the ring of
+///                      vertices at the neck; or empty
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                       const std::vector<Eigen::Array3d>& neck_colours = kNoNeckColours,
                       const TableFacts& facts = {});
 
-/// The text of plan.jsonl: the text of plan_text with additional keys for each face: `sex` and
-/// `tags` if the heads have tags, and `family_role` for parents and children. Other members of a
-/// family have only `family`. `crowd` and `names` must outlive the text.
+/// Returns the text of plan.jsonl: the result of plan_text with additional keys for each face. Adds
+/// `sex` and `tags` if the heads have tags. Adds `family_role` for parents and children; other
+/// members of a family have only the key `family`. `crowd` and `names` must outlive the text.
 TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                                const Digest& settings, const TableFacts& facts);
 
-/// A colour in linear light as sRGB, "#C89F8A".
+/// Converts a colour in linear light to sRGB text such as "#C89F8A".
 std::string srgb_hex(const Eigen::Array3d& light);
 
 }  // namespace crowdface

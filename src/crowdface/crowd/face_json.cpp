@@ -26,8 +26,8 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
   return json;
 }
 
-/// Stores the first band's values directly in the object, and the other bands' values under `bands`
-/// by name.
+/// Stores the values of the first band directly in the region's object, and the values of each
+/// further band under `bands` and the band's name.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);
   for (const SourceWeight& part : region.colours) {
@@ -39,7 +39,8 @@ Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   return json;
 }
 
-/// The parent from whom the face inherits a region, or the parent of each band.
+/// The parent from whom the face inherits a region; if the config defines bands, one parent for
+/// each band of the region.
 Json inherits_to_json(const std::vector<std::string>& inherits, std::size_t region,
                       const PlanNames& names) {
   if (names.bands.empty()) return inherits[region];

@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Item name of the last line in a finished crowd's ledger; the key in this line is the hash of all
-/// other lines.
+/// Item name of the last line in the ledger of a finished crowd. The key in this line is the hash
+/// of all other lines.
 constexpr const char* kEndItem = "end";
 constexpr std::string_view kSum = R"(,"sum":")", kEnd = R"("})";
 
@@ -36,7 +36,8 @@ std::optional<Digest> digest_at(const Json& json, const char* key) {
   return text ? parse_digest(*text) : std::nullopt;
 }
 
-/// Number of files in each top-level folder of the crowd; "." counts the files outside all folders.
+/// Number of files in each top-level subfolder of the crowd's folder. The key "." counts the files
+/// that are in no subfolder.
 using FileCounts = std::map<std::string, std::size_t>;
 
 void add_counts(const LedgerEntry& entry, FileCounts& counts) {
@@ -61,8 +62,8 @@ std::string line_with_end(const LedgerEntry& entry) {
 class LedgerReader {
  public:
   void read(std::string_view line, bool ended) {
-    // A line without a line end was being written when the run died; do not trust it, even if it
-    // looks complete.
+    // Do not trust a line without a line end, even if the line looks complete: the run died while
+    // it wrote this line.
     std::optional<LedgerEntry> entry;
     if (ended) entry = parse_ledger_line(line);
     if (entry && entry->item == kEndItem) {
@@ -253,8 +254,8 @@ std::vector<LedgerEntry::File> Ledger::hash_files(const std::vector<std::string>
   std::vector<LedgerEntry::File> files;
   try {
     for (const std::string& name : names) files.push_back({name, hash_file(root_ / name)});
-    // This run has just written the file, so report a missing file as IoError, not as missing
-    // input.
+    // The file is not an input: this run has just written it. Therefore report a missing file as
+    // IoError.
   } catch (const MissingInput& error) {
     throw IoError(error.what());
   }
@@ -299,8 +300,8 @@ void Ledger::record_remade(const std::string& item, const std::vector<std::strin
   record_remade_entry(
       known == items_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.lines.back(),
       hash_files(names));
-  // If an item has several lines, take the last line that matches the existing files; if none
-  // matches, the last line.
+  // If an item has several lines, take the last line that matches the existing files. If no line
+  // matches, take the last line.
   const auto line_of = [&](const std::vector<LedgerEntry>& lines) {
     if (lines.size() == 1) return lines.back();
     const auto agreed = std::find_if(lines.rbegin(), lines.rend(), [&](const LedgerEntry& line) {

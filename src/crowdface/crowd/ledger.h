@@ -19,7 +19,8 @@
 
 namespace crowdface {
 
-/// One finished item. All its files are written and synced to disk before the ledger gets its line.
+/// One finished item. All files of the item are written and synced to disk before the ledger gets
+/// the line of the item.
 struct LedgerEntry {
   struct File {
     std::string name;  ///< path relative to the crowd's folder, with '/' separators
@@ -34,20 +35,20 @@ struct LedgerEntry {
 
 /// Formats a file as {"file": …, "bytes": …, "hash": …}.
 nlohmann::ordered_json file_to_json(const LedgerEntry::File& file);
-/// \return nothing if `list` is not a list of files.
+/// \return the files in `list`; nothing if `list` is not a valid list of files.
 std::optional<std::vector<LedgerEntry::File>> files_from_json(const nlohmann::ordered_json& list);
 
-/// One line with its checksum, without a line end (docs/crowd-directory.md).
+/// Formats an entry as one line with a checksum and without a line end (docs/crowd-directory.md).
 std::string format_ledger_line(const LedgerEntry& entry);
-/// \return nothing if the line is truncated, altered or not a ledger line.
+/// \return the entry; nothing if the line is truncated, altered or not a ledger line.
 std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 
 /// The valid lines of a ledger, in their order.
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
   std::size_t damaged_count = 0;  ///< number of invalid lines
-  /// Whether a run finished, the ledger still has all lines of this run, and the lines list as many
-  /// files of each kind as the run counted.
+  /// Whether the ledger is the complete ledger of a finished run: it has all lines of this run, and
+  /// the lines list as many files in each folder as the run counted.
   bool complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
@@ -56,25 +57,25 @@ LedgerLines parse_ledger(std::string_view text);
 /// \throws IoError.
 LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item = {});
 
-/// Whether all files of an entry exist in the folder with the recorded content.
+/// Whether all files that an entry lists exist in the folder and have the recorded content.
 bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);
 
-/// Removes a file of a crowd if its content is still as recorded; then removes the file's empty
-/// parent folders. Keeps altered files and files outside the crowd's folder.
+/// Removes a file of a crowd if the file still has the recorded content. Then removes the file's
+/// parent folders that became empty. Keeps altered files and files outside the crowd's folder.
 /// \throws IoError.
 void remove_recorded(const std::filesystem::path& root, const LedgerEntry::File& file);
 
 /// Records finished work in a crowd's folder, so that another run can continue. A run appends lines
-/// to the ledger; at the end it sorts the ledger, so that equal crowds have equal ledgers. Any
-/// thread may query and record.
+/// to the ledger and, at the end, sorts the lines, so that equal crowds have equal ledgers. All
+/// threads may find and record entries.
 class Ledger {
  public:
-  /// Reads all ledgers of the folder. Drops damaged lines with a warning; their items count as
-  /// unfinished.
+  /// Reads all ledgers of the folder. Drops damaged lines with a warning; the items of these lines
+  /// count as unfinished.
   /// \param own     the ledger to append to; created if it does not exist.
   /// \param others  ledgers of other runs, which are only read. If several ledgers list an item,
-  ///                any of the lines may prove that the item is finished. No line takes precedence,
-  ///                because their order in time is unknown.
+  ///                any of these lines may prove that the item is finished. No line takes
+  ///                precedence, because the order in which the lines were written is unknown.
   Ledger(std::filesystem::path root, const std::filesystem::path& own,
          const std::vector<std::filesystem::path>& others);
 
@@ -82,7 +83,8 @@ class Ledger {
   /// proves that the item is finished.
   std::optional<LedgerEntry> find_proven(const std::string& item, const Digest& key);
 
-  /// Appends one line for each entry. `write_file` or `write_files` must have written the files.
+  /// Appends one line for each entry to the ledger. The files of the entries must have been written
+  /// by `write_file` or `write_files`.
   /// \throws IoError.
   void record_all(std::vector<LedgerEntry> entries);
   void record(LedgerEntry entry);
@@ -90,24 +92,25 @@ class Ledger {
   /// \param names  paths relative to the folder.
   void record(const std::string& item, const Digest& key, const std::vector<std::string>& names);
 
-  /// Writes and records a file; its ledger key is the hash of its content. Does not write if the
-  /// file exists with this content.
+  /// Writes a file and records it; the ledger key is the hash of the content. Does not write if the
+  /// file already has this content.
   FileDigest write(const std::string& name, const TextPieces& text);
   FileDigest write(const std::string& name, std::string_view bytes);
-  /// Records a file that already exists with the right content; its ledger key is the hash of its
+  /// Records a file that already exists with the right content. The ledger key is the hash of the
   /// content.
   void record_existing(const LedgerEntry::File& file);
 
   /// Records files that were made again, possibly in a format that the config does not ask for.
-  /// Files whose content has changed get another key, so that the next run makes them again as the
-  /// config demands; unchanged files keep their lines.
+  /// Items with changed files get another key, so that the next run makes these files again in the
+  /// way that the config demands. Items with unchanged files keep their lines.
   /// \param item, names  an item and its present files
-  /// \param folders      files of other items are checked if they are in one of these folders
+  /// \param folders      folders with remade files; files of other items in these folders are
+  ///                     hashed again, too
   void record_remade(const std::string& item, const std::vector<std::string>& names,
                      const std::vector<std::string>& folders);
 
   /// Sorts the ledger by item and keeps only the entries that this run proved or recorded. Removes
-  /// the other ledgers, and the files that only outdated lines name.
+  /// all other ledgers, and the files that are named only in outdated lines.
   void compact();
 
   /// Call this before a run reports success.
@@ -115,8 +118,8 @@ class Ledger {
   void require_files() const;
 
  private:
-  /// The lines that an item had when this run began, or the one line that this run proved or
-  /// recorded.
+  /// The ledger lines of one item. `done` false: the lines that existed when this run began. `done`
+  /// true: the single line that this run proved or recorded.
   struct Item {
     std::vector<LedgerEntry> lines;
     bool done = false;

@@ -18,7 +18,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Processes the file's values one by one; stops at the first unexpected value.
+/// Parses likeness.json value by value, without building a JSON tree. Stops at the first unexpected
+/// value.
 class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit LikenessReader(const std::vector<std::string>& ids) {

@@ -11,15 +11,16 @@
 
 namespace crowdface {
 
-/// The data that the sheets and the gallery show in addition to the plan and the meshes.
+/// The similarities of faces and the positions of heads, which the sheets and the gallery show in
+/// addition to the plan and the meshes.
 struct CrowdLikeness {
-  std::vector<PlanePoint> anchors;  ///< #heads: position of each head on the plane
+  std::vector<PlanePoint> anchors;  ///< position of each head on the plane
   Likeness likeness;
 };
 
-/// Computes the data of a crowd that was just cast. Rounds distances to four decimals, as the file
-/// does, so that sheets made from the file are the same.
-/// \param points  #faces.
+/// Computes the CrowdLikeness of a crowd that was just cast. Rounds distances to four decimals, as
+/// likeness.json does, so that sheets that are made from this file are equal.
+/// \param points  one point per face.
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points);
 
@@ -29,8 +30,9 @@ TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
                          const std::vector<std::string>& ids);
 
 /// Reads likeness.json.
-/// \param ids  ids of the plan's faces, in its order.
-/// \throws MissingInput if the file does not exist; InvalidInput if it belongs to another crowd.
+/// \param ids  ids of the faces, in the order of the plan.
+/// \throws MissingInput if the file does not exist; InvalidInput if the file belongs to another
+/// crowd.
 CrowdLikeness read_likeness(const std::filesystem::path& path, const PlanNames& names,
                             const std::vector<std::string>& ids);
 

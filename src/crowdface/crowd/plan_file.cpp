@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kRounding = 1e-6;  ///< tolerance for the sum of shares written by hand
 
-/// Reads the fields of one line and reports errors with their position.
+/// Reads the fields of one line of a plan. Errors name the file, the line and the field.
 class LineReader {
  public:
   LineReader(const PlanNames& names, const std::string& place) : names_(names), place_(place) {}
@@ -125,7 +125,8 @@ class LineReader {
     return values;
   }
 
-  /// Reads and checks a name that is used in the file names of images and meshes.
+  /// Reads a name (such as a face's id) that becomes part of file names of images and meshes, and
+  /// checks that the name is valid there.
   std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
     std::string name = text(json, key);
     if (!is_name(name, longest)) {
@@ -181,7 +182,8 @@ class LineReader {
     return placed;
   }
 
-  /// No mesh depends on the measurements, so lines written by hand may omit them.
+  /// Lines that a user wrote by hand may omit the measurements, because no mesh depends on
+  /// measurements.
   std::vector<double> traits(const Json& json) const {
     std::vector<double> values;
     for (const std::string& name : names_.traits) {
@@ -196,7 +198,8 @@ class LineReader {
     return number(value, "position", -kMaxPlaneCoordinate, kMaxPlaneCoordinate);
   }
 
-  /// Reads the heads and shares of a mixture, for a target or for colours.
+  /// Reads the heads and shares of a mixture of heads, which serves as a target or as a source of
+  /// colours.
   std::vector<SourceWeight> shares(const Json& json, const std::string& field) const {
     if (!json.is_object() || json.empty()) fail(field, "heads and their shares", json.dump());
     std::vector<SourceWeight> parts;
@@ -261,7 +264,8 @@ class LineReader {
     return result;
   }
 
-  /// No mesh depends on this field, so lines written by hand may omit it or hold a wrong value.
+  /// Lines that a user wrote by hand may omit this field or have a wrong value, because no mesh
+  /// depends on this field.
   std::optional<NearestNeighbours> nearest(const Json& json) const {
     if (!json.is_object()) return std::nullopt;
     const std::string face = json.value("face", Json()).is_string() ? text(json, "face") : "";

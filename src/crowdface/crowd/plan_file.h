@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// One line of plan.jsonl without a line end (docs/crowd-directory.md lists the fields). Numbers
-/// have full precision, distances four decimals.
+/// One line of plan.jsonl without a line end (docs/crowd-directory.md lists the fields). Distances
+/// have four decimals; all other numbers have full precision.
 std::string format_plan_line(const FacePlan& face, const PlanNames& names, const Digest& settings);
 
 /// A face read from a plan, and the hash of the settings under which it was cast.
@@ -25,7 +25,8 @@ struct PlanLine {
 
 /// Reads one line.
 /// \param place  "file:line", for messages.
-/// \throws InvalidInput with the place, the field, the expected and the actual value.
+/// \throws InvalidInput with the place, the name of the field, the expected value and the actual
+/// value.
 PlanLine parse_plan_line(std::string_view line, const PlanNames& names, const std::string& place);
 
 /// Reads all lines of a plan file.

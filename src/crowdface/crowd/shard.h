@@ -11,13 +11,14 @@
 
 namespace crowdface {
 
-/// One machine's part of a crowd: every `count`-th face, starting with face number `index`.
+/// The part of a crowd that one machine makes: every `count`-th face, starting with face number
+/// `index` (counted from 1).
 struct Shard {
   std::uint64_t index = 1;  ///< counted from 1
   std::uint64_t count = 1;  ///< number of shards; 1: the shard is the whole crowd
 
   bool is_whole_crowd() const { return count == 1; }
-  /// Whether the shard owns the face at this position of the plan, counted from 0.
+  /// Whether the shard makes the face whose index in the plan (counted from 0) is `face`.
   bool owns(std::size_t face) const { return face % count == index - 1; }
   /// Name such as "2of7", as in the shard's file names.
   std::string name() const;
@@ -25,13 +26,14 @@ struct Shard {
 
 /// Parses text such as "2/7"; nothing if the text is not a shard or names more than 9999 shards.
 std::optional<Shard> parse_shard(std::string_view text);
-/// Parses a name such as "2of7", with the same limits.
+/// Parses a name such as "2of7"; nothing if the text is not a shard's name or has more than 9999
+/// shards.
 std::optional<Shard> parse_shard_name(std::string name);
 
-/// The shard's own file in place of a file of the crowd: "ledger-2of7.jsonl" for "ledger.jsonl".
-/// Returns `path` itself if the shard is the whole crowd.
+/// Converts the path of a file of the crowd to the path of the shard's file, for example
+/// "ledger.jsonl" to "ledger-2of7.jsonl". Returns `path` itself if the shard is the whole crowd.
 std::filesystem::path shard_path(const std::filesystem::path& path, const Shard& shard);
-/// The existing files of all shards that belong to `path`, sorted by name.
+/// The existing files whose path is shard_path(path, shard) for any shard, sorted by name.
 std::vector<std::filesystem::path> existing_shard_paths(const std::filesystem::path& path);
 
 enum class ShardState {
@@ -43,7 +45,7 @@ enum class ShardState {
 };
 std::string_view name_of(ShardState state);
 
-/// What a shard reports about its latest run, both during the run and at its end.
+/// What a shard reports about its latest run, both during this run and at the end of the run.
 struct ShardNotes {
   ShardState state = ShardState::kWorking;
   std::uint64_t faces = 0;           ///< number of faces in the shard
@@ -53,9 +55,9 @@ struct ShardNotes {
   std::string machine;
   std::string reason;  ///< why the run was interrupted or failed
 };
-/// One line of JSON, with a line end.
+/// Formats the notes as one line of JSON, with a line end.
 std::string format_shard_notes(const ShardNotes& notes);
-/// \return nothing if the text is not a shard's notes.
+/// \return the notes; nothing if the text is not the notes of a shard.
 std::optional<ShardNotes> parse_shard_notes(std::string_view text);
 
 }  // namespace crowdface

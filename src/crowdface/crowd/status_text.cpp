@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A shard that has written nothing for longer than this may have been killed.
+/// A shard that has written nothing for longer than this time may have been killed.
 constexpr double kSilentSeconds = 60;
 
 std::string percent(std::uint64_t done, std::uint64_t faces) {
@@ -109,7 +109,7 @@ std::string format_status_json(const CrowdStatus& status) {
                               {"machine", shard.machine},
                               {"reason", shard.reason}});
   }
-  // Writes ASCII only, so that JSON's rules alone decide how special characters are escaped.
+  // Write ASCII only: JSON then escapes all special characters, and no other escaping is needed.
   return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,9 +7,9 @@
 
 namespace crowdface {
 
-/// The status as a table for people.
+/// Formats the status as a text table for people.
 std::string format_status_table(const CrowdStatus& status);
-/// The status as one JSON object on one line.
+/// Formats the status as one JSON object on one line.
 std::string format_status_json(const CrowdStatus& status);
 
 }  // namespace crowdface

@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One line for each item in the folder's ledgers. If an item has several lines, the last line that
-/// matches the existing files counts; if none matches, the last line.
+/// Reads one line for each item from the ledgers in the folder. If an item has several lines,
+/// returns the last line that matches the existing files. If no line matches, returns the last
+/// line.
 std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
                                                 CrowdCheck& check) {
   std::map<std::string, std::vector<LedgerEntry>> all;

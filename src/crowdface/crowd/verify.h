@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Result of comparing a crowd's folder with its ledger. All lists are empty if the folder is as it
-/// was written.
+/// Result of comparing a crowd's folder with its ledger. All lists are empty if no file has changed
+/// since the crowd was written.
 struct CrowdCheck {
   std::size_t file_count = 0;                 ///< number of files in the ledger
   std::vector<std::string> missing_files;     ///< missing files, relative to the folder

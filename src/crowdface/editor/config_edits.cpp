@@ -38,7 +38,7 @@ std::string single_line_yaml(const YamlNode& node) {
   return node.quoted ? write_scalar(node.text) : node.text;
 }
 
-/// Formats the edits, with one line for each section and for each list item.
+/// Formats the edits as YAML. Each section and each list item takes one line.
 std::string text_of(const YamlNode& edits) {
   std::string text = "# Written by crowdface edit; the config names this file as `edits`.\n";
   if (edits.entries.empty()) text += "{}\n";
@@ -51,7 +51,7 @@ std::string text_of(const YamlNode& edits) {
   return text;
 }
 
-/// Applies a change to the edits and saves them.
+/// Reads the file of edits, applies a change to the edits, and saves the file.
 fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edits)>& change) {
   std::string config_text = read_file(config);
   const YamlNode root = parsed(config_text, config.string());
@@ -61,8 +61,8 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
   fs::path file = config.parent_path() / name;
 
   YamlNode edits;
-  // If the config does not name the file yet, the file may still exist: an editor may have been
-  // killed after writing it.
+  // The file of edits may exist even if the config does not name the file yet, because an editor
+  // may have been killed after writing the file.
   if (named != nullptr || path_exists(file)) edits = parsed(read_file(file), file.string());
   change(edits);
   const std::string text = text_of(edits);
@@ -91,7 +91,7 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
   return file;
 }
 
-/// Formats paths relative to the config's folder, as a YAML list on one line.
+/// Makes paths relative to the config's folder, and formats them as a YAML list on one line.
 std::string paths_from(const fs::path& config, const std::vector<fs::path>& files) {
   const fs::path folder = fs::absolute(config).lexically_normal().parent_path();
   return flow_names(texts_of(files, [&](const fs::path& file) {
@@ -99,7 +99,7 @@ std::string paths_from(const fs::path& config, const std::vector<fs::path>& file
   }));
 }
 
-/// Saves sections, given as text in the format of a config.
+/// Saves config sections in the file of edits. \param sections YAML text in the format of a config.
 fs::path put_sections(const fs::path& config, const std::string& sections) {
   return put_edit(config, [&](YamlNode& edits) { merge_edits(parsed(sections, "edits"), edits); });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of a config: the changes that the editor saves, in the file that the config's key `edits`
-// names. If the config has no such key, the editor adds it to the config, with the file
-// `NAME_edits.yaml` in the same folder.
+// Edits of a config: the changes of config sections that the editor makes. The editor saves the
+// edits in a separate file, which the config's key `edits` names. If the config has no such key,
+// the editor adds the key to the config, with the file `NAME_edits.yaml` in the same folder.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,12 @@
 
 namespace crowdface {
 
-/// Saves a recipe, in place of a recipe with the same id.
+/// Saves a recipe in the edits. Replaces a recipe with the same id.
 /// \return the file of the edits.
 /// \throws Error with every problem that the new config would have; in this case no file changes.
 std::filesystem::path put_recipe(const ManualRecipe& recipe, const Config& config);
 
-/// Saves regions, in place of the config's regions.
+/// Saves regions in the edits. These regions replace all regions of the config.
 /// \param config  file of the config.
 /// \return the file of the edits.
 /// \throws Error as put_recipe does, for example if another part of the config names a region that
@@ -27,22 +27,23 @@ std::filesystem::path put_regions(const std::filesystem::path& config,
                                   const std::vector<std::string>& names,
                                   const std::vector<std::filesystem::path>& masks);
 
-/// Adds heads after the config's heads, and saves the edits.
+/// Saves in the edits a list of heads: the config's heads, followed by new heads.
 /// \param config  file of the config.
-/// \param heads   files of meshes.
+/// \param heads   mesh files of the new heads.
 /// \return the file of the edits.
 /// \throws Error as put_recipe does, for example if two heads would have the same name.
 std::filesystem::path put_heads(const std::filesystem::path& config,
                                 const std::vector<std::filesystem::path>& heads);
 
-/// The value of a section in a file of edits, on one line; nothing if the file has none.
-/// \param edits  the file; empty or absent: nothing
+/// The value of a section in a file of edits, as YAML on one line; nothing if the file has no such
+/// section.
+/// \param edits  the file of edits; may be empty or not exist
 std::optional<std::string> section_in_edits(const std::filesystem::path& edits,
                                             const std::string& section);
 
-/// Restores a value that section_in_edits returned.
+/// Restores a section of the edits to a value that section_in_edits returned earlier.
 /// \return the file of the edits.
-/// \throws Error as put_recipe does, or if `value` is more than one value.
+/// \throws Error as put_recipe does, or if the text `value` contains more than one YAML value.
 std::filesystem::path restore_section(const std::filesystem::path& config,
                                       const std::string& section,
                                       const std::optional<std::string>& value);

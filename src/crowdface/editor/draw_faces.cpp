@@ -17,9 +17,9 @@ double between(double a, double b, double share) {
   return a + share * (b - a);
 }
 
-/// Interpolates between two bands.
+/// Interpolates between the values that two recipes have for the same band.
 /// \param share    0: result `a`; 1: result `b`
-/// \param sources  heads that the band may blend
+/// \param sources  heads that may contribute to the band
 BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index target,
                    const std::vector<Index>& sources, const CastingOptions& casting) {
   BandRecipe band;

@@ -11,20 +11,21 @@
 
 namespace crowdface {
 
-/// A request to sample faces from which the user chooses.
+/// A request to sample several faces. The user chooses among the sampled faces.
 struct SampleRequest {
   FacePlan start_face;  ///< the face to sample anew: supplies the id and all locked parts
-  std::vector<std::size_t>
-      locked;  ///< parts that do not change, as in reviews; if any is locked, so is the target
-  std::optional<FacePlan> original;  ///< sample variations of this face
-  /// how far variations move from `original` towards an independently sampled face, 0 to 1
+  /// parts that do not change, as in reviews; if any part is locked, the target is locked, too
+  std::vector<std::size_t> locked;
+  std::optional<FacePlan> original;  ///< if set, sample variations of this face
+  /// 0 to 1: how far a variation moves from `original` (0) towards an independently sampled face
+  /// (1)
   double variation = 1;
   std::size_t count = 1;            ///< number of faces to sample
   std::uint32_t first_attempt = 0;  ///< a different number yields different faces
 };
 
-/// Samples faces that satisfy the limits of the config. Without `original`, the faces also keep the
-/// minimum distance from the crowd.
+/// Samples faces that satisfy the limits of the config. Without `original`, the sampled faces also
+/// keep the minimum distance from the faces of the crowd.
 /// \return fewer faces than requested if too many attempts violate the limits.
 /// \throws Unsatisfiable if all attempts violate the limits.
 std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudge& judge,

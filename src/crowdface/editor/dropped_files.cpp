@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Refuses names that lead out of the folder, are hidden, or that a config or a terminal cannot show.
+/// Refuses file names that lead out of the folder, names of hidden files, and names with characters
+/// that a config or a terminal cannot show.
 void require_safe_name(const std::string& name) {
   constexpr std::size_t kLongest = 128;
   static const std::set<std::string> beside = {".mtl",  ".bin", ".png",  ".jpg",

@@ -11,27 +11,28 @@
 
 namespace crowdface {
 
-/// Files that the user drops on the page. They arrive in pieces in a hidden folder and move, once
-/// complete, to a new folder `added/NAME` beside the config. No existing file changes. Thread-safe.
+/// Files that the user drops on the page. The files arrive in pieces and are collected in a hidden
+/// folder. Complete files move to a new folder `added/NAME` beside the config. No existing file
+/// changes. Thread-safe.
 class DroppedFiles {
  public:
   /// \param folder  the config's folder
   explicit DroppedFiles(const std::filesystem::path& folder);
-  /// Removes files that move_to_config_folder has not moved.
+  /// Deletes all received files that move_to_config_folder has not moved.
   ~DroppedFiles();
   DroppedFiles(const DroppedFiles&) = delete;
   DroppedFiles& operator=(const DroppedFiles&) = delete;
 
-  /// Discards the files of an earlier call and begins a new upload.
+  /// Discards the files of an earlier upload and begins a new upload.
   /// \param sizes  size in bytes of each file, by name
   /// \throws UsageError if a name is unsafe, there is no mesh, or the files are too large.
   void begin_upload(const std::map<std::string, std::uint64_t>& sizes);
-  /// Adds the next piece of a file.
-  /// \param offset  bytes before the piece
+  /// Appends the next piece to a file of the upload.
+  /// \param offset  number of bytes of the file before this piece
   /// \throws UsageError if an earlier piece is missing, or the file would become larger than its
   /// size in `begin_upload`.
   void add(const std::string& name, std::uint64_t offset, std::string_view bytes);
-  /// Moves all files to a new folder. \return the meshes, in the order of their names.
+  /// Moves all files to a new folder. \return paths of the mesh files, sorted by name.
   /// \throws UsageError if a file is incomplete.
   std::vector<std::filesystem::path> move_to_config_folder();
 

@@ -22,28 +22,29 @@ namespace {
   std::string where = "its address is not known yet";
   try {
     where = read_file(address);
-    // The file belongs to another user, or the other editor has just started and has not written
-    // the file yet.
+    // The address file belongs to another user, or the other editor has just started and has not
+    // written its address yet.
   } catch (const RecoverableError&) {
   }
   throw UsageError(concat(folder.parent_path().string(),
                           ": another crowdface edit is already running here: ", where));
 }
 
-/// The exclusive right to edit a crowd, during the lifetime of this object. Applies to all machines
-/// that share the file system, and ends when the process is killed.
+/// Holds the exclusive right to edit a crowd during the lifetime of this object. The lock applies
+/// to all machines that share the file system, and ends when the process is killed.
 class EditorLock {
  public:
   /// Takes the lock.
-  /// \param folder  must exist; receives the lock file, and the file with the editor's address,
-  ///                which only its owner can read.
+  /// \param folder  must exist. Receives the lock file and the file with the editor's address; only
+  ///                the user who started the editor can read the address file.
   /// \throws UsageError with the address of the other editor if there is one.
   explicit EditorLock(const std::filesystem::path& folder)
       : address_(folder / ".address"),
         lock_(folder / ".editor.lock", LockKind::kExclusive, [&] { refuse(folder, address_); }) {}
   ~EditorLock() { remove_if_exists(address_); }
 
-  /// Writes the address for other editors to report.
+  /// Writes the editor's address into the address file. Another editor that finds the lock taken
+  /// reports this address.
   /// \throws CannotCreate
   void tell(const std::string& address) {
     remove_if_exists(address_);
@@ -60,8 +61,8 @@ class EditorLock {
   FileLock lock_;
 };
 
-/// Returns the arguments of the run that makes the faces of the opened job, with the overrides that
-/// the editor received.
+/// Returns the arguments of the `generate` run that makes the faces of the opened job. These
+/// include the overrides that the editor was started with.
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
                                             const EditOptions& options) {
   std::vector<std::string> arguments = {"generate", config.file.string(), "--cache",
@@ -78,7 +79,8 @@ std::vector<std::string> generate_arguments(const Config& config, const ConfigOv
   return arguments;
 }
 
-/// A job as it was when opened, with the objects that answer requests about it.
+/// A job with the config and crowd as read when the job was opened, and the objects that answer
+/// requests about this job.
 struct OpenedJob {
   OpenedJob(Job job, const EditOptions& options, EditedFolder& folder, GenerateRun& run,
             bool may_edit_config, std::function<void()> open_again)

@@ -22,14 +22,15 @@ struct EditOptions {
 
 /// Runs the editor's server for a crowd until a signal stops the process.
 /// \param config_or_crowd  a config, or the folder of a crowd
-/// \param started          receives the editor's address once the page can be opened
+/// \param started          called with the editor's address as soon as the page can be opened
 /// \throws Error
 void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started);
 
 /// Measures how long the editor takes to rebuild a complete face after the user has moved a
 /// controller, changed the smoothness or changed the target. Starts no server and writes no files.
-/// Returns a table that includes the frame time of the paper.
+/// Returns a table of the times. For comparison, the table includes the frame time that the paper
+/// reports.
 std::string benchmark_edit(const std::filesystem::path& config_or_crowd,
                            const ConfigOverrides& overrides, const EditOptions& options);
 

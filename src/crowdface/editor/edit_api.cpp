@@ -164,8 +164,8 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   return json_answer({{"recipes", recipes}, {"mm", mm}});
 }
 
-/// Changes a face so that a measurement comes as near to a value as the heads allow; answers with
-/// the new face and its measures.
+/// Changes a face so that one measurement comes as near to a requested value as the heads allow.
+/// Answers with the new face and the measures of this face.
 HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
   constexpr double kFarthest = 1e4;
   const Json body = parse_json_body(request);
@@ -177,7 +177,7 @@ HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
   return json_answer(answer);
 }
 
-/// The image of a face of the crowd, as on the contact sheets: its views side by side.
+/// The image of a face of the crowd, with all views side by side, as on the contact sheets.
 HttpAnswer EditApi::face_picture(const HttpRequest&, const std::string& rest) {
   const std::vector<FacePlan>* crowd = session_.crowd();
   if (crowd == nullptr || std::ranges::find(*crowd, rest, &FacePlan::id) == crowd->end()) {
@@ -228,7 +228,8 @@ nlohmann::ordered_json EditApi::measures_json(const FaceMeasures& measures) cons
   return json;
 }
 
-/// The id of the crowd's face from which the edit began, or empty.
+/// The id of the face of the crowd from which the user began the edit; empty if the edit did not
+/// begin from a face of the crowd.
 std::string EditApi::opened_id(const Json& body) {
   return body.contains("face") && body["face"].is_string() ? body["face"].get<std::string>() : "";
 }
@@ -238,7 +239,7 @@ HttpAnswer EditApi::measures(const HttpRequest& request, const std::string&) {
   return json_answer(measures_json(session_.measure(face_of(body), opened_id(body))));
 }
 
-/// What is wrong with the whole mesh of a face: {"faults": sentences}.
+/// The visible faults of the whole mesh of a face: {"faults": sentences}.
 HttpAnswer EditApi::faults(const HttpRequest& request, const std::string&) {
   const FacePlan face = face_of(parse_json_body(request));
   Positions positions;
@@ -295,8 +296,9 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   return binary_answer(answer.bytes());
 }
 
-/// The face's own skin: {"picture", "normals"} as JPEG files in the layout of the atlas, {"rough",
-/// "colours"} at the preview's vertices. Omits keys for which faces have no textures.
+/// The skin of a face. "picture" and "normals" are JPEG files in the layout of the atlas; "rough"
+/// and "colours" have values at the preview's vertices. Omits a key if faces have no textures or
+/// vertex colours of this kind.
 HttpAnswer EditApi::skin(const HttpRequest& request, const std::string&) {
   const FacePlan face = face_of(parse_json_body(request));
   BinaryAnswer answer;

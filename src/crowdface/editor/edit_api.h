@@ -30,7 +30,8 @@ class EditApi {
  public:
   /// \param session, folder, run  must outlive this object
   /// \param may_edit_config  whether requests may save recipes and regions to the job's config;
-  ///                         true if the config is the user's own file
+  ///                         true if the config is the user's own file, not the config.yaml in a
+  ///                         crowd's folder
   /// \param open_again  reloads the config and the crowd, and replaces this object by a new EditApi
   EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
           std::function<void()> open_again);
@@ -41,30 +42,31 @@ class EditApi {
 
  private:
   using Json = nlohmann::ordered_json;
-  /// \param rest  the address after the route, if the route ends in '/'
+  /// \param rest  the part of the request's path after the route; empty unless the route ends in
+  ///              '/'
   using Handler = HttpAnswer(const HttpRequest& request, const std::string& rest);
 
-  // Requests about the job and its faces.
+  // Handlers of requests about the job and its faces.
   Handler job, mesh, light, head, attachment, face, skin, measures, faults, draw, steer,
       face_picture;
-  // Requests that save or write files.
+  // Handlers of requests that save the editor's state or write other files.
   Handler state, take_over, save_state, save, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
-  // Requests that paint masks.
+  // Handlers of requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
-  // Requests that add heads.
+  // Handlers of requests that add heads.
   Handler begin_drop, drop_bytes, add_heads;
   HttpAnswer painted_masks() const;
   EditedFolder::WriteMesh mesh_writer();
-  /// Returns a path for new masks at which no file exists. Earlier masks remain, so that steps can
-  /// be undone.
+  /// Returns a path for new masks at which no file exists yet. Files of earlier masks are not
+  /// overwritten, so that the user can undo steps.
   std::filesystem::path unused_masks() const;
   void require_masks_of_config() const;
   void require_own_config() const;
   void require_no_run();
 
-  // Readers for the body of a request.
-  // \throws UsageError with the key's name.
+  // These functions read the value of a key from the body of a request.
+  // \throws UsageError with the name of the key if the value is not valid.
   std::vector<std::size_t> parts_in(const Json& body, const std::string& key) const;
   FacePlan face_of(const Json& body, const std::string& key = "recipe") const;
   static std::string opened_id(const Json& body);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of the editor's page that save or write files, and requests that paint masks.
+// Handles the requests of the editor's page that write files, add heads or paint masks.
 #include <algorithm>
 
 #include "crowdface/config/edited_entries.h"
@@ -20,7 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// \throws UsageError if the text is not one of the words of `Value`.
+/// Parses a word of the enumeration `Value`. \throws UsageError if the text is not one of its
+/// words.
 template <class Value>
 Value word_in(const Json& body, const std::string& key) {
   const std::string text = text_in(body, key);
@@ -32,7 +33,7 @@ Value word_in(const Json& body, const std::string& key) {
   throw UsageError(concat(key, ": expected ", join(known, " or "), ", found ", quoted(text)));
 }
 
-/// The text of a key that may be null.
+/// The text of a key; nothing if the value is null.
 std::optional<std::string> optional_text_in(const Json& body, const std::string& key) {
   return body[key].is_null() ? std::nullopt : std::optional(text_in(body, key));
 }
@@ -268,8 +269,8 @@ HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& re
   return json_answer(Json::object());
 }
 
-/// Adds the dropped heads to the config, or, with {"back": value}, puts earlier edits back. If the
-/// heads cannot be loaded, restores the config.
+/// Adds the dropped heads to the config. With {"back": value}, restores an earlier value of the
+/// edits instead. If the heads cannot be loaded, restores the config.
 HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& rest) {
   require_own_config();
   require_no_run();

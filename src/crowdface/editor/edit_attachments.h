@@ -19,21 +19,23 @@
 
 namespace crowdface {
 
-/// Attachments of faces on the editor's page. Thread-safe.
+/// Chooses the attachments of edited faces and makes the attachments' meshes for the editor's page.
+/// Thread-safe.
 class EditAttachments {
  public:
   /// \param job    must outlive this object.
-  /// \param crowd  faces of the crowd, or null; must outlive this object.
+  /// \param crowd  faces of the existing crowd, or null; must outlive this object.
   EditAttachments(const Job& job, const std::vector<FacePlan>* crowd);
 
-  /// The names of the attachments of each kind.
+  /// For each kind of attachments: the names of the attachments.
   nlohmann::ordered_json kinds() const;
-  /// Appearance of an attachment as JSON; nothing if no attachment has this name.
+  /// The triangles and the appearance of each material of an attachment, as JSON; nothing if no
+  /// attachment has this name.
   /// \param name  see AttachmentLook::name.
   std::optional<std::string> appearance_json(const std::string& name) const;
 
-  /// The attachments of a face. Nothing while an attachment is being bound to the heads for the
-  /// first time, which takes seconds if there are expressions.
+  /// The attachments of a face. Returns nothing while an attachment is being bound to the heads for
+  /// the first time; binding takes seconds if there are expressions.
   /// \param face    the edited face; determines the attachments that are sampled for the face
   /// \param opened  id of the crowd's face from which the edit began, whose attachments the face
   ///                keeps; or empty
@@ -45,7 +47,8 @@ class EditAttachments {
                                                               const nlohmann::ordered_json& chosen,
                                                               const Positions& positions,
                                                               std::span<const Displacements> moves);
-  /// Vertex positions of the attachment that `look` describes, three numbers for each vertex.
+  /// Vertex positions of an attachment on a face, three numbers for each vertex, in the vertex
+  /// order of `look`.
   std::vector<float> points(const PlacedAttachment& placed) const { return shown_.points(placed); }
 
  private:

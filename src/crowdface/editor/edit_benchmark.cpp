@@ -14,7 +14,8 @@ namespace {
 
 using Change = std::function<void(Recipe& recipe, double turn)>;
 
-/// Moves a region between the anchors of two heads.
+/// Sets the position of a region on the plane to a point between two heads' anchors. Sets the
+/// region's weights accordingly.
 void move(const CastingOptions& casting, Recipe& recipe, std::size_t region, double share) {
   const std::vector<PlanePoint>& anchors = casting.anchors;
   const PlanePoint at = (1 - share) * anchors[region % anchors.size()] +

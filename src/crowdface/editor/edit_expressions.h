@@ -17,7 +17,8 @@ namespace crowdface {
 /// Expressions of the edited face. Thread-safe.
 class EditExpressions {
  public:
-  /// The displacements of some expressions; each is multiplied by the expression's weight.
+  /// For each of several expressions: the vertex displacements, already multiplied by the
+  /// expression's weight.
   using Moves = std::vector<Displacements>;
 
   /// \param job  must outlive this object.
@@ -25,8 +26,8 @@ class EditExpressions {
 
   /// The names of the expressions.
   std::vector<std::string> names() const;
-  /// The displacements of a face for some expressions. Computes all expressions of a face at once
-  /// and keeps them until the face changes.
+  /// The displacements of a face for some expressions. Computes the displacements of all
+  /// expressions of a face at once, and caches them until the face changes.
   /// \param weights     {name: weight 0 … 1}; missing expressions have weight 0
   /// \param positions  the face at rest
   /// \throws UsageError if a name does not exist or a weight is outside its range.
@@ -37,7 +38,7 @@ class EditExpressions {
   const Job& job_;
   std::mutex mutex_;
   std::unique_ptr<const FaceShapes> shapes_;
-  Positions face_;  ///< the face of `moves_`
+  Positions face_;  ///< the face for which `moves_` was computed
   std::vector<Displacements> moves_;
 };
 

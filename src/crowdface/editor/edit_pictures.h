@@ -13,7 +13,8 @@
 
 namespace crowdface {
 
-/// Rendered images for the editor's page. Prepares its resources at the first request. Thread-safe.
+/// Rendered images for the editor's page. Loads the resources for rendering at the first request.
+/// Thread-safe.
 class EditPictures {
  public:
   /// \param job  must outlive this object.
@@ -22,7 +23,8 @@ class EditPictures {
   /// A PNG file that shows a head from the front.
   std::string thumbnail(Index head);
   const FaceTextures& textures();
-  /// The textures of a face, as contact sheets show them; nothing if faces have no textures.
+  /// The textures of a face, with the resolution and content that contact sheets show; nothing if
+  /// faces have no textures.
   std::optional<TextureSet> textures_of(const Recipe& recipe);
 
  private:

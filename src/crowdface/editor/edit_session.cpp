@@ -40,7 +40,7 @@ std::string sentence(Reason reason, const Config& config) {
   return describe_violation(reason, config.diversity, config.believability);
 }
 
-/// Measures a face, and warns of each limit that it does not meet.
+/// Measures a face, and adds a warning for each limit that a measurement violates.
 void measure_traits(const FaceTraits& traits, const TraitRules& rules, const FacePlan& face,
                     FaceMeasures& measures) {
   const TraitDistributions& spread = traits.measurer().spread();
@@ -59,9 +59,9 @@ void measure_traits(const FaceTraits& traits, const TraitRules& rules, const Fac
   }
 }
 
-/// The faces in the job's output folder if the folder holds a plan with the same heads, masks and
-/// smoothing settings. Returns nothing without a plan; warns and returns nothing if the plan does
-/// not match.
+/// Returns the faces in the job's output folder if the folder has a plan that was made with the
+/// heads, masks and smoothing settings of the job. Returns nothing if there is no plan, or (with a
+/// warning) if the plan was made with other heads, masks or settings.
 std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
   const CrowdDirectory directory = directory_of(job.config);
   if (!path_exists(directory.plan())) return std::nullopt;

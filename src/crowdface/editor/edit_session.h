@@ -25,38 +25,41 @@
 
 namespace crowdface {
 
-/// \param config_or_crowd  a config, or a crowd's folder. If it is a folder, loads the config in
-///                         it; the job's output goes to this folder.
+/// \param config_or_crowd  a config file or the folder of a crowd. For a folder, loads the
+///                         config.yaml in the folder, and the job writes its output into the
+///                         folder.
 Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverrides overrides,
                     const CacheFolder& cache);
 
-/// Distances, measurements and warnings that the editor shows with a face.
+/// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
   double nearest_head_mm = 0;
-  /// Distance to this head with the face as built. nearest_head_mm is the smaller of this and the
-  /// distance with all extrapolation factors 1.
+  /// Distance from the face as built to the head `nearest_head`. nearest_head_mm is the smaller of
+  /// two distances: this distance, and the distance after all extrapolation factors are set to 1.
   double nearest_head_as_built_mm = 0;
-  /// The nearest face of the crowd other than the face itself and the face it was opened from.
+  /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
+  /// which the user began the edit.
   std::optional<std::size_t> nearest_face;
   double nearest_face_mm = 0;
-  /// A measurement of the face, in its unit, and how much larger it is than the heads' mean.
+  /// A measurement of the face. `value` is in the unit of the measurement; `above_mean` is the
+  /// value minus the heads' mean.
   struct Trait {
     std::size_t trait = 0;  ///< index into measurements()
     double value = 0, above_mean = 0;
-    double low = 0, high = 0;  ///< smallest and largest value of the heads
+    double low = 0, high = 0;  ///< smallest and largest value of any head
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads
   /// One sentence for each limit of the config that the face violates.
   std::vector<std::string> warnings;
 };
 
-/// A job that the user edits by hand: heads ready for blending, the existing crowd, and the data
-/// that the page shows of both. Its const members are thread-safe.
+/// A job that the user edits by hand: prepared heads, the existing crowd, and the data of heads and
+/// crowd that the page shows. Const member functions are thread-safe.
 class EditSession {
  public:
   /// \param cache             the folder of prepared heads
-  /// \param preview_vertices  approximate upper limit for the vertices of the preview
+  /// \param preview_vertices  approximate maximum number of vertices of the preview mesh
   EditSession(Job job, const CacheFolder& cache, std::size_t preview_vertices);
   EditSession(const EditSession&) = delete;
   EditSession& operator=(const EditSession&) = delete;
@@ -65,60 +68,65 @@ class EditSession {
   const CastingOptions& casting() const { return casting_; }
   const std::vector<FacePlan>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
   const PreviewMesh& preview() const { return preview_; }
-  /// The heads' textures, in the layout of the preview's texture coordinates.
+  /// The atlas with the heads' textures. The preview's texture coordinates refer to this atlas.
   const TextureAtlas& textures() const { return textures_; }
 
-  /// Describes the job for the page, which loads this first.
+  /// A description of the job as JSON. The page loads this description before all other data.
   nlohmann::ordered_json description() const;
   /// Triangles, colours, masks and texture coordinates of the preview, as a BinaryAnswer.
   std::string mesh() const;
-  /// How much light reaches the preview's vertices on the mean head: the square root of the visible
-  /// fraction of the sky, as a BinaryAnswer. Waits for the computation.
+  /// Ambient light at the preview's vertices, computed on the mean head: for each vertex, the
+  /// square root of the visible fraction of the sky. Returns a BinaryAnswer. Waits until the
+  /// computation is finished.
   std::string light() const;
   /// A BinaryAnswer with a head's positions at the preview's vertices, the head's fields, and the
   /// functions of these fields.
   std::string head(Index head) const;
 
-  /// The masks for blending; zero at components that are not skin.
+  /// The region masks for blending; zero at vertices of components that are not skin.
   const RegionWeights& masks() const { return builder_.regions(); }
-  /// Replaces the masks for blending. Distances, warnings and sampled faces still use the config's
-  /// masks. Call this only while no other thread builds faces or reads masks.
+  /// Replaces the region masks for blending. Computing distances and warnings, and sampling faces,
+  /// still use the masks of the config. Call this only while no other thread builds faces or reads
+  /// masks.
   void use_masks(const RegionWeights& masks);
 
-  /// All vertex positions of a face, as a saved mesh has them. Fast if the face differs from the
-  /// previous face in few regions.
+  /// All vertex positions of a face, equal to the positions in a saved mesh. Fast if the face
+  /// differs in few regions from the face of the previous call.
   Positions build(const Recipe& recipe) const;
-  /// Measures a face from its recipe, without its mesh; therefore does not check gaps between
-  /// parts.
+  /// Measures a face from the recipe, without building the mesh. Therefore does not check gaps,
+  /// such as the gap between the lips.
   /// \param opened  id of the crowd's face from which the edit began, or empty
   FaceMeasures measure(const FacePlan& recipe, const std::string& opened = "") const;
   /// \param face  result of `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
                        const std::string& opened = "") const;
-  /// See MeshFaults. \param face  result of `build`
+  /// Finds visible faults in the whole mesh of a face; see MeshFaults. \param face result of
+  /// `build`
   std::vector<std::string> mesh_faults(const Recipe& recipe, const Positions& face) const {
     return faults_.faults_of(recipe, face);
   }
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
-  /// Returns the face with weights changed so that a measurement comes as near to `wanted` as the
-  /// heads allow; see steer_trait.
+  /// Changes the weights of a face so that a measurement comes as near to `wanted` as the heads
+  /// allow; see steer_trait. Returns the changed face.
   /// \param locked  parts that do not change, as in SampleRequest
   /// \throws UsageError if the measurement is not available, or weights cannot be given.
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
                  const std::vector<std::size_t>& locked) const;
-  /// See sample_faces.
+  /// Samples faces for the user to choose from; see the function sample_faces.
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
-  /// Unit normals of the full-resolution mesh at the preview's vertices, #preview by 3.
+  /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
+  /// preview vertex.
   std::vector<float> normals(const Positions& face) const;
-  /// Roughness of a face at the preview's vertices, in 255ths; empty if there is no roughness map.
+  /// Roughness of a face at the preview's vertices, 0 … 255 for the range 0 … 1; empty if there is
+  /// no roughness map.
   std::vector<std::uint8_t> roughness(const TextureSet& texture_set) const;
-  /// Positions at the preview's vertices, #preview by 3.
+  /// Positions of the preview's vertices: three numbers for each preview vertex.
   std::vector<float> points(const Positions& face) const;
 
  private:
-  /// The data for comparing and judging faces. Computing it takes about a second, so a separate
-  /// thread does it while the page loads.
+  /// The data for comparing faces and checking them for defects. The computation takes about a
+  /// second, so a separate thread computes these data while the page loads.
   struct JudgingData {
     std::unique_ptr<const CastingSpace> space;
     FaceJudge judge;
@@ -136,11 +144,13 @@ class EditSession {
 
   Job job_;
   TextureAtlas textures_;
-  /// Reduces the mesh on another thread while the following members are constructed.
+  /// The result of another thread, which reduces the mesh while the following members are
+  /// constructed.
   std::future<PreviewMesh> preview_future_;
   std::optional<std::vector<FacePlan>> crowd_;
   Prepared prepared_;
-  std::optional<Prepared> fitted_;  ///< set for `levels: exact`: fields for the preview only
+  /// set only with `levels: exact`: the heads' fields, for the preview
+  std::optional<Prepared> fitted_;
   FaceBuilder builder_;
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;
@@ -149,7 +159,8 @@ class EditSession {
   CastingOptions casting_;
   PreviewMesh preview_;
   VertexFaces vertex_faces_;
-  /// The visible fraction of the sky at the preview's vertices; takes about a second to compute.
+  /// For each preview vertex: the visible fraction of the sky. The computation takes about a
+  /// second.
   std::shared_future<std::vector<float>> sky_shares_;
 };
 

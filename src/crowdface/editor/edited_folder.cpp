@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds a mark or a change, in place of the earlier mark or change of the same face.
+/// Adds a review entry (a mark or a change) for a face. Replaces an earlier entry of the same kind
+/// for this face.
 template <class Entry>
 void put_entry(const Entry& entry, std::vector<Entry>& entries) {
   const auto known = std::ranges::find(entries, entry.id, &Entry::id);
@@ -29,20 +30,20 @@ void put_entry(const Entry& entry, std::vector<Entry>& entries) {
   }
 }
 
-/// Returns whether the crowd's folder keeps a review with this text, to which a run may have added
-/// the key `count`.
+/// Returns whether the crowd's folder has a copy of the review with this text. A run may have added
+/// the key `count` to the copy.
 bool crowd_has_review(const Config& config, const std::string& text) {
   const std::vector<fs::path> kept = CrowdDirectory{config.output.directory}.kept_reviews();
   return std::ranges::any_of(
       kept, [&](const fs::path& file) { return read_file(file).starts_with(text); });
 }
 
-/// Prefix of a file that exists while a face is being saved. The file contains the extension of the
-/// mesh file.
+/// Prefix of the name of a marker file that exists while a face is being saved. The marker file
+/// contains the extension of the mesh file.
 constexpr std::string_view kSavingPrefix = ".saving-";
 constexpr const char* kPlan = "edited.jsonl";
 
-/// All lines of a plan except the line with the given id.
+/// The text of all lines of a plan except the line of the face with the given id.
 std::string other_lines(const fs::path& plan, const std::string& id, const PlanNames& names) {
   if (!path_exists(plan)) return {};
   std::string lines;
@@ -54,7 +55,7 @@ std::string other_lines(const fs::path& plan, const std::string& id, const PlanN
   return lines;
 }
 
-/// Restores the former lines of a plan; only logs a write error.
+/// Writes the earlier lines of a plan back to the file. Logs a write error instead of throwing.
 void restore_plan(const fs::path& plan, const std::string& lines) {
   try {
     write_file(plan, lines);

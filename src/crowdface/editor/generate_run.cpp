@@ -19,7 +19,7 @@
 namespace crowdface {
 namespace {
 
-/// The number that ends just before `end`.
+/// Parses the number whose last digit stands just before position `end`.
 std::uint64_t number_before(std::string_view text, std::size_t end) {
   std::size_t begin = end;
   while (begin > 0 && text[begin - 1] >= '0' && text[begin - 1] <= '9') --begin;
@@ -86,10 +86,11 @@ void GenerateRun::start() {
   ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log_.c_str(), O_WRONLY | O_APPEND, 0);
   ::posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
-  // The run's process must not hold the editor's connections to the page open.
+  // Close the editor's file descriptors in the process of the run, so that this process does not
+  // hold connections to the page open.
   ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-  // Puts the run into its own process group. Keys such as Ctrl+C in the editor's terminal then
-  // reach only the editor, which stops the run itself.
+  // Put the run into a separate process group. A signal from the editor's terminal (Ctrl+C) then
+  // reaches only the editor, and the editor stops the run.
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   const int error =
       ::posix_spawn(&process_, "/proc/self/exe", &files, &attributes, arguments.data(), environ);

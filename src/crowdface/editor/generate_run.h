@@ -20,8 +20,8 @@ struct RunProgress {
 };
 RunProgress read_progress(std::string_view log);
 
-/// Runs `crowdface generate` as a separate process, so that the failure of one process does not
-/// stop the other. A stopped run continues at its next start. Thread-safe.
+/// Runs `crowdface generate` as a separate process, so that a failure of the run does not stop the
+/// editor, and vice versa. After a stop, the next start continues the work. Thread-safe.
 class GenerateRun {
  public:
   enum class State { kIdle, kRunning, kDone, kFailed, kStopped };

@@ -20,14 +20,15 @@ class MeshFaults {
   /// \param job, builder  must outlive this object.
   MeshFaults(const Job& job, const FaceBuilder& builder) : job_(job), builder_(builder) {}
 
-  /// One sentence for each fault that is visible on the mesh: gums or lining that protrude through
-  /// the skin, and exceeded limits of believability. Nothing if the config, or the size of the
-  /// meshes, excludes judging. Takes some tenths of a second.
+  /// One sentence for each fault that is visible on the mesh: gums or mouth lining that protrude
+  /// through the skin, and exceeded limits of believability. Returns nothing if the config turns
+  /// these checks off or the meshes are too large for them. Takes some tenths of a second.
   /// \param face  built from this recipe, #V by 3.
   std::vector<std::string> faults_of(const Recipe& recipe, const Positions& face) const;
 
  private:
-  /// The faults of a target head itself, which its faces may have too.
+  /// The faults that a target head itself has. Faces with this target head may have the same
+  /// faults.
   struct Target {
     SkinCheck skin;
     double parts_mm2;  ///< area of the head's parts that protrudes through the skin

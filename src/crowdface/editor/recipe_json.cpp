@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whether the weights exactly equal the weights that the position determines.
+/// Whether the band has a position on the plane and exactly the weights that this position
+/// determines.
 bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                          const CastingOptions& casting) {
   return band.position &&
@@ -24,8 +25,8 @@ bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sourc
 Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                   const CastingOptions& casting, const std::vector<std::string>& heads) {
   Json json;
-  // The config has no notation for empty weights, which the normalisation printed in the paper may
-  // yield; write the position.
+  // Write the position if the weights are empty, because a config cannot express empty weights. The
+  // normalisation that the paper prints may yield empty weights.
   if (comes_from_position(band, sources, target, casting) || band.weights.empty()) {
     const PlanePoint at = band.position.value_or(PlanePoint::Zero());
     json["position"] = {at.x(), at.y()};
@@ -43,8 +44,8 @@ Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Ind
   return json;
 }
 
-/// Stores the first band's values directly in the object, and the other bands' values under `bands`
-/// by name.
+/// Stores the values of the first band directly in the region's object, and the values of each
+/// further band under `bands` and the band's name.
 Json region_to_json(const RegionRecipe& region, Index target, const CastingOptions& casting,
                     const std::vector<std::string>& heads) {
   const SamplingOptions& sampling = casting.sampling;
@@ -56,7 +57,7 @@ Json region_to_json(const RegionRecipe& region, Index target, const CastingOptio
   return json;
 }
 
-/// \throws UsageError if the value is not a mixture of heads.
+/// Reads a mixture of heads. \throws UsageError if the value is not a valid mixture.
 std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
   const std::vector<std::string>& names = config.faces.names;
   std::vector<SourceWeight> shares;
@@ -74,7 +75,8 @@ std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
     sum += value;
   }
   if (!(sum > 0)) throw UsageError("mixture: expected shares of heads, one above 0");
-  // Shares whose sum differs from one by at most this value stay bitwise unchanged.
+  // If the sum of the shares differs from one by at most this value, the shares are not normalised
+  // and stay bitwise unchanged.
   constexpr double kRounding = 1e-12;
   if (std::abs(sum - 1) > kRounding) return normalized_weights(std::move(shares));
   std::erase_if(shares, [](const SourceWeight& share) { return share.weight == 0; });

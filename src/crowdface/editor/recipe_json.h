@@ -8,19 +8,20 @@
 
 namespace crowdface {
 
-/// The recipe as an entry of the config's `recipes`, with all regions written out. If the target is
-/// a mixture of heads, the entry also has `mixture: {head: share}`, which a config must not have.
+/// The recipe in the format of an entry of the config's `recipes`. The entry lists all regions. If
+/// the target is a mixture of heads, the entry also has `mixture: {head: share}`, which a config
+/// must not have.
 nlohmann::ordered_json recipe_to_json(const FacePlan& face, const CastingOptions& casting,
                                       const Config& config);
 
-/// Reads a face from an entry that recipe_to_json or a user wrote. Ignores the ages of the config:
-/// a recipe without an age keeps its shape.
-/// \throws UsageError with all mistakes, in the words of the config's messages.
+/// Reads a face from an entry that recipe_to_json or a user wrote. Does not apply the config's
+/// ages: without an age in the entry, the face keeps the shape that the recipe gives.
+/// \throws UsageError that lists all mistakes, with the same texts as for mistakes in a config.
 FacePlan face_of_json(const nlohmann::ordered_json& recipe, const CastingOptions& casting,
                       const Config& config);
 
-/// Converts the entry for saving in a config's `recipes` section.
-/// \throws UsageError as face_of_json does, and for a mixture.
+/// Converts an entry to a recipe that a config's section `recipes` can store.
+/// \throws UsageError as face_of_json does, and also if the target is a mixture of heads.
 ManualRecipe manual_recipe_of_json(const nlohmann::ordered_json& recipe, const Config& config);
 
 }  // namespace crowdface

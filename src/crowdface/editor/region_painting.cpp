@@ -42,7 +42,8 @@ bool is_true(const Json& body, const std::string& key) {
   return body.contains(key) && body[key] == true;
 }
 
-/// Hash of the data on which strokes depend: the preview's triangles, the regions and their masks.
+/// Hash of the data on which brush strokes depend: the preview's triangles, the regions and the
+/// regions' masks.
 Digest hash_painting_base(const EditSession& session) {
   const RegionWeights::Alpha& alpha = session.job().inputs.regions.alpha;
   const std::span values(alpha.data(), static_cast<std::size_t>(alpha.size()));

@@ -15,7 +15,7 @@
 
 namespace crowdface {
 
-/// A set of regions: their names and the weights α of every vertex.
+/// A set of regions: the names of the regions, and each vertex's weights α for the regions.
 struct PaintedRegions {
   std::vector<std::string> names;
   RegionWeights::Alpha alpha;  ///< #V by #names
@@ -24,7 +24,8 @@ struct PaintedRegions {
 /// The painted regions of a job, for the editor's page. Not thread-safe.
 class RegionPainting {
  public:
-  /// Replays strokes that were painted on the same masks earlier but not saved.
+  /// Reads the brush strokes that an earlier editor painted on the same masks but did not save as
+  /// masks, and applies them again.
   /// \param session  must outlive this object
   /// \param strokes  file that stores the strokes
   RegionPainting(EditSession& session, const std::filesystem::path& strokes);
@@ -34,31 +35,34 @@ class RegionPainting {
   /// previous one.
   /// \throws UsageError if the request cannot be read.
   void stroke(const nlohmann::ordered_json& body);
-  /// Undoes the last stroke.
-  /// \throws UsageError if there is none.
+  /// Undoes the last brush stroke.
+  /// \throws UsageError if there is no stroke to undo.
   void undo();
-  /// Whether the masks differ from the config's masks.
+  /// Whether the painted masks differ from the config's masks.
   bool differs_from_config() const { return painter_ && painter_->can_undo(); }
 
-  /// α at the preview's vertices, row by row; zero at components that are not skin.
+  /// For each preview vertex: the weights α of all regions, one region after the other. Zero at
+  /// vertices of components that are not skin.
   std::vector<float> masks() const;
 
-  /// Uses the painted masks for blending from now on.
+  /// Makes the session blend faces with the painted masks from now on.
   void apply();
 
-  /// The painted regions with one change. {"add": NAME} adds a region without any vertices.
-  /// {"remove": NAME} removes a region and distributes its share to the other regions. {"propose":
-  /// [NAME…]} replaces all regions by the regions that the shape of the mean head suggests.
+  /// Returns the painted regions after one change. {"add": NAME} adds a region without any
+  /// vertices. {"remove": NAME} removes a region and distributes the region's weights to the other
+  /// regions. {"propose": [NAME…]} replaces all regions by regions that are computed from the shape
+  /// of the mean head.
   /// \throws UsageError if the request cannot be read; InvalidInput if no regions can be proposed.
   PaintedRegions regions(const nlohmann::ordered_json& change);
 
-  /// Writes the masks as images in the layout of the texture.
+  /// Writes the masks as images in the heads' texture layout.
   /// \param path  file of the first image, ending in .png
   /// \return the files for the config's `regions.mask`
   /// \throws InvalidInput if the heads have no texture coordinates; CannotCreate.
   std::vector<std::filesystem::path> save(const PaintedRegions& regions,
                                           const std::filesystem::path& path) const;
-  /// Deletes the stored strokes. Call this once the config's masks contain them.
+  /// Deletes the stored strokes. Call this once the config's masks contain the effect of the
+  /// strokes.
   void delete_stored_strokes() { strokes_.clear(); }
 
  private:
@@ -66,9 +70,9 @@ class RegionPainting {
   SurfacePoint surface_point_of(const nlohmann::ordered_json& point);
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   void paint(const nlohmann::ordered_json& body);
-  /// Applies all strokes of the file.
+  /// Applies all strokes that the file stores.
   void replay();
-  /// Appends a stroke that was just painted to the file; if this fails, undoes the stroke.
+  /// Appends to the file a stroke that was just painted. If writing fails, undoes the stroke.
   void store(const nlohmann::ordered_json& step);
 
   EditSession& session_;

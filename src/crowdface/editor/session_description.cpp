@@ -24,7 +24,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Number of steps on the square-root scale of the sliders.
+/// Number of steps of a smoothness slider. The slider's position is the square root of the
+/// smoothness.
 constexpr int kLevels = 256;
 
 double smoothness_at(int step) {
@@ -242,7 +243,8 @@ std::string EditSession::light() const {
 
 std::string EditSession::head(Index head) const {
   const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
-  // Quantise all numbers of a field with the same step, because the page reads them as a texture.
+  // Quantise all numbers of a field with the same step size, because the page stores a field in one
+  // texture.
   std::vector<float> values;
   for (Index p = 0; p < levels.fields.rank; ++p) {
     for (const std::uint32_t vertex : preview_.vertices) {

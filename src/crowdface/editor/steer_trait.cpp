@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// Weights or derivatives of a band, one for each of its heads.
+/// One value (weight or derivative) for each head that may contribute to a band.
 using PerHead = std::vector<double>;
 
 PerHead weights_of(const BandRecipe& band, const std::vector<Index>& heads) {
@@ -32,7 +32,8 @@ void set_weights(BandRecipe& band, const std::vector<Index>& heads, const PerHea
   band.position.reset();
 }
 
-/// The nearest weights that are not negative and sum to one (Held, Wolfe and Crowder 1974).
+/// Projects a vector onto the simplex: returns the nearest weights that are not negative and sum to
+/// one (Held, Wolfe and Crowder 1974).
 PerHead projected_onto_simplex(PerHead row) {
   PerHead sorted = row;
   std::ranges::sort(sorted, std::greater<>());
@@ -52,8 +53,8 @@ PerHead moved(const PerHead& weights, const PerHead& gradient, double step) {
   return projected_onto_simplex(std::move(row));
 }
 
-/// For each head of a band: the derivative of the measurement as the weights move towards this head
-/// alone.
+/// Returns one value for each head of a band: the derivative of the measurement when all weights
+/// move linearly towards weight one for this head.
 PerHead gradient_of(const Recipe& recipe, const SteeredBand& band, double value,
                     const std::function<double(const Recipe&)>& measure) {
   constexpr double kStep = 0.05;
@@ -107,8 +108,8 @@ Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double 
       }
       return sum;
     };
-    // The predicted change of the measurement grows with the step length; bisect for the length
-    // that gives the missing change.
+    // The predicted change of the measurement grows with the step length. Use bisection to find the
+    // step length with which the measurement reaches the wanted value.
     const double missing = wanted - value;
     double low = 0, high = std::copysign(kLongest / widest, missing);
     for (int i = 0; i < kHalvings && std::abs(gain(high)) > std::abs(missing); ++i) {

@@ -9,16 +9,16 @@
 
 namespace crowdface {
 
-/// A band of a region, whose weights may change.
+/// A band of a region. The weights of this band may change.
 struct SteeredBand {
   std::size_t region = 0, band = 0;
-  std::vector<Index> heads;  ///< heads that may lend to the band, ascending
+  std::vector<Index> heads;  ///< heads that may contribute to the band, ascending
 };
 
-/// Changes weights so that a measurement comes as near to a value as these heads allow, with the
-/// smallest sum of squared changes: Newton steps along the gradient, projected onto weights that
-/// are not negative and sum to one. Bands that hardly change the measurement stay as they are;
-/// bands that change lose their position on the plane.
+/// Changes the weights of bands so that a measurement comes as near to a value as these heads
+/// allow. Keeps the sum of squared changes small: Newton steps along the gradient, projected onto
+/// weights that are not negative and sum to one. Bands that hardly affect the measurement keep
+/// their weights. Bands whose weights change lose their position on the plane.
 /// \param measure  the measurement of a recipe; thread-safe
 Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double wanted,
                    const std::function<double(const Recipe&)>& measure);

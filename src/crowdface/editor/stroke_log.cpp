@@ -44,7 +44,7 @@ StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
 void StrokeLog::add(const Json& stroke) {
   std::string lines;
   if (!append_file_) {
-    // Rewrites the file, because its last line may be incomplete.
+    // Rewrite the whole file, because the last line of the file may be incomplete.
     lines = Json({{kPaintedOn, painted_on_.hex()}}).dump() + '\n';
     for (const Json& before : strokes_) lines += before.dump() + '\n';
     write_file(file_, lines);

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Stores brush strokes that no mask contains yet, one line of JSON each, so that they survive the
-/// end of the editor.
+/// Stores the brush strokes that are not yet saved as masks in a file, one line of JSON for each
+/// stroke. The strokes therefore survive the end of the editor.
 class StrokeLog {
  public:
   /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete
@@ -22,13 +22,13 @@ class StrokeLog {
   ///                    masks are discarded with a log message.
   StrokeLog(std::filesystem::path file, const Digest& painted_on);
 
-  /// The strokes in the order of the calls of `add`.
+  /// All stored strokes, oldest first.
   const std::vector<nlohmann::ordered_json>& strokes() const { return strokes_; }
   const std::filesystem::path& file() const { return file_; }
   /// Appends a stroke.
   /// \throws CannotCreate, IoError: in this case the file does not contain the stroke.
   void add(const nlohmann::ordered_json& stroke);
-  /// Removes all strokes. Call this once the masks contain them.
+  /// Removes all strokes. Call this once the saved masks contain the effect of the strokes.
   void clear();
 
  private:

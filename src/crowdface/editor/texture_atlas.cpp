@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-// Largest width or height of one cell, and of the whole atlas, in texels.
+// Maximum width and height, in texels, of one cell and of the whole atlas.
 constexpr int kMaxCellTexels = 2048, kMaxAtlasTexels = 4096;
 
 std::array<std::uint8_t, 3> colour_texel(const Light& light) {
@@ -62,7 +62,8 @@ TextureCoordinates TextureAtlas::coordinates() const {
   const TextureCoordinates& uvs = inputs_.faces.uvs;
   if (cells_ < 2) return uvs;
   TextureCoordinates placed = TextureCoordinates::Zero(uvs.rows(), 2);
-  // Inset each cell by half a texel, so that the colours of neighbouring cells do not mix.
+  // Shrink the used part of each cell by half a texel at each side, so that texture filtering does
+  // not mix the colours of neighbouring cells.
   const double margin = 0.5 / cell_px_;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t cell = cell_of_face_[static_cast<std::size_t>(f)];

@@ -21,19 +21,21 @@ class TextureAtlas {
   /// The heads' texture coordinates converted to atlas coordinates, #uvs by 2.
   TextureCoordinates coordinates() const;
   bool has(Index head) const;
-  /// Converts atlas coordinates to coordinates in a cell; only the fractional parts count.
+  /// Converts atlas coordinates to coordinates in a cell. Only the fractional parts of the result
+  /// are meaningful.
   Eigen::Vector2f cell_coordinates(const Eigen::Vector2f& uv) const {
     return {uv.x() * static_cast<float>(columns_), uv.y() * static_cast<float>(rows_)};
   }
-  /// Whether the texture of a polygon is in the atlas.
+  /// Whether the atlas contains the texture of a polygon.
   bool shows(std::uint32_t face) const {
     return !cell_of_face_.empty() && cell_of_face_[face] != TextureLayer::kNone;
   }
-  /// The atlas of a head as a JPEG file; nothing if the head has no texture.
+  /// The atlas with a head's colour textures, as a JPEG file; nothing if the head has no texture.
   std::optional<std::string> picture(Index head) const;
-  /// Colour textures as a JPEG file of the atlas.
+  /// Returns the atlas with these colour textures, as a JPEG file.
   std::string colours(const TextureLayer& layer) const;
-  /// Slopes as a JPEG file of the atlas: a tangent-space normal map, y upwards.
+  /// Converts slopes to a tangent-space normal map with y upwards, in the layout of the atlas.
+  /// Returns a JPEG file.
   std::string normals(const TextureLayer& slopes) const;
 
  private:
@@ -42,7 +44,8 @@ class TextureAtlas {
                       Texel (*texel_of)(const Light&)) const;
 
   const Inputs& inputs_;
-  std::vector<std::uint32_t> cell_of_face_;  ///< or TextureSet::kNone; empty: no head has textures
+  /// for each polygon: index of the cell, or TextureLayer::kNone; empty: no head has textures
+  std::vector<std::uint32_t> cell_of_face_;
   std::uint32_t cells_ = 0;
   int columns_ = 1, rows_ = 1, cell_px_ = 0;
 };

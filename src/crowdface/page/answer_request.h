@@ -16,11 +16,11 @@ namespace crowdface {
 /// Parses the body of a request. \throws UsageError if the body is not a JSON object.
 nlohmann::ordered_json parse_json_body(const HttpRequest& request);
 
-/// Returns the text of `key` in a request's body. \throws UsageError if it is missing or not a
-/// text.
+/// Returns the text value of `key` in the body of a request. \throws UsageError if the value is
+/// missing or not a text.
 std::string text_in(const nlohmann::ordered_json& body, const std::string& key);
-/// Returns the number of `key` in a request's body. \throws UsageError if it is missing, not a
-/// number or not in [low, high].
+/// Returns the number that is the value of `key` in the body of a request. \throws UsageError if
+/// the value is missing, not a number or not in [low, high].
 double number_in(const nlohmann::ordered_json& body, const std::string& key, double low,
                  double high);
 
@@ -28,19 +28,19 @@ double number_in(const nlohmann::ordered_json& body, const std::string& key, dou
 HttpAnswer json_answer(const nlohmann::ordered_json& json, int status = 200);
 /// An error answer with the body {"error": sentence}.
 HttpAnswer error_answer(int status, std::string_view sentence);
-/// An answer in a binary format that the page decodes.
+/// An answer with a body of bytes in a binary format. The page decodes this format.
 HttpAnswer binary_answer(std::string bytes);
 
 /// The files of one web page: NAME.html, NAME.js and NAME.css, as scripts/build_gallery.sh writes
 /// them.
 class PageFiles {
  public:
-  /// \param folder     folder of the built pages; nothing if there is none
+  /// \param folder     folder with the built pages; nothing if the pages were not built
   /// \param page_name  NAME, such as "editor"
   PageFiles(std::optional<std::filesystem::path> folder, std::string page_name);
 
   /// The file with this name; an empty name means NAME.html. If the page was not built, NAME.html
-  /// is a notice that says how to build it. \return nothing if there is no such file.
+  /// is a notice that says how to build the page. \return nothing if the page has no such file.
   std::optional<HttpAnswer> file(std::string_view name) const;
 
  private:
@@ -48,11 +48,12 @@ class PageFiles {
   std::string page_name_;
 };
 
-/// Returns the file of the page that the request asks for, or status 404.
+/// Returns the file that the request asks for. If the page has no such file, returns status 404.
 HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request);
 
-/// Returns `answer(request)` and turns exceptions into error answers. A RecoverableError gives its
-/// message; any other exception is logged, and the answer refers to the log.
+/// Returns `answer(request)`, and turns exceptions into error answers. For a RecoverableError, the
+/// answer contains the message of the exception. Any other exception is logged, and the answer only
+/// refers to the log.
 HttpAnswer answer_or_refuse(const HttpRequest& request,
                             const std::function<HttpAnswer(const HttpRequest&)>& answer);
 

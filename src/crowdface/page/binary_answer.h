@@ -13,11 +13,12 @@
 namespace crowdface {
 
 /// A binary answer with arrays of numbers. Layout: the length of a JSON text as uint32; the JSON
-/// text, padded with blanks so that the arrays start at a multiple of four bytes; the arrays in the
-/// order of the JSON key `arrays`, each padded to four bytes. All numbers are little-endian.
+/// text, padded with blanks so that the arrays start at a multiple of four bytes; the arrays, in
+/// the order in which the JSON key `arrays` describes them, each padded to a multiple of four
+/// bytes. All numbers are little-endian.
 class BinaryAnswer {
  public:
-  /// The JSON text, without `arrays`.
+  /// The JSON object of the answer, without the key `arrays`, which `bytes` adds.
   nlohmann::ordered_json head = nlohmann::ordered_json::object();
 
   template <class T>

@@ -15,14 +15,14 @@ struct HttpHead {
   std::string path;                                         ///< percent-decoded, without the query
   std::vector<std::pair<std::string, std::string>> fields;  ///< names in lower case
   bool closes_connection = false;  ///< whether the connection ends after this request
-  /// Number of fields with this name.
+  /// Number of header fields with this name.
   std::size_t count(std::string_view name) const;
-  /// Value of the first field with this name; empty if there is none.
+  /// Value of the first header field with this name; empty if there is no such field.
   std::string_view value(std::string_view name) const;
 };
 
 /// Parses the head of a request.
-/// \param text  the head including the empty line that ends it
+/// \param text  the head of the request, including the empty line at the end of the head
 /// \return nothing if the text is not a valid head
 std::optional<HttpHead> parse_http_head(std::string_view text);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thread reads all requests and writes all answers without blocking; a pool of threads computes
-// the answers to complete requests. A client that is slow or does not know the token therefore
-// occupies only its own connection.
+// One thread reads all requests and writes all answers without blocking. A pool of threads computes
+// the answers to complete requests. Therefore a client that is slow, or that does not know the
+// token, occupies only its own connection and no thread.
 #include "crowdface/page/local_server.h"
 
 #include <algorithm>
@@ -35,9 +35,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMaxHeadBytes = std::size_t{16} << 10U, kMaxConnections = 64, kMaxAtOnce = 16,
                       kThreads = 16;
 constexpr auto kPollInterval = std::chrono::milliseconds(100);
-/// Time limits. kHeadTimeout: for the head of a request, counted from its first byte.
-/// kBodyTimeout: for the rest of a request with a body, and for a client to accept more bytes
-/// of its answer.
+/// Time limits. kHeadTimeout: maximum time until the head of a request is complete, counted from
+/// the first byte of the head. kBodyTimeout: maximum time until the body of a request is complete,
+/// and maximum time until a client accepts more bytes of its answer.
 constexpr auto kHeadTimeout = std::chrono::seconds(5), kBodyTimeout = std::chrono::seconds(60);
 
 /// Returns 128 random bits from the operating system as 32 hexadecimal digits.
@@ -51,7 +51,8 @@ std::string random_token() {
   return token;
 }
 
-/// Compares two texts in constant time, so that the time does not reveal a matching prefix.
+/// Compares two texts in constant time, so that the duration does not reveal the length of a
+/// matching prefix.
 bool equal_in_constant_time(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned differences = 0;
@@ -106,7 +107,8 @@ struct Connection {
   std::optional<HttpHead> head;  ///< head of the request being read
   std::size_t head_bytes = 0, body_bytes = 0;
   bool closes = false;  ///< whether to close the connection after the answer
-  /// Time at which the head or the body began, or at which the client last accepted bytes.
+  /// While a request arrives: the time at which its head or body began. While an answer is sent:
+  /// the time at which the client last accepted bytes.
   Clock::time_point since = Clock::now();
   std::optional<HttpAnswer> answer;  ///< set by a thread; guarded by the server's mutex
 };
@@ -152,7 +154,8 @@ bool LocalServer::State::comes_from_us(const HttpHead& head) const {
   return reads || head.value("sec-fetch-site") == "same-origin";
 }
 
-/// Checks a request by its head, before its body is read. Returns the refusal, if there is one.
+/// Checks the head of a request before the body is read. Returns an error answer if the server
+/// refuses the request; otherwise nothing.
 std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) const {
   constexpr std::size_t kLongestPath = 512;
   const std::string_view host = head.value("host");
@@ -179,8 +182,9 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
   return std::nullopt;
 }
 
-/// Returns the connection to close in favour of a new client: the connection that has waited
-/// longest for the rest of its request's head, if longer than kPollInterval; otherwise end().
+/// Returns the connection to close in favour of a new client: Among the connections whose request
+/// head is incomplete: the connection that has waited longest, if it has waited longer than
+/// kPollInterval. Otherwise end().
 std::list<Connection>::iterator LocalServer::State::slowest_connection() {
   auto oldest = connections.end();
   for (auto client = connections.begin(); client != connections.end(); ++client) {
@@ -195,9 +199,9 @@ bool LocalServer::State::is_full() {
   return connections.size() >= kMaxConnections && slowest_connection() == connections.end();
 }
 
-/// Accepts some of the waiting clients. If there are too many connections, closes the slowest.
-/// Reads from each new client at once, so that a client whose request has arrived is not closed in
-/// favour of the clients after it.
+/// Accepts some of the waiting clients. If there are too many connections, closes the slowest
+/// connection. Reads from each new client immediately, so that a client whose request has arrived
+/// is not closed in favour of later clients.
 void LocalServer::State::accept_clients() {
   for (std::size_t i = 0; i < kMaxAtOnce && !is_full(); ++i) {
     Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
@@ -229,7 +233,8 @@ void LocalServer::State::read_from(Connection& client) {
   take_request(client);
 }
 
-/// Continues with the received part of a request: parses the head, or queues the complete request.
+/// Processes the part of a request that has been received. Parses the head when the head is
+/// complete, and queues the request when the whole request is complete.
 void LocalServer::State::take_request(Connection& client) {
   if (!client.head) {
     constexpr std::string_view kEnd = "\r\n\r\n";
@@ -324,7 +329,8 @@ void LocalServer::State::serve_once() {
   if (waiting[0].revents != 0) accept_clients();
 }
 
-/// Answers requests until the server stops. Runs on each thread of the pool.
+/// Computes the answers to queued requests until the server stops. Each thread of the pool runs
+/// this function.
 void LocalServer::State::work() {
   for (;;) {
     std::unique_lock lock(mutex);
@@ -353,7 +359,8 @@ LocalServer::LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, i
   here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof here;
   auto* address = reinterpret_cast<sockaddr*>(&here);
-  // SO_REUSEADDR allows a restart on the same port; it does not share a port that is in use.
+  // SO_REUSEADDR allows the server to restart on the same port. It does not allow two servers to
+  // use one port at the same time.
   if (!state_->woken.valid() || socket < 0 ||
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
       ::bind(socket, address, size) != 0 || ::listen(socket, SOMAXCONN) != 0 ||

@@ -23,15 +23,15 @@ struct HttpAnswer {
 /// An HTTP/1.1 server for one user on this machine. It does not support ranges, chunked encoding or
 /// compression. It listens on 127.0.0.1 only and answers only requests whose path starts with a
 /// random token. It refuses requests from pages of other sites by their Host or Origin header. It
-/// limits the sizes and times of heads and bodies and the number of connections, so a slow client
-/// does not delay others.
+/// limits the size and the transfer time of request heads and bodies, and the number of
+/// connections, so a slow client does not delay other clients.
 class LocalServer {
  public:
-  /// Largest body, in bytes.
+  /// Maximum size of the body of a request, in bytes.
   static constexpr std::size_t kMaxBodyBytes = std::size_t{4} << 20U;
 
-  /// \param answer  called from several threads.
-  /// \param port    0: any free port.
+  /// \param answer  computes the answer to a request; called from several threads.
+  /// \param port    TCP port; 0: any free port.
   /// \throws CannotCreate if the server cannot listen on the port.
   LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, int port);
   ~LocalServer();
@@ -40,7 +40,7 @@ class LocalServer {
 
   /// The address of the page: "http://127.0.0.1:PORT/TOKEN/".
   const std::string& address() const;
-  /// Serves until `stop` returns true; `stop` is called every 100 ms.
+  /// Serves requests until `stop` returns true. The server calls `stop` every 100 ms.
   void run(const std::function<bool()>& stop);
 
  private:

@@ -13,24 +13,24 @@
 
 namespace crowdface {
 
-/// The quantization grid of packed positions: a cube of 65,535 steps per side.
+/// The quantization grid of packed positions: a cube with 65,535 grid steps along each side.
 struct PackingFrame {
   Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates
   double step = 1;
 
-  /// Returns the cube around all heads, with a margin of a quarter of the heads' largest extent on
-  /// each side for faces that extend beyond the heads.
-  /// \param heads  at least one vertex in all.
+  /// Returns a cube around all heads. The cube has a margin on each side, a quarter of the heads'
+  /// largest extent, because faces may extend beyond the heads.
+  /// \param heads  positions of each head; all heads together must have at least one vertex.
   static PackingFrame enclosing(std::span<const Positions* const> heads);
 };
 
-/// Packs some vertices of a face as little-endian 16-bit numbers. First the positions: three
-/// numbers per vertex, in steps from the frame's low corner, clamped to the cube. Then the unit
-/// normals: two numbers per vertex, the octahedral encoding (Meyer et al. 2010, "On floating-point
-/// normal vectors") with −1 … 1 mapped to 0 … 65,535.
-/// \param vertices       rows of `positions`.
-/// \param vertex_faces   faces around each vertex of the whole mesh, so that a preview has the
-///                       shading of the full mesh.
+/// Packs some vertices of a face as little-endian 16-bit numbers. The positions come first: three
+/// numbers per vertex, in grid steps from the low corner of the frame, clamped to the cube. The
+/// unit normals follow: two numbers per vertex, the octahedral encoding (Meyer et al. 2010, "On
+/// floating-point normal vectors") with −1 … 1 mapped to 0 … 65,535.
+/// \param vertices       the vertices to pack, as row indices of `positions`.
+/// \param vertex_faces   the polygons around each vertex of the whole mesh. The normals of the
+///                       whole mesh give a reduced preview the shading of the whole mesh.
 /// \param adjust_normal  adjust_normal(i, normal): replaces the normal of vertices[i]; may be
 ///                       empty.
 std::string pack_face(
@@ -38,12 +38,13 @@ std::string pack_face(
     const VertexFaces& vertex_faces, const PackingFrame& frame, const Positions& positions,
     const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& adjust_normal = {});
 
-/// Packs positions only, the first part of pack_face.
-/// \param vertices  rows of `positions`.
+/// Packs only positions, in the same format as the first part of the result of pack_face.
+/// \param vertices  the vertices to pack, as row indices of `positions`.
 std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFrame& frame,
                         const Positions& positions);
 
-/// Packs a displacement: three little-endian signed 16-bit numbers, in steps of the frame, clamped.
+/// Packs a displacement: three little-endian signed 16-bit numbers, in grid steps of the frame,
+/// clamped to the range of 16 bits.
 std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame);
 
 /// Encodes bytes as base64 text (RFC 4648).

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// Simplifies index triples to at most `max_triangles` triangles.
+/// Simplifies a mesh, given as index triples, to at most `max_triangles` triangles.
 /// \param options  flags of meshopt_simplify.
 void reduce(std::vector<unsigned int>& triangles, const Positions& positions,
             std::size_t max_triangles, unsigned int options = 0) {
@@ -32,7 +32,8 @@ std::vector<unsigned int> corners_of(const std::vector<Triangle>& triangles) {
   return corners;
 }
 
-/// Converts indices to triangles, in an order that suits the vertex cache of a graphics card.
+/// Converts index triples to triangles, and sorts the triangles for good use of the vertex cache of
+/// a graphics card.
 std::vector<Triangle> optimize_for_vertex_cache(std::vector<unsigned int> corners,
                                                 Index vertex_count) {
   meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(),

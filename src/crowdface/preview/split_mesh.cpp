@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// For each row, the first row with equal coordinates, because some files repeat coordinates for
-/// every corner.
+/// Returns, for each row, the index of the first row with equal coordinates. Needed because some
+/// files repeat equal coordinates for every corner.
 std::vector<std::uint32_t> first_equal_rows(const TextureCoordinates& uvs) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(uvs.rows()));
   std::iota(order.begin(), order.end(), 0U);
@@ -32,8 +32,8 @@ std::vector<std::uint32_t> first_equal_rows(const TextureCoordinates& uvs) {
   return first;
 }
 
-/// The texture tile that contains the mean coordinate of a face; (0, 0) if a corner has no
-/// coordinate.
+/// The texture tile (u and v rounded down) that contains the mean texture coordinate of a polygon;
+/// (0, 0) if a corner has no texture coordinate.
 std::array<double, 2> tile_of(std::span<const std::uint32_t> corners,
                               const TextureCoordinates& uvs) {
   Eigen::RowVector2d sum(0, 0);

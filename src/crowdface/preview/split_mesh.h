@@ -11,33 +11,37 @@
 
 namespace crowdface {
 
-/// A triangulated mesh whose vertices are split at texture seams and at borders between materials,
-/// so that edge collapses (reduced_mesh.h) preserve these borders.
+/// A triangulated mesh for edge collapses (reduced_mesh.h). Vertices at texture seams and at
+/// borders between materials are split into several corners, so that edge collapses preserve these
+/// borders.
 struct SplitMesh {
   struct Corner {
-    /// vertex: row of positions; uv: row of texture coordinates, or kNoIndex; material: index of
-    /// the material.
+    /// vertex: row index of the position; uv: row index of the texture coordinate, or kNoIndex;
+    /// material: index of the material.
     std::uint32_t vertex, uv, material;
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
-  std::vector<Corner> corners;                  ///< distinct corners, ascending
-  std::vector<std::uint32_t> face_of_corner;    ///< #corners: the first face with this corner
-  std::vector<Triangle> triangles;              ///< indices into `corners`
-  std::vector<std::uint32_t> face_of_material;  ///< #materials: the first face of each material
+  std::vector<Corner> corners;  ///< distinct corners, ascending
+  /// for each corner: the first polygon with this corner
+  std::vector<std::uint32_t> face_of_corner;
+  std::vector<Triangle> triangles;  ///< indices into `corners`
+  /// for each material: the first polygon with this material
+  std::vector<std::uint32_t> face_of_material;
 
   /// Returns the positions of the corners, #corners by 3.
   /// \param whole  positions of the whole mesh, #V by 3.
   Positions corner_positions(const Positions& whole) const;
 };
 
-/// Splits a mesh. Faces with the same label but in different texture tiles get different materials.
-/// \param uvs    may be empty.
-/// \param materials  #F: the material label of each face; kNoIndex omits the face.
+/// Splits the vertices of a mesh. Polygons with equal labels but in different texture tiles get
+/// different materials.
+/// \param uvs    texture coordinates; may be empty.
+/// \param materials  for each polygon: the label of the material; kNoIndex omits the polygon.
 SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
                      std::span<const std::uint32_t> materials);
 
-/// Groups triangles of the split mesh by material. Drops triangles with two equal vertices, which
-/// result from edge collapses along seams.
+/// Groups triangles of the split mesh by material. Drops degenerate triangles, in which two corners
+/// are the same vertex; edge collapses along seams produce such triangles.
 std::vector<Triangle> grouped_by_material(std::vector<Triangle> triangles, const SplitMesh& split);
 
 }  // namespace crowdface

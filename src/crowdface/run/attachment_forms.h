@@ -14,15 +14,15 @@
 
 namespace crowdface {
 
-/// The attachments of a crowd at one level of detail, each converted to the form that one file
-/// format needs.
-/// \tparam Form  data of an attachment that all faces share; a file combines them with the
-///               positions on one face
+/// The attachments of a crowd at one level of detail. Each attachment is converted to the data
+/// ("form") that one file format needs.
+/// \tparam Form  the data of an attachment that are equal for all faces; a file combines these data
+///               with the attachment's positions on one face
 template <class Form>
 class AttachmentForms {
  public:
-  /// \param make  returns the form of an attachment. Its second argument is the attachment's level
-  ///              of detail, or null if the attachment is not reduced.
+  /// \param make  function that returns the form of an attachment. The function's second argument
+  ///              is the attachment's level of detail, or null if the attachment is not reduced.
   template <class Make>
   AttachmentForms(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
     for (const Attachment* item : level.items(set)) {
@@ -32,7 +32,7 @@ class AttachmentForms {
 
   const Form& at(const Attachment& item) const { return forms_.at(&item); }
   /// A face's attachments together with their forms. The result refers to `attachments` and to this
-  /// object. \tparam Placed  holds a form, positions, displacements and a look
+  /// object. \tparam Placed a struct with a form, positions, displacements and a PartLook
   template <class Placed>
   std::vector<Placed> placed(std::span<const PlacedAttachment> attachments) const {
     std::vector<Placed> placed;
@@ -50,8 +50,8 @@ class AttachmentForms {
     for (const auto& [item, form] : forms_) bytes += std::invoke(&Form::memory_bytes, form);
     return bytes;
   }
-  /// Maximum memory, in bytes, for encoding the attachments of one face, which wears at most one of
-  /// each kind.
+  /// Maximum memory, in bytes, for encoding the attachments of one face. A face wears at most one
+  /// attachment of each kind.
   /// \param files  returns the number of files that contain an attachment
   template <class Files>
   std::size_t encode_bytes(const Files& files) const {
@@ -73,7 +73,8 @@ class AttachmentForms {
   std::map<const Attachment*, Form> forms_;
 };
 
-/// The form of the faces' mesh, and the forms of the attachments in the same file.
+/// The form of the mesh that all faces share, and the forms of the attachments that the face's file
+/// also contains.
 template <class Mesh, class Part>
 struct MeshWithAttachments {
   Mesh mesh;

@@ -47,7 +47,7 @@ std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& hea
   return anchors;
 }
 
-/// Returns the entries below the diagonal, row by row.
+/// Returns the matrix entries below the diagonal, row by row.
 std::vector<double> below_diagonal(const Eigen::MatrixXd& distances) {
   std::vector<double> values;
   for (Index a = 0; a < distances.rows(); ++a) {
@@ -118,8 +118,8 @@ std::set<std::string> twin_families(const Config& config) {
   return names;
 }
 
-/// Gives children skin tones between their parents' tones, in crowds whose attachments have a tint.
-/// Other crowds stay as they are.
+/// Gives each child a skin tone between the tones of the parents. Does this only in crowds whose
+/// attachments have a tint; does not change other crowds.
 void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>& crowd) {
   const bool has_children =
       std::ranges::any_of(crowd, [](const FacePlan& face) { return !face.parents.empty(); });
@@ -140,8 +140,8 @@ ColourOptions colour_options(const Config& config) {
   return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike};
 }
 
-/// Rounds values to the four decimals that a plan stores, so that this run reports the same values
-/// as a run that reads the plan.
+/// Rounds values to four decimals, as the plan file does, so that this run reports the same values
+/// as a run that reads the plan file.
 void round_as_planned(std::vector<FacePlan>& crowd) {
   for (FacePlan& face : crowd) {
     face.mother_share = rounded(face.mother_share);
@@ -151,8 +151,8 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
   }
 }
 
-/// Returns options for trials with other minimum distances: the faces that exist in the folder keep
-/// their own minimum distance.
+/// Returns options for trial castings with other minimum distances. The faces that already exist in
+/// the crowd's folder keep their own minimum distance in these trials.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
   if (config.crowd.existing_count) {
     casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing_count,
@@ -288,7 +288,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     family.founder.family = family.name;
     result.founders.push_back(std::move(family.founder));
   }
-  // Keep the points only if needed: for a million faces they need a gigabyte.
+  // Keep the faces' points only if a later stage needs them: a million points take a gigabyte.
   if (config.output.contact_sheet || !config.groups.empty()) {
     result.points = std::move(crowd.points);
   }

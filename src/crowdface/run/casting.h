@@ -13,12 +13,13 @@
 
 namespace crowdface {
 
-/// The space in which faces are compared, and the coarse skin on which they are judged.
+/// The vector space in which casting compares faces, and the coarse skin mesh on which casting
+/// checks faces for defects.
 struct CastingSpace {
   FaceSpace space;
   ProxySkin skin;
 };
-/// \param cache  folder that keeps the tables of the space; empty: no cache
+/// \param cache  folder that caches the precomputed tables of the space; empty: no cache
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache);
 
@@ -26,11 +27,12 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
 CastingOptions casting_options(const Config& config, const Inputs& inputs,
                                const Eigen::MatrixXd& head_distances);
 
-/// Distances between the faces of a crowd, and between its heads for comparison.
+/// Distances between the faces of a crowd and, for comparison, between the input heads.
 struct CrowdDistances {
-  Quartiles heads;                 ///< distances between input heads
-  Quartiles crowd;                 ///< distances between faces of the crowd
-  std::vector<Quartiles> regions;  ///< between faces, over each region; empty if there is only one
+  Quartiles heads;  ///< distances between input heads
+  Quartiles crowd;  ///< distances between faces of the crowd
+  /// one per region: distances between faces in this region; empty if there is only one region
+  std::vector<Quartiles> regions;
   Quartiles to_nearest_head, to_nearest_face;
   double ratio = 0;  ///< crowd median / head median; 0 if there are no heads to compare
 };
@@ -44,8 +46,8 @@ struct FamilyReport {
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_other_mm = 0;
   double silhouette = 0;
-  /// if the family has parents: the fraction of faces outside the family that are nearer to a child
-  /// than one of its parents is; the largest such fraction of all children
+  /// only if the family has parents: the fraction of the faces outside the family that are nearer
+  /// to a child than the child's farther parent; the maximum over all children
   std::optional<double> nearer_strangers_fraction;
 };
 
@@ -57,8 +59,8 @@ struct CrowdPlan {
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
-  std::vector<TraitReport> traits;  ///< of the measurements that the config names
-  std::vector<FacePlan> founders;   ///< hidden heads of families, which are not part of the crowd
+  std::vector<TraitReport> traits;  ///< reports on the measurements that the config names
+  std::vector<FacePlan> founders;   ///< founders of families: hidden faces, not part of the crowd
   std::vector<FacePlan> rejected;   ///< faces that reviews rejected
   std::vector<FaceSpace::Point>
       points;  ///< one per face of the crowd; empty if there are neither contact sheets nor groups
@@ -67,11 +69,11 @@ struct CrowdPlan {
 /// Converts the config to options for sampling the attachments of a crowd.
 AttachmentOptions attachment_options(const Config& config);
 
-/// Casts the crowd.
+/// Chooses the recipes of all faces ("casts" the crowd).
 /// \param defects  judges a candidate's whole mesh; empty: meshes are not judged
 /// \param cache    see casting_space
-/// \throws Unsatisfiable if the constraints cannot be met; the message names the binding
-///     constraint, the number of faces that were cast, and a change that would help.
+/// \throws Unsatisfiable if the constraints cannot be met; the message names the constraint that
+///     prevented more faces, the number of faces that were cast, and a change that would help.
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
                      const FindMeshDefects& defects, const std::filesystem::path& cache);
 

@@ -28,8 +28,8 @@ Json to_json(const Quartiles& q) {
           {"max", rounded(q.max)}};
 }
 
-/// Quartiles of the distances from each face to its nearest neighbour. Omits the key "pairs",
-/// because the distances are not those of all pairs.
+/// Quartiles of the distances from each face to its nearest neighbour. Omits the key "pairs" (the
+/// number of pairs of faces), because not all pairs are measured.
 Json nearest_to_json(const Quartiles& q) {
   Json json = to_json(q);
   if (json.is_object()) json.erase("pairs");
@@ -70,7 +70,7 @@ Json groups_to_json(const std::vector<Group>& groups, const CrowdPlan& crowd_pla
   return json;
 }
 
-/// The number of faces per tag. A face has the tags of its most typical head.
+/// The number of faces per tag. A face counts with the tags of its typical head (see typical_head).
 Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   Json json = Json::object();
   for (const FacePlan& face : crowd_plan.crowd) {
@@ -82,8 +82,8 @@ Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   return json;
 }
 
-/// The number of faces with each attachment, by kind, name and colour, and the quotas for sampled
-/// faces.
+/// For each kind, name and colour of attachments: the number of faces that wear the attachment.
+/// Also the quotas for sampled faces.
 Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan& crowd_plan) {
   const auto wears = [&](const FacePlan& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {

@@ -12,8 +12,9 @@
 namespace crowdface {
 namespace {
 
-/// Puts attachments on a face, in place of attachments of the same kinds and of attachments that
-/// exclude one another. \param names  none: removes all attachments.
+/// Puts the named attachments on a face. Removes the face's other attachments that have the kind of
+/// a named attachment, exclude a named attachment, or are excluded by a named attachment. If
+/// `names` is empty, removes all attachments.
 void replace_attachments(const Config& config, const std::vector<std::string>& names,
                          FacePlan& face) {
   const std::vector<Config::Attachment>& items = config.attachments.items;
@@ -44,7 +45,7 @@ void take_off(const Config& config, const std::vector<std::string>& words, FaceP
 
 class ChangedLooks {
  public:
-  /// \param crowd  the faces as they were cast.
+  /// \param crowd  all faces before any change.
   ChangedLooks(const Config& config, const CastingOptions& casting,
                const AttachmentOptions& attachments, const ColourOptions& colours,
                const std::vector<int>& kinds, const std::vector<FacePlan>& crowd)
@@ -87,7 +88,7 @@ class ChangedLooks {
   }
 
  private:
-  /// Gives the face the skin of `other` at the age of `face`.
+  /// Gives `face` the skin that `other` would have at the age of `face`.
   void take_skin(FacePlan other, FacePlan& face) const {
     if (config_.textures.blend != TextureBlend::kAuto) return;  // the face has the same target
     for (RegionRecipe& region : other.recipe.regions) {  // its skin ages like the finest band
@@ -124,8 +125,9 @@ class ChangedLooks {
     return face;
   }
 
-  /// Returns the face as `changed` records it. If a review has since rejected the face, chooses its
-  /// colours anew.
+  /// Returns the changed face with its colours and attachments. If a later review has rejected the
+  /// face and the face was sampled again, chooses the colours and attachments of the recorded face
+  /// anew.
   FacePlan look_of(const ChangedFace& changed) const {
     const FacePlan& face = changed.face;
     const auto now = std::ranges::find(crowd_, face.id, &FacePlan::id);

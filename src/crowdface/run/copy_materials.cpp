@@ -22,9 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Copies each file once: heads in one folder mostly share their files.
+/// Copies each file once: heads in one folder usually refer to the same files.
 class MaterialCopies {
-  /// A neutral texture hair_colour_for with a hair colour, and the files that hold the result.
+  /// A neutral texture, the hair colour with which to tint it, and the paths of the tinted copies.
   struct TintedTexture {
     fs::path neutral;
     HairColour colour;
@@ -32,8 +32,8 @@ class MaterialCopies {
   };
 
  public:
-  /// \param own  kinds of textures of which each face has its own; if not empty, each face also has
-  ///             its own material file
+  /// \param own  kinds of textures that are written for each face separately; if not empty, each
+  ///             face also has its own material file
   MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, std::set<TextureKind> own)
       : directory_(directory), ledger_(ledger), own_(std::move(own)) {}
 
@@ -52,8 +52,8 @@ class MaterialCopies {
     }
   }
 
-  /// Copies the material files and textures of attachments into a folder for each look. Colour
-  /// textures get the colour of the look.
+  /// Copies the material files and textures of each attachment in each colour ("look") into a
+  /// separate folder. Tints the colour textures with this colour.
   void add(const std::vector<AttachmentLook>& looks) {
     std::map<std::pair<fs::path, std::string>, TintedTexture> all;
     for (const AttachmentLook& look : looks) {
@@ -91,8 +91,8 @@ class MaterialCopies {
     }
   }
 
-  /// \param told  earlier warnings. The result omits them, even if this object has found the
-  ///              problem in more heads.
+  /// \param told  earlier warnings. The result omits these warnings, even if this object has found
+  ///              the same problem in additional heads.
   std::vector<std::string> warnings(const std::vector<std::string>& told) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {

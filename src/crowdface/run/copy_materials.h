@@ -11,10 +11,11 @@
 
 namespace crowdface {
 
-/// Copies material files and textures to the meshes' folder: the files of all target heads if OBJ
-/// files refer to them, and the files of attachments if separate files or USD layers refer to them.
-/// \return new warnings (not in the inputs' list), without duplicates, each with the heads
-///         concerned; also logged.
+/// Copies material files and textures into the folder of meshes. Copies the files of all target
+/// heads if OBJ files refer to these files. Copies the files of attachments if separate attachment
+/// files or USD layers refer to these files.
+/// \return the warnings that are not yet in the inputs' list, without duplicates. Each warning
+///         names the heads that it is about. Warnings are also logged.
 std::vector<std::string> copy_materials(const Config& config, const Inputs& inputs,
                                         const CrowdDirectory& directory,
                                         const std::vector<FacePlan>& crowd, Ledger& ledger);

@@ -54,7 +54,7 @@ void add_text(const TextPieces& text, Hasher& hasher) {
   text([&](std::string_view piece) { hasher.add_raw(piece); });
 }
 
-/// Hash of everything that sheets and gallery show.
+/// Hash of everything that the contact sheets and the gallery show.
 Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
                      const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
@@ -63,8 +63,8 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
     hasher.add(name).add(digest);
   }
   hasher.add(config_text_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
-  // Hash the plan, with each face's notes, and the likeness: reviews and the distance mask change
-  // nothing else.
+  // Hash the plan, which includes each face's notes, and the likeness data. Reviews and the
+  // distance mask change the sheets only through these two.
   try {
     add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
   } catch (const MissingInput& error) {  // removed by another program: it existed a moment ago
@@ -89,7 +89,7 @@ std::vector<FacePlan> faces_to_render(const FaceLedger& ledger,
   return faces;
 }
 
-/// Renders faces, and makes their gallery meshes, from the mesh files.
+/// Reads the faces' mesh files, renders the faces, and makes their small meshes for the gallery.
 void render_faces(const Job& job, const FaceFileLists& lists, const std::vector<FacePlan>& faces,
                   const FaceTextures& textures, const FaceShapes& shapes,
                   const CrowdRenders& renders) {
@@ -145,7 +145,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                    const fs::path& cache) {
   CrowdDirectory directory{crowd_directory};
   require_crowd(directory);
-  // another run might otherwise replace the files while they are read
+  // lock the folder, so that no other run replaces the mesh files while this run reads them
   const CrowdLock lock(directory, {});
   ConfigOverrides overrides;
   overrides.assignments = set;

@@ -16,8 +16,8 @@
 
 namespace crowdface {
 
-/// Makes the contact sheets, the gallery and their data, unless they are up to date. All of these
-/// depend on the faces' images and meshes, the config and the gallery's page.
+/// Makes the contact sheets, the gallery and the data files of both, unless these files are up to
+/// date. They depend on the faces' images and meshes, the config and the gallery's page.
 /// \param faces    results, one per face of the crowd
 /// \param builder  builds the founders of families, which have no mesh files
 /// \return the number of sheets that the faces fill.
@@ -25,8 +25,8 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
                         const CrowdPlan& crowd_plan, const std::vector<FaceResult>& faces,
                         Lazy<FaceBuilder>& builder, Lazy<CrowdPictures>& pictures, Ledger& ledger);
 
-/// Makes the contact sheets of a finished crowd again from its mesh files. Only the founders of
-/// families, which have no mesh files, are blended.
+/// Makes the contact sheets of a finished crowd again from its mesh files. Blends only the founders
+/// of families, because founders have no mesh files.
 /// \param set    changes to the crowd's own config, such as "output.contact_sheet.columns=8"
 /// \param cache  folder of prepared heads, from which founders are blended
 void remake_sheets(const std::filesystem::path& crowd_directory,

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// Arranges the faces in rows, in the stage's axes.
+/// Places the faces in rows, in the coordinate axes of the stage (the USD layer of the crowd).
 struct Rows {
   Eigen::Vector3d side, back;  ///< offsets to the next column and to the next row
   std::size_t columns = 1;
@@ -24,7 +24,7 @@ struct Rows {
   }
 };
 
-/// Spacing of the faces along an axis: the largest extent of any head along this axis times 4/3.
+/// Spacing of the faces along an axis: 4/3 of the largest extent that any head has along this axis.
 double face_spacing(const Inputs& inputs, Eigen::Index axis) {
   double most = 0;
   for (const Head& head : inputs.faces.heads) {
@@ -48,7 +48,8 @@ Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
   return rows;
 }
 
-/// The text that references a face's layer: "prepend references = @./meshes/ID.usda@".
+/// Returns the USD text that references the layer of a face: "prepend references =
+/// @./meshes/ID.usda@".
 std::string reference(const CrowdDirectory& here, const std::string& id, std::size_t level) {
   return concat("prepend references = @./",
                 here.relative(here.mesh(id, MeshFormat::kUsd, level_suffix(level, ""))), "@\n");

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// A USD layer in the crowd's folder that references the layers of its faces and arranges them in
-/// rows. With levels of detail, each face has a variant set `LOD`.
+/// A USD layer in the crowd's folder that references the layers of all faces and places the faces
+/// in rows. With levels of detail, each face has a variant set `LOD`.
 std::string format_stage(const Config& config, const Inputs& inputs,
                          std::span<const FacePlan> crowd);
 

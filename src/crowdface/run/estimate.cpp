@@ -38,7 +38,8 @@ std::string format_csv(const std::vector<EstimateRow>& rows) {
   return csv;
 }
 
-/// Maps faces and millimetres to pixels of the plot.
+/// Maps a number of faces to the x coordinate in the plot, and millimetres to the y coordinate, in
+/// pixels.
 class Frame {
  public:
   Frame(const std::vector<EstimateRow>& rows, std::uint64_t asked_count, double asked_mm) {
@@ -83,7 +84,7 @@ std::string line_of(const Frame& frame, const std::vector<EstimateRow>& rows,
                 points, "\"/>\n");
 }
 
-/// The table, with columns aligned for reading.
+/// Returns a text table of the estimate with aligned columns.
 std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
                             double asked_mm) {
   std::string table = "   faces   spread, mm   first fit, mm\n";
@@ -97,8 +98,8 @@ std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t 
   return table;
 }
 
-/// A plot as SVG: number of faces on a logarithmic x axis, millimetres on the y axis, one line per
-/// mode, and a cross at the requested values.
+/// A plot as SVG: number of faces on a logarithmic x axis, minimum distance in millimetres on the y
+/// axis, one line for each sampling mode (spread, first fit), and a cross at the requested values.
 std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
                           double asked_mm) {
   const Frame frame(rows, asked_count, asked_mm);

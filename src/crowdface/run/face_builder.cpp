@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-/// The region weights averaged over the two profiles of each contact: #contacts by #regions, rows
-/// summing to one.
+/// For each contact: the mean region weights of the contact's two profiles. Result: #contacts by
+/// #regions; each row sums to one.
 std::vector<std::vector<double>> contact_masks(const SkinContacts& contacts,
                                                const RegionWeights& regions) {
   std::vector<std::vector<double>> masks;
@@ -90,7 +90,8 @@ Positions FaceBuilder::build(const Recipe& recipe) const {
 
 Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) const {
   if (!blender_) return build(recipe);
-  // Clear the previous face before the update, so that an exception cannot leave it inconsistent.
+  // Clear the previous face before the update, so that an exception cannot leave a half-updated
+  // face.
   if (const auto before = std::exchange(previous.recipe, std::nullopt)) {
     blender_->change(*before, recipe, previous.blended);
   } else {
@@ -226,7 +227,8 @@ std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
   const auto vertices = static_cast<std::uint64_t>(inputs_.faces.topology.vertex_count);
   std::uint64_t bytes_per_face = 3 * sizeof(double) * vertices;
   if (!blender_) {
-    // Memory per region: the difference, its rows, four vectors of the recurrence and one sum.
+    // Memory per region: the difference to smooth (as a matrix and as rows of the filter), four
+    // vectors of the filter's recurrence, and one sum.
     const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
     bytes_per_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }

@@ -17,8 +17,8 @@
 
 namespace crowdface {
 
-/// Builds the meshes of recipes with the levels that the config asks for. One call with several
-/// recipes is faster than one call per recipe and gives the same bytes.
+/// Builds the mesh of a face from the face's recipe. Uses the smoothing levels that the config asks
+/// for. One call with several recipes is faster than one call per recipe and gives the same bytes.
 class FaceBuilder {
  public:
   /// \param config, inputs, prepared  must outlive the builder.
@@ -26,26 +26,27 @@ class FaceBuilder {
   FaceBuilder(const FaceBuilder&) = delete;
   FaceBuilder& operator=(const FaceBuilder&) = delete;
 
-  /// \param results  one per recipe, #V by 3, in file units; their memory is reused
+  /// \param results  one matrix per recipe, #V by 3, in the units of the mesh files; reuses the
+  ///                 memory of these matrices
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
   Positions build(const Recipe& recipe) const;
 
-  /// The face that the previous call of `rebuild` built, from which the next call starts.
+  /// The face that the previous call of `rebuild` built. The next call starts from this face.
   struct PreviousFace {
     std::optional<Recipe> recipe;
     Positions blended;
   };
-  /// Gives the same result as `build` for one recipe, but is faster if the recipe differs from the
-  /// previous one in few regions only.
+  /// Gives the same result as `build` for one recipe, but is faster if the recipe differs in only a
+  /// few regions from the recipe of the previous call.
   /// \param previous  the state that the previous call left; initially empty
   Positions rebuild(const Recipe& recipe, PreviousFace& previous) const;
 
-  /// Replaces the masks for blending, initially the inputs' masks. Results that `rebuild` kept
-  /// become invalid.
+  /// Replaces the region masks for blending, which are initially the masks of the inputs. Every
+  /// PreviousFace becomes invalid.
   void use_masks(const Config& config, const RegionWeights& regions);
 
-  /// The masks for blending: zero at vertices of parts, because other steps determine their
-  /// positions.
+  /// The region masks for blending. Masks are zero at vertices of parts (eyes, teeth), because
+  /// other steps determine the positions of these vertices.
   const RegionWeights& regions() const { return regions_; }
 
   /// The vertices whose positions `correct_contacts` reads; empty if gaps are not corrected.
@@ -61,21 +62,22 @@ class FaceBuilder {
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
-  /// How much wider the gap between lips, or other skin surfaces that almost touch, is in the face
-  /// than in any head, in mm.
+  /// How far the gap between the lips (or between other skin surfaces that almost touch) exceeds
+  /// the widest gap of any head, in mm; the maximum over all places.
   double gap_excess_mm(const Recipe& recipe, const Positions& face) const;
 
-  /// Memory for building the given number of faces at once, including their positions, in bytes.
+  /// Memory in bytes for building the given number of faces at once, including the memory for the
+  /// resulting positions.
   std::uint64_t memory_bytes(std::size_t face_count) const;
 
  private:
-  /// Applies the steps after blending: asymmetry, contacts, parts, pose, mirroring, the ring at the
-  /// neck.
+  /// Applies the steps after blending: adjusts asymmetry, contacts, parts and pose, mirrors the
+  /// face, and fits the ring of vertices at the neck.
   void finish(const Recipe& recipe, Positions& face) const;
   /// The map that mirrors faces; computed in the first call. Thread-safe.
   const MirrorMap& mirror() const;
-  /// Returns, for each contact, the allowed range of the gap: between the target's gap and the
-  /// weighted mean of the sources' gaps.
+  /// Returns, for each contact, the allowed range of the gap. The range extends from the gap of the
+  /// target head to the weighted mean of the gaps of the source heads.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   void include_mirrored_ranges(std::vector<SkinContacts::Range>& ranges) const;
 
@@ -84,7 +86,7 @@ class FaceBuilder {
   const Prepared& prepared_;
   mutable std::once_flag mirror_once_;
   mutable std::shared_ptr<const MirrorMap> mirror_;
-  /// The masks for blending, which regions() returns.
+  /// the region masks for blending
   RegionWeights regions_;
   std::optional<CrowdBlender> blender_;             ///< empty with `levels: exact`
   std::optional<FacePoses> turns_;                  ///< empty if all heads have one pose

@@ -36,8 +36,9 @@ struct FinishedFace {
 
   const FacePlan& face;
   const Positions& positions;
-  std::vector<Displacements> moves;       ///< one per shape; empty if no output shows shapes
-  std::vector<Index> skin_intersections;  ///< intersecting triangles, see FaceShapes::of_face
+  std::vector<Displacements> moves;  ///< one per shape; empty if no output shows shapes
+  /// one per shape: number of intersecting skin triangles, see FaceShapes::shapes_of_face
+  std::vector<Index> skin_intersections;
   std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's own textures, encoded as image files; empty if no output file uses them. With
@@ -58,21 +59,22 @@ struct FinishedFace {
     std::vector<PlacedAttachment> placed_attachments;
   };
   std::deque<Reduced> reduced;  ///< one per level of detail
-  /// the whole mesh, then the levels of detail; refer to the members above
+  /// the whole mesh, then one mesh per level of detail; these meshes refer to the members above
   std::vector<FaceMesh> meshes;
 };
 
-/// Index of a face's shape; nothing: the face at rest.
+/// Index of a blend shape of the face; without a value: the face at rest.
 using ShapeNumber = std::optional<std::size_t>;
 
-/// Encodes the mesh files of a crowd's faces; holds what all faces share. Thread-safe.
+/// Encodes the mesh files of a crowd's faces. Holds the data that are equal for all faces.
+/// Thread-safe.
 class FaceEncoders {
  public:
-  /// \param config, inputs  must outlive this object and everything that it encodes.
+  /// \param config, inputs  must outlive this object and all files that this object encodes.
   /// \param formats  mesh formats of the faces
   /// \param crowd    all faces that may be written
   /// \param shared   see MeshSource
-  /// \throws InvalidInput if a format cannot hold such a mesh.
+  /// \throws InvalidInput if a format cannot store the mesh of these faces.
   FaceEncoders(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
                std::span<const FacePlan> crowd, const std::string& shared = {});
 
@@ -84,11 +86,12 @@ class FaceEncoders {
 
   /// Whether GLB and USD files contain the body, as an attachment of each face.
   bool holds_body() const { return config_.neck.write_body; }
-  /// The body in the files of a face; refers to `face`.
+  /// The body, as an attachment for the files of a face. The result refers to `face`.
   PlacedAttachment placed_body(const FinishedFace& face) const;
 
-  /// Computes the data that the files of a face share, such as its mesh at each level of detail.
-  /// The results refer to `face`, which must not move in memory afterwards.
+  /// Computes the data that several files of a face need, such as the mesh at each level of detail,
+  /// and stores these data in `face`. They refer to other members of `face`, so `face` must not
+  /// move in memory afterwards.
   void prepare(FinishedFace& face) const;
 
   // The following functions require a prepared face.
@@ -100,14 +103,15 @@ class FaceEncoders {
   /// Encodes the points that follow the face, as JSON.
   EncodedFile points(const FinishedFace& face) const;
 
-  /// Memory of this object, and the maximum memory of one face's files, in bytes.
+  /// In bytes: the memory of this object, and the maximum memory of one face's encoded files.
   std::size_t memory_bytes() const;
   std::size_t encode_bytes() const;
 
  private:
   /// Whether files of this format have vertex normals at this level of detail.
   bool needs_normals(MeshFormat format, std::size_t level, Index target) const;
-  /// Vertex normals; at the neck's ring, the normals that are equal in the whole crowd.
+  /// Vertex normals of a face. At the ring of vertices at the neck, returns the normals that are
+  /// equal in the whole crowd.
   Positions normals_of(const Positions& positions) const;
   FaceMesh mesh_on(std::size_t level, FinishedFace& face) const;
 
@@ -116,16 +120,16 @@ class FaceEncoders {
   std::vector<MeshFormat> formats_;
   std::vector<MeshLevel> levels_;
   std::map<MeshFormat, MeshEncoders> encoders_;
-  /// #levels; empty if attachments have no files
+  /// one per level of detail; empty if attachments are not written to separate files
   std::vector<AttachmentForms<MeshEncoder>> attachments_;
   std::optional<OwnTextures> own_;               ///< empty if faces have no textures of their own
   std::optional<PointCarrier> points_, joints_;  ///< empty if there are no such points or joints
-  /// normal fans of the vertices; empty if no format needs normals
+  /// the polygons around each vertex, for vertex normals; empty if no format needs normals
   std::optional<NormalFans> fans_;
 };
 
-/// The shapes for which an attachment has files: none if the attachment is rigid, otherwise the
-/// shapes for which the faces have files.
+/// The blend shapes for which an attachment has separate files. None if the attachment is rigid;
+/// otherwise the blend shapes for which faces have separate files.
 std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
                                        const Inputs& inputs);
 

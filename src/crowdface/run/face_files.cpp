@@ -55,7 +55,8 @@ class MeshFileList {
   }
   std::size_t shapes() const { return options_.all_variants ? inputs_.shapes.shapes.size() : 0; }
 
-  /// Joins the name parts between stem and extension: "LOD1+bob+smile".
+  /// Joins the parts of a file name that stand between stem and extension, for example
+  /// "LOD1+bob+smile".
   static std::string joined_parts(const std::vector<std::string>& parts) {
     std::string name;
     for (const std::string& part : parts) {

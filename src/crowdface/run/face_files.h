@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the files of a face, for building, resuming, `sheet`, `blend` and the report.
+// Lists the files of a face. Building, resuming, `sheet`, `blend` and the report use these lists.
 #pragma once
 
 #include <filesystem>
@@ -21,13 +21,14 @@ namespace crowdface {
 
 struct FinishedFace;
 
-/// A file of a face. To add a kind of file, add an entry to the lists below.
+/// A file of a face. To add a new kind of file, add it to the functions below that return lists of
+/// files.
 struct FaceFile {
   std::filesystem::path path;
   /// Where report.json stores the file's hash: for example section "lods" and key "LOD1.obj", or no
   /// section and key "mesh". If the key is empty, the report omits the hash.
   std::string section, key;
-  /// Encodes the file; the result refers to the face and to its encoders.
+  /// Encodes the file. The result refers to the face and to the face's encoders.
   std::function<EncodedFile(const FinishedFace& face)> make;
 };
 
@@ -43,7 +44,7 @@ struct MeshFileOptions {
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
                                  const MeshFileOptions& options);
 
-/// Encodes the given files of a face and writes them together.
+/// Encodes the given files of a face and writes all of these files in one batch.
 void write_files_of(const FinishedFace& face, const std::vector<FaceFile>& files);
 
 /// Makes the file lists of a crowd's faces.
@@ -70,8 +71,9 @@ class FaceFileLists {
 /// The results for a face whose files have been written.
 struct FaceResult {
   std::vector<FileDigest> files;    ///< one per file of FaceFileLists::all_files
-  std::optional<SkinDefects> skin;  ///< compared with the target, if the mesh was judged
-  /// intersecting triangles, see FaceShapes::of_face; empty if there are no shapes
+  std::optional<SkinDefects> skin;  ///< defects compared with the target head; empty if not checked
+  /// one per shape: number of intersecting skin triangles, see FaceShapes::shapes_of_face; empty if
+  /// there are no shapes
   std::vector<Index> skin_intersections;
 };
 

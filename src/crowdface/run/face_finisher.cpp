@@ -7,9 +7,9 @@
 
 namespace crowdface {
 
-/// Blends the textures in parallel. Each thread encodes and discards a texture before it blends the
-/// next.
-/// \return the textures for renders.
+/// Blends the textures in parallel. To save memory, each thread encodes a texture and discards it
+/// before the thread blends the next texture.
+/// \return the textures that renders need.
 std::optional<FaceTextureSet> FaceFinisher::paint(const Recipe& recipe, OwnTextures::Encoded& files,
                                                   StageTimes& busy) const {
   std::optional<FaceTextureSet> texture_set;
@@ -51,8 +51,8 @@ void FaceFinisher::finish(FinishedFace& face, StageTimes& busy) const {
   face.colours = textures.vertex_colours(recipe);
   const bool with_shapes = (encoders != nullptr && encoders->holds_shapes()) ||
                            (renders != nullptr && renders->show_shapes());
-  // Round the positions as mesh files do, so that `sheet`, which reads these files, gets the same
-  // shapes, attachments and renders.
+  // Round the positions to the precision of mesh files. The command `sheet` reads mesh files, and
+  // must get the same shapes, attachments and renders.
   Positions single;
   if (with_shapes || renders != nullptr || !face.face.attachments.empty()) {
     single = round_to_single(face.positions);

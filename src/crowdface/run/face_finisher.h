@@ -20,8 +20,8 @@ struct FaceFinisher {
   const FaceEncoders* encoders = nullptr;  ///< null: no meshes are written
   const CrowdRenders* renders = nullptr;   ///< null: nothing is rendered
 
-  /// Completes a blended face: shapes, attachments, textures and renders. The renders are the same
-  /// whether the positions come from blending or from the face's mesh file. Thread-safe.
+  /// Completes a blended face: adds shapes, attachments, textures and renders. The renders are the
+  /// same whether the positions come from blending or from the face's mesh file. Thread-safe.
   /// \param face  must not move in memory afterwards
   void finish(FinishedFace& face, StageTimes& busy) const;
 

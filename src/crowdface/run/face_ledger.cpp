@@ -54,8 +54,8 @@ Json to_json(const SkinDefects& skin) {
           {"wider_mm", skin.gap_excess_mm},  {"exposed_mm2", skin.exposed_mm2}};
 }
 
-/// Parses the output of `to_json`. Because the line's checksum was verified, this throws only if
-/// another version of the program wrote the line.
+/// Parses the output of `to_json`. The caller has verified the checksum of the ledger line, so this
+/// function throws only if another version of the program wrote the line.
 SkinDefects noted_skin(const Json& json) {
   SkinDefects skin;
   skin.local.compared = json.at("compared").get<Index>();

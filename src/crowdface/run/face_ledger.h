@@ -11,15 +11,15 @@
 
 namespace crowdface {
 
-/// A face whose files are written, and its results.
+/// A face whose files are written, and the results for this face.
 struct MadeFace {
   const FacePlan* face = nullptr;
   FaceResult result;
 };
 
-/// Records the faces of a crowd in its ledger. Each face is one item: its list of files, and the
-/// measurements of its skin and shapes, so that a resumed run writes the same sheets and the same
-/// report.
+/// Records the finished faces of a crowd in the crowd's ledger. The entry of a face contains the
+/// list of the face's files and the measurements of its skin and shapes. A resumed run therefore
+/// writes the same sheets and the same report.
 class FaceLedger {
  public:
   /// The references must outlive this object. \param recorded  called from any thread after each

@@ -24,9 +24,9 @@
 namespace crowdface {
 namespace {
 
-/// Maximum number of faces in one batch of the blender, which reads the fields once for each batch.
-/// Larger batches lose more time to memory allocation than they save in reading. Must be a multiple of the number of
-/// faces that one matrix product handles.
+/// Maximum number of faces in one group, which is blended in one batch. The blender reads the
+/// heads' fields once for each group. Larger groups lose more time to memory allocation than they
+/// save in reading. Must be a multiple of the number of faces that one matrix product handles.
 constexpr std::size_t kMaxAtOnce = 24;
 /// Memory for rendering, per vertex of a face: normals, projected quads, and the gallery's smaller
 /// mesh. Measured at 1.2 million vertices, with a margin.
@@ -46,14 +46,14 @@ std::uint64_t input_bytes(const Inputs& inputs) {
          displacement_bytes(inputs.shapes) + own_shape_bytes(inputs.shapes);
 }
 
-/// Memory of all threads for rendering.
+/// Memory, in bytes, that all threads together need for rendering.
 std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
   if (!config.output.contact_sheet) return 0;
   return static_cast<std::uint64_t>(thread_count()) *
          (kRenderBytesPerVertex * vertex_count(inputs) + displacement_bytes(inputs.shapes));
 }
 
-/// Memory of fitted levels that are not memory-mapped.
+/// Memory, in bytes, of the fitted smoothing levels that are not memory-mapped.
 std::uint64_t level_bytes(const Prepared& prepared) {
   std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
@@ -66,7 +66,8 @@ std::uint64_t level_bytes(const Prepared& prepared) {
   return bytes;
 }
 
-/// Memory of the attachments in use: their meshes, and their data for renders.
+/// Memory, in bytes, of all attachments that some face wears: their meshes, and their textures for
+/// renders.
 std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
                            const std::vector<FacePlan>& crowd) {
   std::set<std::string> placed;
@@ -88,14 +89,14 @@ std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
                           " are allowed (--memory); fewer threads (--threads) need less"));
 }
 
-/// Maximum number of faces in memory: while one group is blended, each thread may still be
-/// finishing a face of the previous group.
+/// Maximum number of faces in memory: a group that is being blended, and one face of the previous
+/// group for each thread that is still finishing it.
 std::uint64_t faces_held(std::uint64_t at_once) {
   return at_once + std::min(at_once, static_cast<std::uint64_t>(thread_count()));
 }
 
-/// How many faces can be blended together within the memory.
-/// \param standing  memory that does not depend on this number
+/// Returns how many faces can be blended in one group within the memory.
+/// \param fixed_bytes  memory that does not depend on the number of faces in a group
 std::size_t faces_at_once(std::uint64_t fixed_bytes, std::uint64_t one_face, std::uint64_t memory) {
   const std::uint64_t least = fixed_bytes + faces_held(1) * one_face;
   if (least > memory) refuse_memory(format_bytes(least), memory);
@@ -104,8 +105,8 @@ std::size_t faces_at_once(std::uint64_t fixed_bytes, std::uint64_t one_face, std
   return at_once;
 }
 
-/// Reuses the memory of finished faces. Allocating new memory for a face takes half as long as
-/// blending the face. Thread-safe.
+/// Reuses the memory of finished faces. This saves time, because allocating new memory for a face
+/// takes half as long as blending the face. Thread-safe.
 class FaceMemory {
  public:
   Positions take() {
@@ -125,7 +126,8 @@ class FaceMemory {
   std::vector<Positions> free_;
 };
 
-/// Faces that were blended together. Each thread claims and finishes the next unclaimed face.
+/// Faces that were blended in one batch. Each thread claims the next unclaimed face and finishes
+/// it.
 class FaceGroup {
  public:
   /// \param make  called with each face's index in the group and its positions
@@ -205,11 +207,12 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
-  // Encoded files of up to `waiting_bytes_` wait in the queue, and as many bytes may be in writing.
+  // Encoded files of up to `waiting_bytes_` wait in the queue. The batch that is being written may
+  // have the same size.
   fixed_bytes += of_threads + 2 * waiting_bytes_;
   const std::uint64_t one_face = builder.memory_bytes(1);
   faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory);
-  // If memory is left, enlarge the queue: it keeps the disk busy while faces are blended.
+  // If memory is left, enlarge the queue: a long queue keeps the disk busy while faces are blended.
   const std::uint64_t room = memory - fixed_bytes - faces_held(faces_per_group_) * one_face;
   waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
                               std::max(waiting_bytes_, FaceWriter::kMaxWaitingBytes));

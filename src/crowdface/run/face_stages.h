@@ -21,30 +21,31 @@
 
 namespace crowdface {
 
-/// Early check, before heads are prepared and faces are cast: rejects a job that cannot fit into
-/// memory.
+/// Rejects a job that cannot fit into memory. For an early check, before heads are prepared and
+/// faces are cast.
 /// \throws UsageError if inputs and renders alone need more than `memory` bytes.
 void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::uint64_t memory);
 
-/// Makes faces: blends, judges, renders and writes them.
+/// Makes faces: blends the faces, checks them for defects, renders them and writes their files.
 class FaceStages {
  public:
   /// The references must outlive this object, except `crowd`.
   /// \param crowd   all faces that may be made
   /// \param memory  maximum memory of the whole process, in bytes; determines how many faces are
-  ///                blended together
+  ///                blended in one batch
   /// \throws UsageError if not even one face at a time fits.
   FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
              const FaceBuilder& builder, const FaceTextures& textures,
              const FaceAttachments& attachments, const FaceShapes& shapes,
              const std::vector<FacePlan>& crowd, std::uint64_t memory);
 
-  /// Makes faces. All threads blend a group of faces together; then each thread finishes and
-  /// encodes one face after the other. The next group starts when threads have claimed all faces of
-  /// the current group. A face is recorded when all its files are written.
+  /// Makes faces. All threads cooperate to blend a group of faces; then each thread finishes and
+  /// encodes one face at a time. The next group starts when threads have claimed all faces of the
+  /// current group. A face is recorded in the ledger when all its files are written.
   /// \param renders  null: nothing is rendered
   /// \param results  one per face, output
-  /// \param busy     accumulates the threads' time per stage
+  /// \param busy     receives, added to its present values, the time that threads spend in each
+  ///                 stage
   void build(const FaceFileLists& lists, const CrowdRenders* renders, const FaceLedger& ledger,
              std::span<const FacePlan* const> faces, std::span<FaceResult* const> results,
              StageTimes& busy) const;

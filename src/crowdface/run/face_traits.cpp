@@ -14,7 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// The trajectories of all heads at some vertices, from the levels that blending uses.
+/// The smoothing trajectories of all heads at some vertices, computed from the same smoothing
+/// levels as blending.
 std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inputs,
                                         const Prepared& prepared, const FaceSamples& samples) {
   const std::vector<std::uint64_t> levels = trajectory_levels(inputs.max_level);
@@ -68,7 +69,7 @@ Index row_of(const FaceSamples& samples, std::uint32_t v) {
   return std::ranges::lower_bound(samples, v) - samples.begin();
 }
 
-/// The corners of the landmarks that the measurements need.
+/// The mesh vertices that determine the positions of the landmarks that these traits need.
 std::set<std::uint32_t> corners_of(const HeadLandmarks& landmarks,
                                    const std::vector<std::size_t>& traits) {
   std::set<std::uint32_t> corners;
@@ -131,8 +132,8 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
                     });
 }
 
-/// Follows the steps of FaceBuilder at a few vertices: blending and asymmetry, contacts, pose,
-/// mirroring, the bend at the neck.
+/// Applies the steps of FaceBuilder to a few vertices only: blending and asymmetry, contacts, pose,
+/// mirroring, and the bend at the neck.
 Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
   Recipe plain = recipe;
   plain.mirrored = false;

@@ -13,10 +13,11 @@
 
 namespace crowdface {
 
-/// Measures the given traits of faces, from the positions of the landmarks that the traits need.
+/// Measures given traits of a face. Computes only the positions of the landmarks that these traits
+/// need.
 class FaceTraits {
  public:
-  /// \param traits  indices of the measurements, all available
+  /// \param traits  indices of the measurements; all of these must be available on the heads
   /// \param config, inputs, prepared  must outlive this object
   FaceTraits(const Config& config, const Inputs& inputs, const Prepared& prepared,
              const HeadLandmarks& landmarks, std::vector<std::size_t> traits);
@@ -25,7 +26,7 @@ class FaceTraits {
 
   const FaceMeasurer& measurer() const { return *measurer_; }
   const std::vector<std::size_t>& traits() const { return traits_; }
-  /// The values of all traits, as on the mesh that is written for the recipe.
+  /// The values of all traits, equal to the values on the mesh that is written for the recipe.
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
@@ -43,24 +44,24 @@ class FaceTraits {
   double mm_per_unit_;
   std::shared_ptr<const MirrorMap> mirror_;
   std::shared_ptr<const HeadsOnBody> neck_;
-  /// the vertices of the landmarks, and of the ring at the neck if there is one
+  /// the vertices of the landmarks and, if there is a neck, of the ring of vertices at the neck
   std::vector<std::uint32_t> landmark_vertices_;
-  /// the vertices that the exact landmarks depend on, ascending, and the heads' data at these
-  /// vertices
+  /// the vertices on which the exact landmark positions depend, ascending; and the heads' data at
+  /// these vertices
   FaceSamples samples_;
   SampledHeads heads_;
   Index vertex_count_;
   std::optional<FaceMeasurer> measurer_;
 };
 
-/// Returns the measurements that the config names, ready for measuring faces; null if it names
-/// none.
-/// \throws UsageError if one of them is not available.
+/// Returns an object that measures the traits that the config names; null if the config names none.
+/// \throws UsageError if one of these traits is not available on the heads.
 std::unique_ptr<const FaceTraits> named_face_traits(const Config& config, const Inputs& inputs,
                                                     const Prepared& prepared);
 
-/// Returns the measurer of all traits that are available on the heads; null if none is.
-/// \throws UsageError if the config names one that is not available.
+/// Returns an object that measures all traits that are available on the heads; null if no trait is
+/// available.
+/// \throws UsageError if the config names a trait that is not available.
 std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, const Inputs& inputs,
                                                         const Prepared& prepared);
 

@@ -20,12 +20,13 @@ namespace crowdface {
 struct ReadyFile {
   std::filesystem::path path;
   EncodedFile bytes;
-  FileDigest content;  ///< of `bytes`
+  FileDigest content;  ///< size and hash of `bytes`
 };
 
-/// Writes faces on a thread of its own, so that computing threads need not wait for the disk. While
-/// one batch of faces is written, finished faces wait; they are the next batch. A batch is synced
-/// and recorded once. A file that already has the right content is not written again.
+/// Writes faces on a separate thread, so that computing threads need not wait for the disk. Faces
+/// that are finished while one batch of faces is written form the next batch. Each batch needs only
+/// one sync to disk and one write to the ledger. A file that already has the right content is not
+/// written again.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.
@@ -38,13 +39,13 @@ class FaceWriter {
   FaceWriter(const FaceWriter&) = delete;
   FaceWriter& operator=(const FaceWriter&) = delete;
 
-  /// Queues a face; waits while the queue is full. Thread-safe.
-  /// \throws the exception of a failed write; then nothing more is written.
+  /// Adds a face to the queue of faces to write; waits while the queue is full. Thread-safe.
+  /// \throws the exception of a failed write; after a failure no further face is written.
   void add(MadeFace face, std::vector<ReadyFile> files);
   /// Waits until all faces are written and recorded. \throws the exception of a failed write.
   void finish();
 
-  /// Time that the thread spent writing.
+  /// Time that the writing thread has spent writing files.
   double busy_seconds() const { return busy_seconds_; }
   /// Smallest useful size of the queue, in bytes: with a smaller queue, computing threads wait for
   /// the disk.

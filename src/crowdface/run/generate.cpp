@@ -65,7 +65,7 @@ class CrowdLog {
   CrowdLog& operator=(const CrowdLog&) = delete;
 };
 
-/// A cast crowd, and the objects that build its faces.
+/// The plan of a crowd, and the objects that build the faces of this crowd.
 struct PlannedJob {
   PlannedJob(const Job& job, Prepared heads)
       : prepared(std::move(heads)),
@@ -86,11 +86,12 @@ struct PlannedJob {
   CrowdPlan crowd_plan;
   std::vector<std::string> warnings;  ///< warnings of near_head_warnings; empty for a shard's faces
   nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
-  /// If `crowd_plan` was read from the folder: the plan files; empty if this run cast the crowd. If
-  /// a shard reads the plan, `crowd_plan` holds only the shard's faces.
+  /// The files from which `crowd_plan` was read; empty if this run cast the crowd. If a shard reads
+  /// the plan, `crowd_plan` holds only the shard's faces.
   std::vector<LedgerEntry::File> plan_files;
   bool planned() const { return !plan_files.empty(); }
-  /// The colour of each face's skin above the neck's ring; empty if there are none.
+  /// For each face: the colour of the skin just above the ring of vertices at the neck. Empty if
+  /// there is no neck or faces have no colours.
   std::vector<Eigen::Array3d> neck_colours(const Job& job) {
     std::vector<Eigen::Array3d> colours;
     if (!job.inputs.neck) return colours;
@@ -118,8 +119,9 @@ std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd
 }
 
 /// Reads the crowd, or a shard's faces, from the folder's plan. Returns null if the folder has no
-/// plan of this job and the crowd may be cast instead.
-/// \throws MissingInput if the folder has no plan of this job and must have one.
+/// plan that belongs to this job, but the run may cast the crowd.
+/// \throws MissingInput if the folder has no plan that belongs to this job and the run must not
+/// cast the crowd.
 std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& options,
                                         StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
@@ -149,8 +151,8 @@ std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& o
   return crowd;
 }
 
-/// Prepares heads and casts the crowd. Runs before any file is written, so that a crowd that cannot
-/// be cast neither leaves files nor destroys another crowd in the folder.
+/// Prepares heads and casts the crowd. Runs before any file is written. A crowd that cannot be cast
+/// therefore neither leaves files nor destroys another crowd in the folder.
 std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& options,
                                      StageSeconds& stages) {
   auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
@@ -186,7 +188,7 @@ void log_dry_run(const Config& config, const Inputs* inputs) {
                   config.output.directory.string(), "; nothing was written"));
 }
 
-/// The purpose of a run over a crowd.
+/// What a run over a crowd does about missing faces.
 enum class Purpose {
   kGenerate,  ///< build missing faces
   kGather,    ///< fail if a face is missing
@@ -197,7 +199,8 @@ std::uint64_t memory_for(const GenerateOptions& options) {
   return options.memory > 0 ? options.memory : usable_memory() / 4 * 3;
 }
 
-/// All stages after casting; the folder must be ready. \return a summary for the user.
+/// Runs all stages after casting. The folder must already be prepared for this crowd. \return a
+/// summary for the user.
 std::string fill_directory(const Job& job, const CrowdDirectory& directory, PlannedJob& planned,
                            const GenerateOptions& options, Purpose purpose,
                            Lazy<FaceStages>& face_stages, StageSeconds& stages,
@@ -318,7 +321,7 @@ bool makes_faces(const Config& config, const GenerateOptions& options) {
   return is_new && face_count(config) > 0;
 }
 
-/// Casts the crowd and fills its folder, except for finished work.
+/// Casts the crowd and writes all files into its folder. Skips work that an earlier run finished.
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogBuffer& memory, StageSeconds& stages) {
   const CrowdDirectory directory = directory_of(job.config);
@@ -376,7 +379,8 @@ void generate_loaded(const Load& load, const GenerateOptions& options) {
   retry_if_truncated([&] { run_job(job, options, Purpose::kGenerate, memory, stages); });
 }
 
-/// If the run replaces another config's crowd, applies the reviews in this crowd's folder.
+/// With `--force`, sets the override that applies the reviews in the crowd's folder even if this
+/// folder holds the crowd of another config.
 ConfigOverrides include_kept_reviews(ConfigOverrides overrides, const GenerateOptions& options) {
   overrides.keep_reviews_of_other_configs = options.replace == Replace::kForce;
   return overrides;

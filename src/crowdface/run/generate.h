@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// Where a shard gets the plan of its faces from.
+/// From where a shard gets the plan of its faces.
 enum class PlanSource {
   kFolderOrCasting,  ///< the folder's plan if it belongs to this job; otherwise the crowd is cast
   kFolder,           ///< only the folder's plan; without one, the shard is rejected
@@ -29,15 +29,15 @@ struct GenerateOptions {
 };
 
 /// Runs the whole job: read, prepare, cast, blend, write, render, report. Writes nothing until all
-/// inputs are checked. Skips work that the folder's ledger proves to be done; a repeated run
-/// therefore resumes a stopped run or repairs a finished crowd. \throws Error.
+/// inputs are checked. Skips work that is done according to the ledger in the folder. A repeated
+/// run therefore resumes a stopped run or repairs a finished crowd. \throws Error.
 void generate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options);
-/// Runs the job of a config object, whose values are validated like those of a file.
+/// Runs the job of a config object. Validates the object's values like the values of a config file.
 void generate(const Config& config, const GenerateOptions& options);
 
-/// Checks the faces that shards have made, and adds the files that a run over the whole crowd would
-/// have made: sheets, report, one ledger.
+/// Checks the faces that shards have made. Then adds the files that no shard makes: sheets, report,
+/// and one ledger for the whole crowd.
 /// \param cache  folder of prepared heads
 /// \throws MissingInput that names missing or altered faces.
 void gather(const std::filesystem::path& crowd_directory, const std::filesystem::path& cache);

@@ -39,8 +39,8 @@ std::optional<GlbImage> supported_image(const fs::path& file) {
   return std::nullopt;
 }
 
-/// Combines colours with opacity as alpha. \param holes  opacity; if it has another size, the
-/// nearest texel is used
+/// Returns an image whose RGB is `colour` and whose alpha is the opacity `holes`. If `holes` has
+/// another size than `colour`, uses the nearest texel of `holes`.
 GlbImage rgba_image(const Image* colour, const Image* holes) {
   const Image& size = colour != nullptr ? *colour : *holes;
   std::vector<std::uint8_t> pixels;
@@ -119,7 +119,8 @@ struct GlbLook {
   std::vector<GlbImage> images;
 };
 
-/// \param own_texture  whether each face has a texture of its own for all materials
+/// \param own_texture  whether each face has one texture of its own, which all materials of the
+///                     item use
 GlbLook look_of(const Attachment& item, bool own_texture) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   GlbLook look;

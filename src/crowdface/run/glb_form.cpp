@@ -21,8 +21,9 @@
 namespace crowdface {
 namespace {
 
-/// A material with the colour that renders use. Surfaces that renders omit (lashes, shells over the
-/// eye) are transparent in GLB files: without a texture they would hide the eye.
+/// A material with the same colour as in renders. Surfaces that renders omit (lashes, shells over
+/// the eye) are transparent in GLB files, because opaque surfaces without a texture would hide the
+/// eye.
 GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
                          const std::optional<Eigen::Array3f>& paint) {
   const Light colour = paint ? from_srgb(*paint) : albedo_of(kind);
@@ -46,8 +47,8 @@ std::string iris_png() {
   return encode_stored_png(kSide, kSide, picture.pixels);
 }
 
-/// Irises that look as in renders. Their texture coordinates come from the eyes of the mean head
-/// and apply to all faces.
+/// Eyes with irises that look the same as in renders. The texture coordinates are computed on the
+/// eyes of the mean head, and all faces use these coordinates.
 std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& inputs,
                                        const Surfaces& surfaces) {
   const auto eyes =
@@ -65,8 +66,8 @@ std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& input
   return overlay;
 }
 
-/// For each polygon, the image of one kind in the GLB file, or kNoIndex; empty if no polygon has
-/// one.
+/// Returns one value for each polygon: the index, among the images of the GLB file, of the
+/// polygon's texture of this kind, or kNoIndex. Empty if no polygon has such a texture.
 std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const Inputs& inputs,
                                      TextureKind kind) {
   std::size_t first = 0;
@@ -92,8 +93,8 @@ std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const 
   return {};
 }
 
-/// Adds a material for each combination of material name, surface kind and own textures that
-/// polygons have.
+/// Adds one material for each different combination of material name, surface kind and textures
+/// that occurs among the polygons.
 void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
                    const Surfaces& surfaces, GlbOptions& options) {
   const std::vector<std::uint32_t> colours = images_of(held, inputs, TextureKind::kColour);

@@ -79,7 +79,8 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
 
 namespace {
 
-/// The values of all heads: #heads by #measurements.
+/// The values of all measurements of all heads: #heads by #measurements; an unavailable value is
+/// empty.
 std::vector<std::vector<std::optional<double>>> measure_each(const Config& config,
                                                              const Inputs& inputs,
                                                              const HeadLandmarks& landmarks) {

@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// The landmarks of a config's heads: points on the topology that all heads and faces share.
+/// The landmarks of a config's heads: points on the common mesh topology of all heads and faces.
 struct HeadLandmarks {
   std::vector<std::optional<SurfacePoint>> surface_points;  ///< #trait_landmarks
   std::vector<std::string>
@@ -21,33 +21,36 @@ struct HeadLandmarks {
 
   /// Returns whether the positions of all landmarks of a measurement are known.
   bool can_measure(const Measurement& measurement) const;
-  /// Why a measurement is not available: "no hairline (…)". \pre `can_measure` is false.
+  /// Returns why a measurement is not available, for example "no hairline (…)". \pre `can_measure`
+  /// is false.
   std::string missing_landmark_reason(const Measurement& measurement) const;
-  /// The landmarks on a mesh, #landmarks by 3, in millimetres. Rows of landmarks whose position is
-  /// unknown are zero.
+  /// The positions of the landmarks on a mesh, #landmarks by 3, in millimetres. A landmark whose
+  /// position is unknown has a zero row.
   Positions landmark_positions(const Positions& mesh, double mm_per_unit) const;
 };
 
 /// Finds the landmarks on the mean of the heads, or reads them from the config's landmark file.
-/// \throws UsageError if the file has a position that is not on the heads, or a name that is not a
-///   landmark's.
+/// \throws UsageError if the file has a position that is not on the heads, or a name that no
+///   landmark has.
 HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs);
 
-/// The measurements of a mesh: #measurements; unavailable measurements are empty.
+/// The values of the measurements on a mesh: one for each measurement; empty if the measurement is
+/// unavailable.
 std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
                                                 const Positions& mesh, double mm_per_unit);
 
-/// The measurements of all heads.
+/// The distributions of the measurements over all heads.
 TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
                                  const HeadLandmarks& landmarks);
 
-/// The values of the measurements that the config names: #heads by #named.
+/// The heads' values of the measurements that the config names: #heads by #named measurements.
 std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs);
 
-/// \throws UsageError if the config names a measurement that is not available on these heads.
+/// Checks that all measurements that the config names are available on these heads. \throws
+/// UsageError if one is not.
 void require_named_traits(const Config& config, const HeadLandmarks& landmarks);
 
-/// A readable table of the measurements of all heads; it also lists unavailable measurements.
+/// A text table of the measurements of all heads. The table also lists unavailable measurements.
 std::string format_head_traits(const Config& config, const Inputs& inputs,
                                const HeadLandmarks& landmarks);
 

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// The mesh topology as files that all faces share, for formats that store only positions.
+/// The files with the mesh topology, shared by all faces, for formats that store only positions.
 std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) {
   const TextureCoordinates& uvs = inputs.faces.uvs;
   Hasher key;
@@ -42,11 +42,12 @@ std::optional<SharedFiles> iris_file(const Config& config, const Inputs& inputs)
                      }};
 }
 
-/// A format's encoders, size estimate and shared files.
+/// A mesh format, with the functions that make its encoders, its size estimate and its shared
+/// files.
 struct MeshEncoding {
   MeshFormat format;
   MeshEncoders (*make)(const MeshSource& source);
-  /// Approximate size in bytes of a face's file and of its shape files.
+  /// Approximate total size, in bytes, of a face's mesh file and of the face's shape files.
   std::uint64_t (*estimate)(const MeshSize& size);
   std::optional<SharedFiles> (*shared)(const Config& config, const Inputs& inputs) = nullptr;
 };

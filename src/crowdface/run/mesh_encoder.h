@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes meshes in each format: a factory makes an encoder per level of detail. To add a format,
-// add a row in io/mesh_format.cpp, an encoder like obj_encoder.cpp, and a row in mesh_encoder.cpp.
+// Encodes meshes in each file format. A factory function per format makes one encoder for each
+// level of detail. To add a format, add a row in io/mesh_format.cpp, an encoder like
+// obj_encoder.cpp, and a row in mesh_encoder.cpp.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +26,8 @@ namespace crowdface {
 inline const Positions kNoRows;
 inline const ColourRows kNoColours;
 
-/// A face, at rest or in a shape, whole or at a level of detail, with all data that a file may
-/// contain.
+/// The mesh of a face with all data that a file may contain. The mesh is at rest or in a blend
+/// shape, and whole or reduced to a level of detail.
 struct FaceMesh {
   std::string id;            ///< "market_0001", at a level of detail "market_0001_LOD1"
   std::string display_name;  ///< the name of the mesh in messages
@@ -38,84 +39,87 @@ struct FaceMesh {
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
   const Positions* points = &kNoRows;  ///< points that follow the face; no rows at levels of detail
   const Positions* joints = &kNoRows;  ///< positions of the rig's joints
-  /// the face's own textures, as bytes of image files; may be empty
+  /// the content of the image files of the face's own textures; may be empty
   std::span<const std::string_view> images = {};
-  std::span<const std::string> image_names = {};  ///< #images: their paths relative to the mesh
-  std::string material_file = {};  ///< the face's own material file; empty: the target's
-  std::string colour = {};         ///< of an attachment with a tint: text from colour_label
+  std::span<const std::string> image_names = {};  ///< paths of the images, relative to the mesh
+  std::string material_file = {};  ///< the face's own material file; empty: the target head's file
+  /// colour of an attachment with a tint, as text from colour_label
+  std::string colour = {};
 };
 
-/// The data from which encoders are made. It must outlive the encoders and everything that they
-/// encode.
+/// The data from which encoders are made. They must outlive the encoders and the encoded files.
 struct MeshSource {
   const Config& config;
   const Inputs& inputs;
   std::span<const MeshLevel> levels;  ///< the whole mesh first
   std::span<const Index> targets;     ///< target heads of all faces that will be encoded
-  /// Relative path from a mesh to the files that all meshes share, such as material files: for
-  /// example ".."; empty: same folder.
+  /// Relative path from the folder of a mesh to the folder of files that all meshes share (such as
+  /// material files), for example ".."; empty: same folder.
   std::string shared;
 };
-/// Whether a head's file has normals.
+/// Whether the mesh file of a head has normals.
 inline bool has_normals(const Inputs& inputs, Index head) {
   return !inputs.files[static_cast<std::size_t>(head)].corner_normals.empty();
 }
 
-/// Whether each face has a texture of its own for this item: the body, with `neck.body_texture`.
+/// Whether each face gets a separate texture for this attachment. True only for the body, and only
+/// if `neck.body_texture` is set.
 bool has_own_texture(const MeshSource& source, const Attachment& item);
 
 /// Encodes faces in one format at one level of detail. Thread-safe.
 struct MeshEncoder {
-  /// Encodes a face at this level of detail. The file refers to the encoder and to the data that
-  /// `face` refers to. \throws InvalidInput if positions are not finite.
+  /// Encodes a face at this level of detail. The encoded file refers to this encoder and to the
+  /// data of `face`. \throws InvalidInput if positions are not finite.
   std::function<EncodedFile(const FaceMesh& face)> encode;
-  /// Memory of the encoder, and the maximum memory for encoding one face, in bytes.
+  /// In bytes: memory of the encoder, and maximum memory for encoding one face.
   std::size_t memory_bytes = 0, encode_bytes = 0;
 };
-/// One encoder for each level of detail in which the format is written.
+/// One encoder for each level of detail for which files of the format are written.
 using MeshEncoders = std::vector<MeshEncoder>;
 
-/// Makes an encoder from a form, which holds what all faces share. \param encode  called with the
-/// form and a face
+/// Makes an encoder from a form, an object that holds the data that are equal for all faces. \param
+/// encode called with the form and a face
 template <class Form, class Encode>
 MeshEncoder make_encoder(std::shared_ptr<const Form> form, const Encode& encode) {
   return {[=](const FaceMesh& face) { return encode(*form, face); }, form->memory_bytes(),
           form->encode_bytes()};
 }
 
-/// \throws InvalidInput if the format cannot hold such a mesh.
+/// \throws InvalidInput if the format cannot store the mesh of the source.
 MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source);
 
 /// Additional files of one format, shared by all faces of a crowd.
 struct SharedFiles {
   std::string item;       ///< name of the ledger's item
   Digest key;             ///< hash of everything that determines the files
-  bool is_named = false;  ///< whether the faces' files refer to them
-  /// Writes the files below the folder of meshes. \return their paths.
+  bool is_named = false;  ///< whether the faces' mesh files refer to the shared files
+  /// Writes the shared files below the folder of meshes. \return the paths of the written files.
   std::function<std::vector<std::filesystem::path>(const std::filesystem::path& folder)> write;
 };
 /// The shared files of a format; nothing if the format needs none.
 std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
                                         const Inputs& inputs);
 
-/// Encodes an attachment as a separate OBJ file: its original file with new positions and a new
-/// path to its materials, or, at a level of detail, a plain file.
-/// \param item, level  must outlive the encoder; null level: the whole attachment
+/// Encodes an attachment as a separate OBJ file. The whole attachment keeps the text of its
+/// original file, with new positions and a new path to the materials. A reduced attachment becomes
+/// a plain OBJ file.
+/// \param item, level  must outlive the encoder; null `level`: the whole attachment
 /// \param shared       see MeshSource
 MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
                            const std::string& shared);
 
-/// Element counts of a face's files, for estimates.
+/// Numbers of elements (vertices, polygons and so on) in a face's files, for estimates of file
+/// sizes.
 struct MeshSize {
   std::uint64_t vertices = 0, faces = 0, corners = 0, uvs = 0;
   std::uint64_t displacements = 0;  ///< number of displacements in all shapes
-  std::uint64_t obj_bytes = 0;      ///< size of a head's file
+  std::uint64_t obj_bytes = 0;      ///< size of a head's OBJ file, in bytes
   std::uint64_t shapes = 0;
 };
-/// Approximate size of a face in these formats.
+/// Approximate total size, in bytes, of a face's files in these formats.
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshFormat> formats);
 
-/// The factories of the formats, for the table in mesh_encoder.cpp.
+/// The functions that make the encoders of each format, for the table in mesh_encoder.cpp.
 MeshEncoders obj_encoders(const MeshSource& source);
 MeshEncoders ply_encoders(const MeshSource& source);
 MeshEncoders glb_encoders(const MeshSource& source);

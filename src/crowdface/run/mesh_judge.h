@@ -13,26 +13,27 @@
 
 namespace crowdface {
 
-/// Returns whether the config asks for whole meshes to be judged after they are built.
+/// Returns whether the config asks for a check of the skin on each whole mesh after the mesh is
+/// built.
 bool skin_is_judged(const Config& config, const Inputs& inputs);
 
-/// Compares whole meshes with their target heads.
+/// Returns the check that compares the whole mesh of a face with the face's target head.
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets);
 
 /// Measures the area of gums, teeth and other parts (except eyeballs) that protrudes through the
 /// skin.
 PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs);
 
-/// Whether casting builds candidates and judges their whole meshes.
+/// Whether casting builds the whole mesh of each candidate face to find defects in this mesh.
 bool candidates_are_built(const Config& config);
 
-/// A function that builds candidates and judges their meshes. \param builder  must outlive the
-/// result.
+/// Returns a function that builds the mesh of a candidate face and finds defects in this mesh.
+/// \param builder must outlive the result.
 FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
                              const FaceBuilder& builder);
 
-/// Warns about faces whose whole mesh exceeds a limit, although their sampled vertices do not
-/// exceed it. \return the warning.
+/// Warns about faces whose whole mesh exceeds a limit of believability that the sampled vertices do
+/// not exceed. \return the warning.
 std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
                                        const std::vector<FacePlan>& crowd,
                                        const std::vector<FaceResult>& files);

@@ -76,7 +76,8 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   if (body != nullptr) items.push_back(body);
   std::vector<std::vector<DetailLevel>> of_items(items.size());
   parallel_for_each(items.size(), [&](std::size_t i) {
-    // The body keeps every vertex of the ring at the neck, where faces join the body.
+    // The reduced body keeps every vertex of the ring at the neck, because faces join the body at
+    // this ring.
     const Borders borders = items[i] == body ? Borders::kKeep : Borders::kCollapse;
     of_items[i] = levels_of(*items[i], inputs.levels, borders);
   });

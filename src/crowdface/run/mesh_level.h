@@ -18,13 +18,14 @@
 
 namespace crowdface {
 
-/// The mesh that all faces share, and their attachments, whole or at a level of detail. A level of
-/// detail keeps the same fraction of triangles in attachments as in faces, but at least 300
-/// triangles, so that small attachments stay whole.
+/// The topology that all faces share, and the topologies of attachments, either whole or reduced to
+/// one level of detail. A level of detail keeps the same fraction of triangles in attachments as in
+/// faces, but at least 300 triangles, so that small attachments stay whole.
 struct MeshLevel {
   std::size_t number = 0;             ///< 0: the whole mesh
   const DetailLevel* face = nullptr;  ///< null: the whole mesh
-  /// the reduced attachments that a face wears, and the reduced body; empty for the whole mesh
+  /// the reduced form of each attachment that any face wears, and of the body; empty for the whole
+  /// mesh
   std::map<const Attachment*, DetailLevel> attachments;
   const Attachment* body = nullptr;  ///< the body in the files; null: none
 
@@ -35,8 +36,8 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return is_whole_mesh() ? inputs.faces.uvs : face->uvs;
   }
-  /// The attachments that files at this level may contain, and the body. Reduced levels contain
-  /// only attachments that some face wears.
+  /// Returns the attachments that files at this level may contain, and the body. Reduced levels
+  /// contain only attachments that some face wears.
   std::vector<const Attachment*> items(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
@@ -44,12 +45,14 @@ struct MeshLevel {
   std::vector<PlacedAttachment> reduced_attachments(std::span<const PlacedAttachment> placed) const;
 };
 
-/// The text `before` and the level, such as "LOD2"; empty for level 0, the whole mesh.
+/// Returns the text `before` followed by the name of the level, such as "LOD2". Empty for level 0,
+/// the whole mesh.
 inline std::string level_suffix(std::size_t level, std::string_view before) {
   return level == 0 ? std::string() : concat(before, "LOD", level);
 }
 
-/// Selects the values of a level's polygons or vertices from the values of the whole mesh.
+/// Selects, from the values of the whole mesh, the values for the polygons or vertices of a reduced
+/// level.
 /// \param rows  index into `whole` for each polygon or vertex of the level
 template <class T>
 std::vector<T> select_rows(const std::vector<T>& whole, std::span<const std::uint32_t> rows) {
@@ -57,7 +60,8 @@ std::vector<T> select_rows(const std::vector<T>& whole, std::span<const std::uin
   for (const std::uint32_t row : rows) some.push_back(whole[row]);
   return some;
 }
-/// Selects rows of grouped values; returns an empty result if `whole` is empty.
+/// Selects rows of `whole`; each row holds several values. Returns an empty result if `whole` is
+/// empty.
 template <class T>
 CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
   CompressedRows<T> some;
@@ -66,14 +70,15 @@ CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const st
   return some;
 }
 
-/// The whole mesh, then the levels of detail of the inputs.
+/// Returns the whole mesh, then the mesh at each level of detail of the inputs.
 /// \param inputs  must outlive the result.
 /// \param crowd   faces, whose attachments the levels include
 /// \param with_body  whether the levels include the body
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
                                    bool with_body = false);
 
-/// The normals at the ring, which the body shares with all faces; none for attachments.
+/// The normals at the ring of vertices at the neck, which are equal for the body and all faces.
+/// Empty if `item` is not the body.
 /// \param level  the level of detail of the body; null: whole
 FixedNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
                              const DetailLevel* level);

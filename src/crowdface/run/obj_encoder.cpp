@@ -18,7 +18,8 @@ namespace crowdface {
 
 namespace {
 
-/// The materials of a level's polygons, as ranges of polygons with equal material.
+/// The materials of the polygons of a level of detail, as ranges of consecutive polygons with equal
+/// material.
 std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
                                            const DetailLevel& level) {
   const FaceMaterials materials = face_materials(file.materials, faces);
@@ -36,7 +37,7 @@ bool is_same(const MaterialRange& a, const MaterialRange& b) {
 }
 
 /// The `mtllib` line that names the material files; empty if there are none.
-/// \param from  folder that the paths are relative to
+/// \param from  the folder to which the paths in the line are relative
 std::string library_line(const std::vector<MaterialFile>& files,
                          const std::filesystem::path& from) {
   std::string line;
@@ -47,7 +48,8 @@ std::string library_line(const std::vector<MaterialFile>& files,
   return line;
 }
 
-/// Returns (memory of all forms together, maximum memory for encoding one form), in bytes.
+/// Returns two sizes in bytes: the memory of all forms together, and the maximum memory for
+/// encoding one form.
 template <class Forms, class FormOf>
 std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
   std::size_t memory = 0, encode = 0;
@@ -58,8 +60,8 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   return {memory, encode};
 }
 
-/// `mtllib` lines that replace a target's own line if that line does not name the written material
-/// files.
+/// For each target head whose own `mtllib` line does not name the material files that this run
+/// writes: the line that replaces it.
 std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.targets) {
@@ -72,9 +74,9 @@ std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   return lines;
 }
 
-/// A `usemtl` line, written after the `mtllib` line, for each target whose first polygons have no
-/// material although its material files define exactly one. Without this line, programs ignore the
-/// material.
+/// For each target head whose first polygons have no material although the head's material files
+/// define exactly one material: a `usemtl` line, written after the `mtllib` line. Without this
+/// line, programs ignore the material.
 std::map<Index, std::string> material_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.targets) {
@@ -88,7 +90,8 @@ std::map<Index, std::string> material_lines(const MeshSource& source) {
   return lines;
 }
 
-/// Writes each target's original file with other positions.
+/// Returns the encoder for the whole mesh. An encoded file is the OBJ file of the target head with
+/// the vertex positions of the face.
 MeshEncoder whole_encoder(const MeshSource& source) {
   const std::span<const Index> targets = source.targets;
   std::vector<std::optional<ObjTemplate>> made(targets.size());
@@ -110,8 +113,8 @@ MeshEncoder whole_encoder(const MeshSource& source) {
           memory, encode};
 }
 
-/// Returns the encoder for a level of detail: OBJ files without the layout of the target's file.
-/// Targets with the same materials share a template.
+/// Returns the encoder for a level of detail: plain OBJ files that do not copy the text of the
+/// target head's file. Target heads with the same materials share a template.
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct Forms {
     std::vector<PlainObjTemplate> obj;

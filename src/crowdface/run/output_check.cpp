@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// \throws UsageError if this run would overwrite or delete one of its inputs.
+/// \throws UsageError if this run would overwrite or delete one of the files that it reads.
 void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& directory) {
   const auto& sheet = config.output.contact_sheet;
   for (const fs::path& input : input_files(config)) {
@@ -31,8 +31,8 @@ void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& dir
   }
 }
 
-/// \throws UsageError if the crowd's config.yaml would overwrite the user's, for example with
-///         `output.directory: .`.
+/// \throws UsageError if the crowd's config.yaml would overwrite the user's config file, for
+///         example with `output.directory: .`.
 void refuse_to_write_over_config(const Config& config, const CrowdDirectory& directory) {
   std::error_code error;
   const bool is_same = fs::equivalent(config.file, directory.config(), error);

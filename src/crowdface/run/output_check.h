@@ -6,22 +6,23 @@
 
 namespace crowdface {
 
-/// Rejects an output folder that cannot be written. Also rejects it if the crowd would overwrite
-/// its own inputs, or files that could not be made again. \throws UsageError, CannotCreate.
+/// Rejects an output folder that cannot be written. Also rejects an output folder in which the
+/// crowd would overwrite the job's inputs, or files that could not be made again. \throws
+/// UsageError, CannotCreate.
 void check_output(const Job& job, Replace replace);
 
-/// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats the
-/// checks of check_output whose result another run may have changed since.
+/// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
+/// checks of check_output whose result may have changed because of another run.
 /// \throws UsageError, CannotCreate, IoError.
 void open_output(const Job& job, Replace replace);
 
-/// \throws UsageError if the folder's crowd was cast from other heads, because it could not be made
-///     again.
+/// Refuses to replace a crowd that was cast from other heads, because that crowd could not be made
+///     again. \throws UsageError in this case.
 /// \param settings  hash of the present heads, see settings_digest
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
 
-/// \throws UsageError if, according to its report, the folder's faces have other textures,
-///         attachments, shapes, points or another rig than these inputs.
+/// Compares the inputs with the report in the folder. \throws UsageError if the faces in the folder
+///         have other textures, attachments, shapes, points or another rig than these inputs.
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory);
 
 }  // namespace crowdface

@@ -15,14 +15,14 @@ namespace {
 
 using Attachment = Config::Attachment;
 
-/// Faces that one warning is about, each with a remark.
+/// The faces that one warning names, with a remark about each face.
 class NamedFaces {
  public:
   void add(const std::string& id, const std::string& remark) {
     const std::string text = concat(id, " (", remark, ')');
     if (!contains(faces_, text)) faces_.push_back(text);
   }
-  /// Adds "2 faces …: mob_0001 (…), mob_0002 (…)" if there are any faces.
+  /// Adds a warning of the form "2 faces …: mob_0001 (…), mob_0002 (…)" if there are any faces.
   void tell(const char* what, std::vector<std::string>& warnings) const {
     constexpr std::size_t kMaxNamed = 8;
     if (faces_.empty()) return;
@@ -76,8 +76,8 @@ class OverriddenPlan {
     return worn;
   }
 
-  /// Compares the quotas with the sampled faces that wear the attachments. Changed faces do not
-  /// count as missing.
+  /// Finds attachments that fewer sampled faces wear than the quota requests. A face that lacks an
+  /// attachment because of a change does not count as missing.
   void find_missed_quotas() {
     constexpr double kRounding = 1e-9;
     for (const auto& [word, share] : config_.attachments.quotas) {
@@ -103,7 +103,8 @@ class OverriddenPlan {
     }
   }
 
-  /// Compares the requested hair colours with the faces' hair colours. Changed faces do not count.
+  /// Finds hair colours that fewer faces have than the config requests. Does not count changed
+  /// faces.
   void find_missed_hair() {
     std::map<std::string, std::vector<const FacePlan*>> groups;  // "": all without own colours
     const auto own = [&](const std::string& name) {
@@ -169,8 +170,8 @@ class OverriddenPlan {
     not_in_group_.add(face.id, concat(target, ", ", *face.group));
   }
 
-  /// Finds keys that the config's `changes` set for a face, but to which a later change in a review
-  /// gives another value.
+  /// Finds keys to which the config's `changes` and a later review give different values for the
+  /// same face.
   void find_replaced(const FaceChange& later) {
     for (const FaceChange& change : config_.changes) {
       if (change.id != later.id) continue;

@@ -70,13 +70,13 @@ std::string encode_picture(const BlendedPicture& picture, const PictureName& nam
 
 constexpr std::uint64_t kChannels = 3;  // at most
 
-/// Maximum size of an encoded image, in bytes per channel and texel.
+/// Maximum size of an encoded image: bytes per texel for each channel.
 std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) {
   if (format == TextureFormat::kExr) return sizeof(float);
   return picture.has_only_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);
 }
 
-/// Maps each material name of a head to the index of its image in a layout.
+/// Maps each material name of a head to the index of the material's image in a texture layout.
 std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
                                                          const TextureLayout& layout, Index head) {
   const FaceMaterials materials = face_materials(
@@ -89,9 +89,9 @@ std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
   return pictures;
 }
 
-/// The formats in which a face's image is written. Colours use the config's formats. Other kinds
-/// use PNG instead of JPEG, which would blur them. Heights that some head stores as floats use only
-/// EXR.
+/// The file formats in which a face's image is written. Colour images use the config's formats.
+/// Other kinds of images use PNG instead of JPEG, because JPEG would blur the values. Height maps
+/// that some head stores as floats use only EXR.
 std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture) {
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =

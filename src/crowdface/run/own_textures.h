@@ -22,7 +22,8 @@ struct OwnTextureFile {
   std::string name;                     ///< path relative to the folder of the face's meshes
   std::size_t picture = 0, format = 0;  ///< indices into OwnTextures::Encoded
 };
-/// The own texture files of the face with this id; empty if faces have no textures of their own.
+/// The texture files that belong to the face with this id alone; empty if faces have no textures of
+/// their own.
 std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
                                               const std::string& id);
 
@@ -33,16 +34,16 @@ struct GlbPicture {
 };
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
 
-/// Paths of the images of glb_pictures relative to a face's mesh: "./blended/ID.png". The path of
-/// the first format if an image is written in several formats. Empty if faces have no textures of
-/// their own.
+/// For each image of glb_pictures: the path relative to a face's mesh, such as "./blended/ID.png".
+/// If an image is written in several formats, returns the path of the first format. Empty if faces
+/// have no textures of their own.
 std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
                                            const std::string& id);
 
 /// Name of a face's own material file: "ID.mtl".
 std::string material_file_name(const std::string& id);
 
-/// Encodes the textures of faces and makes their material files.
+/// Encodes the textures of faces and makes the faces' material files.
 class OwnTextures {
  public:
   /// \param config, inputs  must outlive this object.
@@ -51,7 +52,8 @@ class OwnTextures {
   OwnTextures(const Config& config, const Inputs& inputs, std::span<const FacePlan> crowd,
               const std::string& shared = {});
 
-  /// #face_picture_names by #formats: the bytes of each image in each of its formats.
+  /// For each image of face_picture_names, and for each format of the image: the bytes of the
+  /// encoded file.
   using Encoded = std::vector<std::vector<std::string>>;
 
   /// Encodes an image in each of its formats. Thread-safe. \param number  index into
@@ -59,16 +61,17 @@ class OwnTextures {
   std::vector<std::string> encode(std::size_t number, const BlendedPicture& picture) const;
   /// The images that a GLB file contains (see glb_pictures).
   std::vector<std::string_view> glb_images(const Encoded& encoded) const;
-  /// The target's material file, with the face's textures in place of the target's.
+  /// The material file of the target head, with the face's textures in place of the head's
+  /// textures.
   EncodedFile material_file(const FacePlan& face) const;
 
-  /// Approximate memory of one face's encoded images plus the memory for encoding the largest
-  /// image, in bytes.
+  /// In bytes, approximately: the memory of all encoded images of one face plus the memory for
+  /// encoding the largest image.
   std::uint64_t encode_bytes() const;
 
  private:
-  /// The materials of a target head, and the image (index into face_picture_names) of each by kind
-  /// and material name.
+  /// The materials of a target head. Also, for each texture kind and material name, the image
+  /// (index into face_picture_names).
   struct Materials {
     MergedMaterials file;
     std::map<TextureKind, std::map<std::string, std::size_t>> pictures;

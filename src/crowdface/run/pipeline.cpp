@@ -18,7 +18,7 @@
 namespace crowdface {
 namespace {
 
-/// Converts one end of a smoothness distribution to a number of iterations.
+/// Converts one end of the range of a smoothness distribution to a number of smoothing iterations.
 double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScale& scale) {
   switch (unit) {
     case SmoothnessDistribution::Unit::kFraction:
@@ -50,8 +50,8 @@ void check_smoothness(const SmoothnessDistribution& distribution, const std::str
   }
 }
 
-/// Adds a problem unless each band begins below the previous one for all values that can be
-/// sampled.
+/// Adds a problem unless, for all values that casting can sample, each band begins at fewer
+/// smoothing iterations than the previous band.
 /// \param where  prefix of the config keys in messages
 void check_sampling(const SamplingOptions& sampling, const std::string& where, const Config& config,
                     const Inputs& inputs, Problems& problems) {
@@ -80,7 +80,8 @@ void check_sampling(const SamplingOptions& sampling, const std::string& where, c
   }
 }
 
-/// Warns about bands that begin at 0 iterations in every region.
+/// Warns about bands that begin at 0 smoothing iterations in every region; such a band contains no
+/// detail.
 std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Config& config,
                                      const Inputs& inputs) {
   std::vector<std::string> warnings;
@@ -118,13 +119,14 @@ void check_levels(const Config& config, const Inputs& inputs, Problems& problems
   }
 }
 
-/// Larger crowds use numbered subfolders, unless the config sets output.faces_per_folder.
+/// Crowds with more faces than this use numbered subfolders, unless the config sets
+/// output.faces_per_folder.
 constexpr std::uint64_t kMaxInOneFolder = 10'000;
 constexpr std::uint64_t kFacesPerFolder = 1'000;
 
 /// Copies the minimum distances of the existing faces from the folder's config.yaml, so that these
 /// faces do not change if the config has a smaller `min_distance`.
-/// \return  the config with these distances; unchanged if there are none.
+/// \return the config with these distances; unchanged if there are no existing faces.
 Config with_kept_distances(Config config, const std::string& before) {
   DiversityOptions& diversity = config.diversity;
   const auto kept = distances_in_config(before);
@@ -139,9 +141,9 @@ Config with_kept_distances(Config config, const std::string& before) {
   return config;
 }
 
-/// Completes a config from the crowd that exists in its folder: number of existing faces, their
-/// minimum distances, and whether there are numbered subfolders. A new crowd gets subfolders if it
-/// is large.
+/// Completes a config with facts about the crowd that exists in the output folder: the number of
+/// existing faces, the minimum distances of these faces, and whether there are numbered subfolders.
+/// A new crowd gets subfolders if it is large.
 /// \param replaced  the run casts the crowd again (`--force`).
 void continue_crowd(Config& config, bool replaced) {
   const CrowdDirectory directory{config.output.directory};
@@ -165,8 +167,8 @@ void continue_crowd(Config& config, bool replaced) {
 
 using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&)>;
 
-/// Reads the config. Includes the reviews in the crowd's folder if the folder holds the same crowd
-/// or `overrides` asks for them.
+/// Reads the config. Includes the reviews in the crowd's folder if the folder holds the crowd of
+/// this config, or if `overrides` asks for these reviews.
 ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
                                      Problems& problems) {
   ConfigReading reading = read(overrides, problems);
@@ -213,7 +215,8 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
 }
 
 /// Adds a problem for each new review whose `after` is larger than the number of earlier reviews.
-/// Kept reviews stay valid: an older version may have accepted them.
+/// Does not check reviews that are already in the crowd's folder, because an older version may have
+/// accepted them.
 void check_reviews(const Config& config, Problems& problems) {
   const Config::Reviews& reviews = config.review;
   const auto kept = CrowdDirectory{config.output.directory}.kept_reviews();

@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-/// A config and all the inputs that it names, read and checked.
+/// A config and all inputs that the config names. All are already read and checked.
 struct Job {
   Config config;
   Inputs inputs;
@@ -23,32 +23,33 @@ struct Job {
   Digest settings;  ///< hash of the settings, see settings_digest
 };
 
-/// Reads the config, heads and masks. Adds every problem.
-/// \param cache  folder that keeps heads as they were read (see cache_directory); empty: no cache
+/// Reads the config, heads and masks. Adds every problem that it finds to `problems`.
+/// \param cache  folder that caches the heads that were read (see cache_directory); empty: no cache
 /// \return nothing if there is any problem.
 std::optional<Job> load_job(const std::filesystem::path& config_file,
                             const ConfigOverrides& overrides, const CacheFolder& cache,
                             Problems& problems);
-/// \throws Error with all problems.
+/// Reads the config, heads and masks. \throws Error with all problems, if there are any.
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
              const CacheFolder& cache = {});
 
-/// Loads the job of a config object. The config is written as text and read again, so that its
-/// values and paths are validated like a config file's.
+/// Loads the job of a config object. The config is written as text and read again, so that the
+/// values and paths are validated in the same way as in a config file.
 Job load_job(const Config& config, const CacheFolder& cache = {},
              const ConfigOverrides& overrides = {});
 
 /// The number of faces that the config asks for.
 std::uint64_t face_count(const Config& config);
 
-/// The folder of the config's crowd.
+/// The paths in the output folder of the config.
 CrowdDirectory directory_of(const Config& config);
 
-/// The text of the config for the crowd's folder; its reviews are the copies in this folder.
+/// The text of config.yaml in the crowd's folder. This config names the copies of the reviews in
+/// the folder.
 std::string config_text_in_folder(Config config, const CrowdDirectory& directory);
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
-/// Converts a smoothness into a number of iterations on these heads.
+/// The scale that converts a smoothness into a number of smoothing iterations on these heads.
 LevelScale level_scale(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

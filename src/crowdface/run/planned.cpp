@@ -112,7 +112,8 @@ std::optional<PlannedFaces> read_planned_faces(const Job& job, const CrowdDirect
       mark.value("job", nlohmann::ordered_json()) != key_of(job, directory).hex()) {
     return std::nullopt;
   }
-  // A shard checks only the plan, which it reads; `gather` checks the other files.
+  // A shard checks only the plan, the only one of these files that it reads; `gather` checks the
+  // other files.
   for (const LedgerEntry::File& file :
        std::span(*files).first(shard.is_whole_crowd() ? files->size() : 1)) {
     if (!has_content(directory.root / file.name, file.content)) return std::nullopt;

@@ -26,10 +26,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The text between a report's summary and its faces.
+/// The text in report.json between the summary and the list of faces.
 constexpr std::string_view kBeforeFaces = ",\n  \"faces\": [";
 
-/// Minimum, median and maximum of distances in casting.json; null if there are none.
+/// Minimum, median and maximum of a set of distances in casting.json; null if the set is empty.
 Json distribution(const Json& of) {
   if (of.is_null()) return nullptr;
   return {{"min", of["min"]}, {"median", of["median"]}, {"max", of["max"]}};
@@ -71,7 +71,8 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
   return {{"tolerance_mm", job.config.smoothing.tolerance_mm}, {"heads", std::move(heads)}};
 }
 
-/// The range of sizes at which each band begins, over all regions and faces.
+/// For each band: the smallest and the largest size at which the band begins, over all regions and
+/// faces.
 Json bands_to_json(const Job& job, const std::vector<FacePlan>& crowd) {
   const auto size = [&](std::uint64_t level) {
     return rounded(size_of_iterations(job.smoothing.kind(), level, job.inputs.edge_length_mm));
@@ -154,8 +155,8 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   return face;
 }
 
-/// For each blend shape: the number of skin intersections that neither the template nor the face at
-/// rest has.
+/// For each blend shape: the number of triangles of the skin that intersect in this shape, but
+/// neither in the template nor in the face at rest.
 Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results) {
   Json shapes = Json::object();
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
@@ -182,7 +183,7 @@ std::string indented(const Json& json, std::size_t levels) {
   return text;
 }
 
-/// How each head was fitted to the ring at the neck.
+/// For each head: how well the head was fitted to the ring of vertices at the neck.
 Json neck_to_json(const Job& job) {
   const HeadsOnBody& neck = *job.inputs.neck;
   Json heads = Json::array();
@@ -198,7 +199,7 @@ Json neck_to_json(const Job& job) {
           {"heads", std::move(heads)}};
 }
 
-/// The report without the faces.
+/// The report without the list of faces.
 Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
              const Json& casting, const std::vector<FaceResult>& faces, std::size_t sheets,
              const std::vector<std::string>& warnings) {

@@ -22,7 +22,7 @@ namespace crowdface {
 /// the text.
 /// \param casting  content of casting.json
 /// \param faces    results, one per face of the crowd
-/// \param lists    make the faces' lists of files
+/// \param lists    lists the files of each face
 /// \param neck_colours  see table_text
 TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
                        const nlohmann::ordered_json& casting, const FaceFileLists& lists,
@@ -30,11 +30,12 @@ TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan
                        const std::vector<Eigen::Array3d>& neck_colours, std::size_t sheets,
                        const std::vector<std::string>& warnings);
 
-/// Reads a report.json without its faces, of which there may be a million.
+/// Reads a report.json but skips the list of faces, which may have a million entries.
 /// \return a value for which `is_discarded()` is true if the file is not a valid report.
 nlohmann::ordered_json read_report_summary(const std::filesystem::path& file);
 
-/// Hashes of all inputs of the faces except heads and masks, with their keys in report.json.
+/// Hashes of all inputs that determine the faces, except heads and masks. Each hash comes with the
+/// key under which report.json stores it.
 std::vector<std::pair<std::string, Digest>> other_input_digests(const Inputs& inputs);
 
 /// Duration of each stage in seconds, in execution order.
@@ -46,7 +47,7 @@ struct StageTimes {
   std::atomic<double> blend = 0, encode = 0, write = 0, render = 0, check = 0;
 };
 
-/// Adds its own lifetime to a stage's time.
+/// Measures its own lifetime and adds this duration to the time of a stage.
 class StageTimer {
  public:
   explicit StageTimer(std::atomic<double>& stage) : stage_(stage) {}
@@ -62,7 +63,8 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// timings.json: times and machine, which may differ between runs.
+/// timings.json: the durations of the stages and the number of threads, which may differ between
+/// runs.
 std::string format_timings(const StageSeconds& stages, const StageTimes& busy, std::size_t faces,
                            std::size_t heads_from_cache);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps with which a run continues after an earlier run was stopped.
+// The steps by which a run continues the work of an earlier, stopped run.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,19 @@ namespace crowdface {
 
 /// The finished and the missing faces of a crowd.
 struct FaceProgress {
-  std::vector<FaceResult> faces;           ///< #crowd; default value for missing faces
-  std::vector<std::size_t> missing_faces;  ///< this shard's missing faces, ascending
+  /// one per face of the crowd; a missing face has a default value
+  std::vector<FaceResult> faces;
+  std::vector<std::size_t> missing_faces;  ///< indices of this shard's missing faces, ascending
   std::size_t shard_face_count = 0;        ///< number of faces of this shard
 };
 
-/// Looks up the faces in the ledger, in parallel; reads every file once. \throws Interrupted.
+/// Finds the faces of a shard that the ledger records and whose files are unchanged. Reads every
+/// file once, in parallel. \throws Interrupted.
 /// \param checked  called from any thread after each face of the shard; may be empty
 FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePlan>& crowd,
                              const Shard& shard, const std::function<void()>& checked = {});
 
-/// \throws MissingInput that names the first few missing faces, if there are any.
+/// Checks that no face is missing. \throws MissingInput that names the first few missing faces.
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
                           const std::vector<std::size_t>& missing_faces);
 
@@ -32,12 +34,12 @@ void write_shared_files(const Config& config, const Inputs& inputs, const CrowdD
                         Ledger& ledger);
 
 /// The folder's ledgers that may record faces of this shard. Excludes the ledgers of other shards
-/// if the crowd was split into the same number of shards, because their faces are different.
+/// of the same split (the same number of shards), because those shards own different faces.
 std::vector<std::filesystem::path> relevant_ledgers(const CrowdDirectory& directory,
                                                     const Shard& shard);
 
-/// Removes the files that shards leave for each other and for `crowdface status`, once the crowd is
-/// complete.
+/// Removes the files that shards write for each other and for `crowdface status`. Call this once
+/// the crowd is complete.
 void remove_shard_files(const CrowdDirectory& directory);
 
 /// Appends the logs of the shards to the crowd's log.

@@ -14,15 +14,15 @@ namespace crowdface {
 
 /// Writes a shard's progress into the crowd's folder for `crowdface status`: at the start, at most
 /// every five seconds while faces are made, and at the end. A failed write does not stop the run;
-/// an observer then sees that updates have stopped. Thread-safe.
+/// an observer only sees that the file no longer changes. Thread-safe.
 class ShardProgress {
  public:
-  /// \param done  number of the shard's `faces` that are finished at the start
+  /// \param done  how many of the shard's `faces` are already finished when the run starts
   ShardProgress(std::filesystem::path file, std::size_t faces, std::size_t done);
 
-  /// Counts one more finished face.
+  /// Increases the count of finished faces by one.
   void step();
-  /// \param reason  why the shard ended without finishing
+  /// \param reason  why the shard ended before it finished all faces
   void end(ShardState state, std::string_view reason = {});
 
  private:

@@ -21,7 +21,8 @@ std::string asked_of(const Config& config, Reason reason) {
   return describe(reason, config.diversity, config.believability);
 }
 
-/// Advice for extending an existing crowd: only keys that can change without replacing the crowd.
+/// Advice for a user who extends an existing crowd. Names only config keys that can change without
+/// replacing the crowd.
 std::vector<std::string> advice_for_existing(const Config& config, const Remedy& remedy,
                                              const Shortfall& shortfall) {
   std::vector<std::string> advice;
@@ -52,7 +53,7 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
   return advice;
 }
 
-/// Changes that may help the user, most promising first.
+/// Changes of the config that may make the crowd possible, most promising first.
 std::vector<std::string> advice(const Config& config, const Remedy& remedy,
                                 const Shortfall& shortfall) {
   if (config.crowd.existing_count) return advice_for_existing(config, remedy, shortfall);
@@ -80,7 +81,8 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy,
   return advice;
 }
 
-/// A line of advice if a group is made of so few heads that its faces resemble these heads.
+/// A line of advice for a group with so few heads that the group's faces resemble these heads;
+/// otherwise empty.
 std::string few_heads(const Config& config, const Group& group) {
   constexpr std::size_t kFew = 3;
   const std::vector<Eigen::Index>& sources = group.sampling.sources;

@@ -12,12 +12,13 @@
 
 namespace crowdface {
 
-/// Warns early, and only once, that a crowd may not reach its full size.
+/// Warns during casting that a crowd may not reach the requested number of faces. Warns as early as
+/// possible and only once.
 class ScarcityWarning {
  public:
   /// \param casting  must outlive this object.
   explicit ScarcityWarning(const CastingOptions& casting) : casting_(casting) {}
-  /// \param rejected  candidates rejected before this face was accepted
+  /// \param rejected  numbers of candidates that were rejected before this face was accepted
   void face_joined(const Rejections& rejected);
 
  private:
@@ -28,9 +29,10 @@ class ScarcityWarning {
   bool has_told_scarcity_ = false;
 };
 
-/// \throws Unsatisfiable; the message names the binding constraint, the number of faces cast, and a
-///     change that would help.
-/// \param about_traits  if limits on measurements bind: a line for each limit, from trait_advice
+/// \throws Unsatisfiable; the message names the constraint that prevented more faces, the number of
+///     faces that were cast, and a change that would help.
+/// \param about_traits  if limits on measurements prevented more faces: a line for each limit, from
+///                      trait_advice
 [[noreturn]] void throw_shortfall(const Config& config, const Remedy& remedy,
                                   const Shortfall& shortfall,
                                   const std::vector<std::string>& about_traits = {});

@@ -37,7 +37,8 @@ std::string assign(std::string_view name, std::string_view value) {
   return concat(name, '=', shell_word(value), '\n');
 }
 
-/// Processor time for one face in seconds, from measured costs per byte, vertex and pixel.
+/// Estimated processor time for one face, in seconds, computed from measured times per byte, vertex
+/// and pixel.
 double face_seconds(const Config& config, const Inputs& inputs) {
   constexpr double kByte = 3.3e-9, kBlendVertex = 5e-8, kJudgeVertex = 3.6e-6;
   constexpr double kPixel = 6.5e-7, kPictureVertex = 6e-8;
@@ -53,7 +54,8 @@ double face_seconds(const Config& config, const Inputs& inputs) {
   return seconds;
 }
 
-/// The number of tasks (1 … `most`) so that each takes at most `seconds_a_task`.
+/// Returns the smallest number of tasks, 1 … `most`, with which each task takes at most
+/// `seconds_a_task`.
 std::uint64_t tasks_for(double seconds, double seconds_a_task, std::uint64_t most) {
   const double tasks = std::min(std::ceil(seconds / seconds_a_task), static_cast<double>(most));
   return std::max<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1);
@@ -191,7 +193,7 @@ std::string task_script(const TaskJob& job) {
   script += assign("scratch", job.scratch);
   script += concat("prepares=", job.prepares, " shards=", job.shards,
                    " processors=", job.processors, "\n");
-  // Leave an eighth of the task's memory to other processes.
+  // Give crowdface seven eighths of the task's memory, and leave the rest to other processes.
   const std::string memory =
       job.memory == 0 ? "" : concat("--memory '", job.memory / 8 * 7 / 1024, " KiB'");
   script += concat("memory=(", memory, ")\n");
@@ -219,7 +221,7 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
   std::string script(kHead);
   script += "set -euo pipefail\n";
   script += assign("folder", job.directory.task_folder().string());
-  // The command that every machine's shell can run.
+  // The command that runs a task in a shell on any machine.
   script += assign("task", "bash " + shell_word(script_of(job).string()));
   script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
   script += concat(

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t kSampledForAdvice = 400;
 
-/// The names of at most three heads with the largest values if `upwards`, otherwise with the
-/// smallest.
+/// The names of at most three heads: if `upwards`, the heads with the largest values, otherwise the
+/// heads with the smallest values.
 std::string farthest_heads(const Config& config, const std::vector<double>& of_heads,
                            const Measurement& measurement, bool upwards) {
   constexpr std::size_t kMost = 3;
@@ -31,7 +31,8 @@ std::string farthest_heads(const Config& config, const std::vector<double>& of_h
   return join(names);
 }
 
-/// Samples a face of the group, family or recipe that ran short, with the limits that apply to it.
+/// Samples a face of the group, family or recipe for which casting found too few faces. Applies the
+/// limits of this group, family or recipe.
 FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
                              std::uint32_t attempt) {
   const auto hand = std::ranges::find(casting.recipes, shortfall.recipe, &ManualRecipe::id);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Advice if the limits on measurements cannot be met.
+// Advice for the user if no faces satisfy the config's limits on measurements.
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@
 
 namespace crowdface {
 
-/// Explains why limits could not be met: a line for each limit, with the share of sampled faces
-/// that meet the limit, the range of these faces, and the heads that reach farthest.
-/// \param shortfall  names the group, family or recipe whose limits bind
+/// Explains why limits on measurements could not be met. Returns a line for each limit, with the
+/// share of sampled faces that meet the limit, the range of the sampled faces' values, and the
+/// heads with the most extreme values.
+/// \param shortfall  names the group, family or recipe whose limits could not be met
 std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs,
                                       const CastingOptions& casting, const FaceTraits& traits,
                                       const Shortfall& shortfall);

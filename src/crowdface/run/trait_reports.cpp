@@ -12,7 +12,7 @@ namespace crowdface {
 
 namespace {
 
-/// The landmarks of randomly sampled faces, before limits and constraints apply.
+/// The landmarks of randomly sampled faces. These faces need not satisfy limits or constraints.
 std::vector<Positions> sampled_landmarks(const CastingOptions& casting,
                                          const FaceMeasurer& measurer) {
   constexpr std::uint64_t kSampled = 2000;

@@ -12,14 +12,14 @@
 
 namespace crowdface {
 
-/// A measurement of the faces of a crowd, for reports.
+/// The statistics of one measurement over the faces of a crowd, for reports.
 struct TraitReport {
   std::size_t trait = 0;
   Quartiles heads, crowd;
-  /// Only for a measurement with a requested distribution. `difference`: largest difference between
-  /// the requested cumulative distribution and the sampled faces' (Kolmogorov and Smirnov).
-  /// `below`, `above`: fractions of the requested distribution below and above all values of random
-  /// faces.
+  /// Only for a measurement with a requested distribution. `difference`: the largest difference
+  /// between the requested cumulative distribution and the cumulative distribution of the sampled
+  /// faces (Kolmogorov and Smirnov). `below`, `above`: the fractions of the requested distribution
+  /// that lie below and above the values of all random faces.
   struct Comparison {
     TraitTarget target;
     double mean = 0, deviation = 0;  ///< mean and standard deviation of the sampled faces
@@ -31,10 +31,12 @@ struct TraitReport {
 std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,
                                        const std::vector<FacePlan>& crowd);
 
-/// Warnings about requested distributions that the crowd does not have.
+/// Warnings about measurements whose distribution in the crowd differs from the requested
+/// distribution.
 std::vector<std::string> population_warnings(const std::vector<TraitReport>& reports);
 
-/// A readable table of all measurements: the range of values that faces made from these heads have.
+/// A text table with, for each measurement, the range of the values of faces that are made from
+/// these heads.
 std::string format_trait_ranges(const Config& config, const Inputs& inputs,
                                 const Prepared& prepared, const CastingOptions& casting);
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// \param file_of  returns the path that layers use for a texture
+/// \param file_of  returns the path by which USD layers refer to a texture
 template <class FileOf>
 UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   UsdaSurface surface;
@@ -40,7 +40,7 @@ UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   return surface;
 }
 
-/// The prim name and materials of an attachment.
+/// The USD prim name and the materials of an attachment.
 struct PrimLook {
   std::string prim;
   std::vector<UsdaPart::Material> materials;
@@ -109,7 +109,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
   using Form = MeshWithAttachments<UsdaTemplate, UsdaPart>;
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
-    // Levels of detail are not subdivided: they are coarse on purpose.
+    // Meshes at a reduced level of detail are not subdivided, because they are coarse on purpose.
     const Subdivision subdivision =
         level.is_whole_mesh() ? source.config.output.subdivision : Subdivision::kNone;
     encoders.push_back(make_encoder(

@@ -36,7 +36,8 @@ Axis axis_of(const std::string& option, const std::string& text) {
   return *axis;
 }
 
-/// Guesses the unit in which the mesh has the size of a head with neck.
+/// Guesses the length unit: the unit in which the mesh has about the size of a human head with
+/// neck.
 LengthUnit guess_unit(const Positions& positions) {
   constexpr double kTypicalDiagonalMm = 430;
   return nearest_unit((positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm(),

@@ -19,7 +19,7 @@
 namespace crowdface {
 
 /// The options of `crowdface wrap`, as the user typed them; `crowdface wrap --help` explains them.
-/// Empty: not given.
+/// An empty value means that the option was not given.
 struct WrapOptions {
   std::string template_file;  ///< the template
   std::string scan;           ///< a scan; `out` is then the head to write
@@ -28,14 +28,14 @@ struct WrapOptions {
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string texture;  ///< texels per side
   bool no_pictures = false, force = false, dry_run = false, estimate = false, delight = false;
-  bool strict = false;  ///< refuses doubtful heads
+  bool strict = false;  ///< whether to refuse doubtful heads
   Shard shard;          ///< the part of the batch to wrap
 };
 
-/// Value of `--landmarks` with which no landmarks are read or detected.
+/// The value of `--landmarks` that turns landmarks off: none are read from files or detected.
 inline constexpr const char* kNoLandmarks = "none";
 
-/// The inputs that all scans of a run share.
+/// The inputs of a run that are equal for all scans.
 struct WrapInputs {
   ObjFile file;             ///< the template
   double mm_per_unit = 10;  ///< millimetres per unit of the template
@@ -64,7 +64,7 @@ std::vector<std::filesystem::path> list_files_with_extensions(
     const std::filesystem::path& folder, const std::vector<std::string>& endings);
 
 /// Lists the scans in a folder, sorted by name. \throws MissingInput; UsageError if two scans would
-/// give heads with the same name; InvalidInput if there are none.
+/// give heads with the same name; InvalidInput if there are no scans.
 std::vector<std::filesystem::path> list_scans(const std::filesystem::path& folder);
 
 }  // namespace crowdface

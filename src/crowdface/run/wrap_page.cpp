@@ -26,7 +26,7 @@ constexpr std::string_view kPageHead = R"(<!doctype html>
 <h1>Wrapped scans, the most doubtful first</h1>
 )";
 
-/// The content of a scan's row on the page.
+/// The content of the table row for one scan on the page.
 struct ScanRow {
   std::string name, picture;
   std::string worst;       ///< the feature that agrees least
@@ -35,7 +35,7 @@ struct ScanRow {
   bool has_head = false;
   std::vector<std::string> warnings;
 
-  /// Rows with smaller keys are more doubtful.
+  /// Sort key. A smaller key means a more doubtful scan.
   auto key() const { return std::tuple(has_head, agreement, -distance_mm, name); }
 };
 
@@ -59,7 +59,7 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-/// A file name as a relative address.
+/// Percent-encodes a file name for use as a relative URL.
 std::string address(std::string_view name) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string text;

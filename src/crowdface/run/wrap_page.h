@@ -7,14 +7,15 @@
 
 namespace crowdface {
 
-/// A scan of a batch and the files that a wrap of it writes.
+/// A scan of a batch, and the files that wrapping this scan writes.
 struct WrappedScan {
   std::filesystem::path scan, report, picture;
 };
 
-/// An HTML page over the reports of a batch, to be written into their folder: one row for each
-/// scan, with its image and warnings. The most doubtful rows come first: scans without a head, then
-/// heads whose worst feature agrees least with the scan.
+/// An HTML page that summarises the reports of a batch; the caller writes the page into the folder
+/// of the reports. The page has a row for each scan, with the scan's image and warnings. The most
+/// doubtful scans come first: scans without a resulting head, then scans whose head agrees least
+/// with the scan at the head's worst feature.
 std::string wrap_page(const std::vector<WrappedScan>& scans);
 
 }  // namespace crowdface

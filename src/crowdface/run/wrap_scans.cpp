@@ -127,10 +127,10 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
   return file;
 }
 
-/// Returns the landmarks from the files. If these are too few and the pose of the scan is known,
-/// adds landmarks that are detected by shape.
-/// \param hint  pose of the scan. Receives the face that is found in the scan's relief and, if
-///              `hint` was empty, the axes of this face.
+/// Returns the landmarks from the files. If the files have too few landmarks and the pose of the
+/// scan is known, adds landmarks that are detected from the scan's shape.
+/// \param hint  pose of the scan. Receives the human face that is found in the relief of the scan
+///              and, if `hint` was empty, the axes of this face.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -169,8 +169,9 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   return landmarks;
 }
 
-/// Returns the factor that scales the head to the size of the scan; 1, the size of the template, if
-/// the unit of the scan is not given. \throws UsageError if the factor is implausible.
+/// Returns the factor by which to scale the wrapped head to the size of the scan. If the unit of
+/// the scan is not given, the factor is 1: the head keeps the size of the template. \throws
+/// UsageError if the factor is implausible.
 double output_scale(const WrapOptions& options, const Similarity& pose) {
   if (options.scan_units.empty()) return 1;
   const auto scale_in = [&](const std::string& unit) {
@@ -191,8 +192,8 @@ double output_scale(const WrapOptions& options, const Similarity& pose) {
                           expected, ", or none"));
 }
 
-/// Leave-one-out check: returns the distance of each landmark from the position that the other
-/// landmarks predict; empty for fewer than five landmarks.
+/// Leave-one-out check: returns, for each landmark, the distance from the position that the other
+/// landmarks predict. Empty for fewer than five landmarks.
 std::map<std::string, double> leave_one_out_distances(const WrapInputs& shared,
                                                       const std::vector<WrapLandmark>& landmarks) {
   constexpr std::size_t kMin = 5;
@@ -208,8 +209,8 @@ std::map<std::string, double> leave_one_out_distances(const WrapInputs& shared,
   return result;
 }
 
-/// Returns hints for an error message if landmarks are missing: whether the scan is only a part of
-/// a head, and whether a face is found in its relief, but with axes other than --scan-up and
+/// Returns hints for an error message if landmarks are missing: whether the scan shows only a part
+/// of a head, and whether the relief of the scan shows a face with axes other than --scan-up and
 /// --scan-front.
 std::string likely_causes(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
@@ -354,7 +355,7 @@ void wrap_scans(const WrapOptions& options) {
         wrap_one(options, shared, wrap_textures, task, inputs);
       }
     } catch (const RecoverableError& error) {
-      // Collect the problem and continue with the other scans.
+      // Record the problem of this scan, and continue with the other scans.
       if (error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kIoError) throw;
       problems.add(error);
     }

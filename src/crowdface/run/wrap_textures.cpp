@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Name of the material of templates whose polygons have none.
+/// The material name for the skin of a template whose polygons have no material.
 constexpr const char* kSkinMaterial = "skin";
 
 /// Returns the file name of a map: "anna.colour.png", or with part and tile
@@ -70,7 +70,8 @@ std::string WrapTextures::materials_text(const TextureFiles& files) const {
       .text(textures);
 }
 
-/// Copies the textures that the head keeps, such as the eyes' textures.
+/// Copies the textures of the template that the head keeps unchanged, such as the textures of the
+/// eyes.
 void WrapTextures::copy_other_textures(const fs::path& folder) const {
   const ObjFile& file = inputs_.file;
   NamedTextures named = find_textures(file.material_path(), file.material_libraries);

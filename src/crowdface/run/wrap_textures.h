@@ -14,13 +14,13 @@
 
 namespace crowdface {
 
-/// The files of one wrapped head that have textures.
+/// The texture and material files of one wrapped head.
 struct TextureFiles {
-  std::filesystem::path materials;           ///< beside the head
+  std::filesystem::path materials;           ///< the material file, beside the head's OBJ file
   std::vector<std::filesystem::path> maps;   ///< one colour texture per image
   std::vector<std::filesystem::path> masks;  ///< masks of filled texels, in the report's folder
 
-  /// The paths of all files; none if there are no images.
+  /// The paths of all these files; empty if the template has no images.
   std::vector<std::filesystem::path> all() const;
 };
 
@@ -30,16 +30,16 @@ class WrapTextures {
   /// \param inputs  must outlive this object.
   WrapTextures(const WrapOptions& options, const WrapInputs& inputs);
 
-  /// \param reports  folder of the head's report.
+  /// \param reports  folder for the head's report, which also receives the masks.
   TextureFiles files_of(const std::filesystem::path& head,
                         const std::filesystem::path& reports) const;
 
-  /// Bakes and writes the textures and the material file.
+  /// Bakes the textures of a head, and writes these textures and the head's material file.
   /// \return the share of the skin's texels, 0 to 1, that the scan does not show.
   double write(const WrapResult& result, const Scan& scan, const ScanColours& colours,
                const TextureFiles& files) const;
 
-  /// The head's OBJ file, whose text names the material file.
+  /// Returns the head's OBJ file with a line that names the material file.
   EncodedFile head_file(EncodedFile plain, const TextureFiles& files) const;
 
  private:

@@ -11,8 +11,8 @@ namespace crowdface {
 
 /// Writes one face that is not in a crowd's folder: the mesh and, in the same folder, the face's
 /// own textures, materials and attachments.
-/// \param textures   blends the face's own textures; has no images if faces have no textures of
-///                   their own
+/// \param textures   blends the textures of this face; contains no images if faces have no textures
+///                   of their own
 /// \param positions  #V by 3
 /// \throws CannotCreate, IoError.
 void write_face(const Job& job, const FaceTextures& textures, const FacePlan& face,
