@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-/// A file that is only appended to. Bytes survive a power cut once `append` has returned. A write
-/// in progress when the process dies may be left incomplete. Thread-safe.
+/// A file to which the program only appends. After `append` has returned, its bytes survive a power
+/// cut. A write in progress when the process dies may be left incomplete. Thread-safe.
 class AppendFile {
  public:
   /// Creates the file if it does not exist. \throws CannotCreate.

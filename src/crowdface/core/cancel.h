@@ -8,7 +8,7 @@ namespace crowdface {
 /// runs on another thread. Thread-safe.
 void cancel_work();
 void allow_work();
-/// Whether work is cancelled.
+/// Whether `cancel_work` was called and `allow_work` was not called afterwards.
 bool is_cancelled();
 
 }  // namespace crowdface

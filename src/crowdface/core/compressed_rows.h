@@ -9,11 +9,13 @@
 
 namespace crowdface {
 
-/// Items in numbered groups, stored contiguously by group (compressed rows).
+/// Lists of items, one list per group number. All lists lie one after the other in one array
+/// (compressed rows).
 template <class T>
 struct CompressedRows {
-  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1 positions in `items`
-  std::vector<T> items;                      ///< group g is [offsets[g], offsets[g + 1])
+  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1 indices into `items`
+  std::vector<T> items;                      ///< group g has the items with the indices
+                                             ///< [offsets[g], offsets[g + 1])
 
   std::size_t group_count() const { return offsets.size() - 1; }
   template <std::integral Number>
@@ -36,7 +38,8 @@ struct CompressedRows {
   }
 };
 
-/// Builds the groups by a counting sort. Items keep their order within a group.
+/// Builds the groups by a counting sort. Within a group, the items have the order in which `visit`
+/// passes them.
 /// \param visit  visit(put) calls put(group, item) for each item. `visit` is called twice and must
 ///   pass the same items in the same order both times.
 template <class T, class Visit>

@@ -43,7 +43,8 @@ class Descriptor {
   int get() const { return fd_; }
   bool valid() const { return fd_ >= 0; }
 
-  /// Closes the descriptor. On some file systems a failed write is reported only here.
+  /// Closes the descriptor. On some file systems, only the result of this function shows that an
+  /// earlier write failed.
   /// \return whether closing succeeded.
   bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
@@ -51,11 +52,11 @@ class Descriptor {
   int fd_;
 };
 
-/// Whether a call failed because of the machine (disk, memory, too many open files), not because of
-/// the file.
+/// Whether an error number means a failure of the machine (disk, memory, too many open files) and
+/// not a fault of the file.
 bool is_system_error(int error);
-/// \throws IoError on a system error (disk, memory, too many open files) while the status of `path`
-/// is read.
+/// \throws IoError on a system error (disk, memory, too many open files) that occurred while the
+/// status of `path` was read.
 void throw_if_system_error(const std::filesystem::path& path, const std::error_code& error);
 
 /// Whether `path`, with links followed, still names the open file `file`. False after the file was
@@ -72,7 +73,7 @@ struct OpenedFile {
 /// \throws MissingInput if `path` is not a regular file or cannot be opened; IoError if the cause
 /// is the machine (disk error, out of memory, too many open files).
 OpenedFile open_for_reading(const std::filesystem::path& path);
-/// Reads `size` bytes, or fewer if the file ends earlier.
+/// Reads `size` bytes, or all bytes up to the end of the file if there are fewer.
 /// \param path  named in the error message.
 /// \return      number of bytes read. \throws IoError.
 std::size_t read_up_to(const Descriptor& file, char* to, std::size_t size,

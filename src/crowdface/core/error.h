@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// Exit codes of the program. They follow BSD sysexits where sysexits has a matching code.
+/// Exit codes of the program. If BSD's sysexits.h has a matching code, its value is used.
 enum class ExitCode : int {
   kDone = 0,
   kUnsatisfiable = 3,  ///< the constraints of a plan cannot be met
@@ -16,12 +16,12 @@ enum class ExitCode : int {
   kMissingInput = 66,  ///< an input file is missing or cannot be read
   kBug = 70,           ///< a bug in crowdface
   kCannotCreate = 73,  ///< an output file or folder cannot be created
-  kIoError = 74,       ///< a read or write failed after it had begun
+  kIoError = 74,       ///< reading or writing failed after it had begun
   kInterrupted = 75,   ///< stopped by a signal; run again to resume
 };
 
-/// Base of all exceptions that crowdface throws. The message names the file, the expected content
-/// and the content found. `main` returns `code()` as the exit code.
+/// Base of all exceptions that crowdface throws. The messages of input errors name the file, the
+/// expected content and the content found. `main` returns `code()` as the exit code.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -32,13 +32,14 @@ class Error : public std::runtime_error {
 };
 
 /// Base of the errors that inputs, the machine or the user cause: all errors except
-/// BrokenPrecondition (core/require.h). The library itself catches only RecoverableError, so that
-/// it never hides a bug.
+/// BrokenPrecondition (core/require.h). The library's own code catches only RecoverableError, so
+/// that a BrokenPrecondition, which means a bug, always reaches the program.
 struct RecoverableError : Error {
   using Error::Error;
 };
 
-/// One class per exit code, so that callers can catch each kind of error separately.
+/// An error with this exit code. Each exit code has a separate class, so that callers can catch
+/// each kind of error separately.
 template <ExitCode kCode>
 struct ErrorWithCode : RecoverableError {
   explicit ErrorWithCode(const std::string& message) : RecoverableError(kCode, message) {}

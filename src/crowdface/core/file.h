@@ -16,12 +16,12 @@ namespace crowdface {
 /// Like `std::filesystem::exists`, `is_directory` and `is_regular_file`, but return false for a
 /// path that cannot be resolved: a folder without search permission, a cycle of links, a name that
 /// is too long.
-/// \throws IoError on a system error (disk, memory, too many open files), which says nothing about
-/// the path.
+/// \throws IoError on a system error (disk, memory, too many open files), because such an error
+/// does not tell whether the path exists.
 bool path_exists(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);
-/// Removes a file or an empty folder. Does nothing if that fails.
+/// Removes a file or an empty folder. Ignores errors.
 void remove_if_exists(const std::filesystem::path& path);
 
 /// Returns the whole file. \throws MissingInput if the file cannot be opened; IoError if reading
@@ -35,7 +35,8 @@ struct FileDigest {
   bool operator==(const FileDigest&) const = default;
 };
 
-/// Reads the file in pieces. \throws MissingInput, IoError like read_file.
+/// Computes size and hash of a file, which it reads in pieces. \throws MissingInput, IoError like
+/// read_file.
 FileDigest hash_file(const std::filesystem::path& path);
 /// Whether the file at `path` has this size and hash. Returns false if the file cannot be read.
 bool has_content(const std::filesystem::path& path, const FileDigest& content);
@@ -45,7 +46,7 @@ bool has_content(const std::filesystem::path& path, const FileDigest& content);
 /// handler applies to the whole process. A SIGBUS handler that is already installed stays in place.
 void watch_mapped_files();
 
-/// What reading a mapped file does after another program has truncated the file.
+/// What happens when this program reads a mapped file that another program has truncated.
 enum class OnTruncation {
   kEnd,  ///< the process ends with exit code 74 and a message that names the file
   kFill  ///< the missing pages read as zeros, and `was_truncated` returns true
@@ -54,7 +55,7 @@ enum class OnTruncation {
 /// Read-only view of a file's bytes, valid while the object or a copy of it lives. After a call of
 /// watch_mapped_files() files are memory-mapped: the kernel can drop and reload their pages, so
 /// large inputs do not count as memory of this process. Without that call the bytes are copied,
-/// because without the SIGBUS handler a truncated file would kill the process.
+/// because a mapped file that is truncated would kill the process without the SIGBUS handler.
 class MappedFile {
  public:
   MappedFile() = default;
@@ -69,11 +70,11 @@ class MappedFile {
   ///                IoError.
   static MappedFile from_temporary_copy(std::string_view bytes,
                                         const std::filesystem::path& folder);
-  /// Wraps a text in memory, for code that expects a file.
+  /// Makes a MappedFile from a text in memory, for code that expects a file.
   static MappedFile from_text(std::string text);
   std::string_view bytes() const;
-  /// With kFill: whether the file became shorter while it was mapped; the missing bytes then read
-  /// as zeros. Without kFill always false.
+  /// With OnTruncation::kFill, returns whether the file became shorter while it was mapped; in this
+  /// case the missing bytes read as zeros. Without kFill, always returns false.
   bool was_truncated() const;
 
  private:
@@ -82,11 +83,12 @@ class MappedFile {
   std::shared_ptr<const std::string> text_;  ///< set by from_text, instead of `mapping_`
 };
 
-/// Writes a file atomically: afterwards `path` is the complete new file, or the function throws and
-/// `path` is as before. Steps: write a temporary file in the same folder (locked until it is
-/// renamed, see remove_temporary_files), fsync, close with error check, rename, fsync the folder.
-/// The file is the concatenation of `pieces`. All output files except the log are written this way.
-/// \throws CannotCreate, IoError; the temporary file is then removed.
+/// Writes a file atomically. Either `path` is the complete new file afterwards, or the function
+/// throws and the old file at `path` (if any) is unchanged. Steps: write a temporary file in the
+/// same folder (locked until it is renamed, see remove_temporary_files), fsync, close with error
+/// check, rename, fsync the folder. The file is the concatenation of `pieces`. All output files
+/// except the log are written this way.
+/// \throws CannotCreate, IoError, after removing the temporary file.
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
@@ -98,12 +100,12 @@ struct FileToWrite {
 /// Like `write_file` for each file, but faster: all files are written before the first is synced
 /// and renamed, and each folder is synced once. If an exception is thrown, some of the files may be
 /// complete.
-/// \throws CannotCreate, IoError; the remaining temporary files are then removed.
+/// \throws CannotCreate, IoError, after removing the remaining temporary files.
 void write_files(std::span<const FileToWrite> files);
 
 /// Removes the temporary files that killed runs left in this folder, but not in its subfolders.
-/// Files still being written, by this or another machine, are kept. Does nothing if the folder does
-/// not exist.
+/// Keeps temporary files that a process on this or another machine is still writing. Does nothing
+/// if the folder does not exist.
 /// \return number of files removed. \throws IoError if the folder cannot be read.
 std::size_t remove_temporary_files(const std::filesystem::path& folder);
 

@@ -30,7 +30,8 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
   for (;;) {
     throw_if_interrupted();
     if (::flock(file_.get(), operation) == 0) {
-      // The previous holder may have removed this file. If so, open a new file.
+      // The previous holder of the lock may have removed the file that this thread waited for. If
+      // so, open the file at the path again.
       if (path_leads_to(path, file_)) return;
       file_ = open_lock_file(path);
       continue;
@@ -45,8 +46,8 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
 }
 
 FileLock::~FileLock() {
-  // Only a process that holds the lock exclusively removes the file. Waiting processes notice with
-  // `path_leads_to`.
+  // Only a process that holds the lock exclusively removes the file. Waiting processes detect the
+  // removal with `path_leads_to`.
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(path_.c_str());
 }
 

@@ -10,13 +10,13 @@ namespace crowdface {
 
 /// Whether several processes may hold the lock at the same time.
 enum class LockKind {
-  kShared,     ///< other shared locks are allowed
-  kExclusive,  ///< no other lock is allowed
+  kShared,     ///< other processes may hold shared locks at the same time
+  kExclusive,  ///< no other process may hold a lock
 };
 
-/// A lock between processes (flock), also across machines that share a file system. Held while the
-/// object lives. The kernel releases the lock when the process dies, so a lock file that a killed
-/// process left behind locks nothing.
+/// A lock between processes (flock), also between processes on different machines that share a file
+/// system. Held while the object lives. The kernel releases the lock when the process dies, so a
+/// lock file that a killed process left behind locks nothing.
 class FileLock {
  public:
   /// Waits until the lock is free.

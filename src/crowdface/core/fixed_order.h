@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear algebra that sums in a fixed order, so that results are the same bit for bit with every
-// compiler and instruction set. Libraries sum products in an order that depends on the machine.
+// Linear algebra that adds terms in a fixed order, so that results are the same bit for bit with
+// every compiler and instruction set. Linear algebra libraries do not ensure this: their order
+// depends on the machine.
 #pragma once
 
 #include <cmath>
@@ -27,7 +28,7 @@ inline void subtract_scaled(double factor, std::span<const double> x, std::span<
 /// \param direction   direction(m) returns direction m, as long as `vector`.
 /// \param on_removal  on_removal(m, component) is called once per direction m and pass, with the
 ///                    component along the direction that the pass removes.
-/// \return            length of the remainder before scaling.
+/// \return            length of `vector` after the subtraction and before the scaling.
 template <class Direction, class OnRemoval>
 double orthonormalize(std::span<double> vector, std::size_t count, const Direction& direction,
                       const OnRemoval& on_removal) {

@@ -11,9 +11,10 @@
 namespace crowdface {
 
 /// The entries of a folder, sorted by path; empty if the folder does not exist.
-/// \param error  if given, set when the folder does not exist or access is denied.
-/// \throws IoError if the folder cannot be read completely. Denied access throws only without
-///         `error`.
+/// \param error  if not null, receives the error when the folder does not exist or access is
+///               denied.
+/// \throws IoError if the folder cannot be read completely. Denied access throws only if `error` is
+///         null.
 std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder,
                                                std::error_code* error = nullptr);
 
@@ -28,7 +29,8 @@ inline auto has_extension(const char* ending) {
   return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
 }
 
-/// A folder and all its subfolders, parents first. Symbolic links are not followed.
+/// Returns a folder and all its subfolders, each parent before its children. Symbolic links are not
+/// followed.
 /// \throws IoError like list_folder.
 std::vector<std::filesystem::path> folder_tree(const std::filesystem::path& root);
 
@@ -43,7 +45,8 @@ class DirectoryHandle {
  public:
   /// \throws CannotCreate if the folder cannot be opened.
   explicit DirectoryHandle(const std::filesystem::path& folder);
-  /// \throws IoError if the path no longer leads to the open directory.
+  /// Checks that the path still leads to the directory that this object opened.
+  /// \throws IoError if not.
   void require_same() const;
 
  private:

@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 
 #if !HWY_NATIVE_FMA
-/// std::fma in every lane, for targets without a fused multiply-add instruction.
+/// Calls std::fma for every lane; for targets without a fused multiply-add instruction.
 template <class V>
 V multiply_add_lane_by_lane(V a, V b, V c) {
   namespace hn = hwy::HWY_NAMESPACE;

@@ -11,7 +11,8 @@
 
 namespace crowdface {
 
-/// A 128-bit XXH3 digest. It detects changed content but is not cryptographically secure.
+/// A 128-bit XXH3 digest. It detects accidental changes of content but is not cryptographically
+/// secure.
 struct Digest {
   std::uint64_t high = 0;
   std::uint64_t low = 0;
@@ -20,7 +21,7 @@ struct Digest {
   std::string hex() const;
 };
 
-/// Parses the output of `Digest::hex`; nothing if the text has another form.
+/// Parses the output of `Digest::hex`; nothing if the text is not 32 lower-case hexadecimal digits.
 std::optional<Digest> parse_digest(std::string_view hex);
 
 Digest hash_bytes(std::string_view bytes);
@@ -35,7 +36,7 @@ class Hasher {
   Hasher& operator=(const Hasher&) = delete;
 
   Hasher& add(std::string_view text);
-  /// Hashes the bytes without their length. Adding a text in pieces gives the same digest as
+  /// Hashes the bytes without their length. If a text is added in pieces, the digest equals
   /// `hash_bytes` of the whole text.
   Hasher& add_raw(std::string_view bytes);
   Hasher& add(double value);

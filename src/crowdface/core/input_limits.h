@@ -14,7 +14,8 @@ struct InputLimits {
   std::uint64_t faces = 1ULL << 26U;         ///< number of polygons of a mesh
   std::uint64_t image_pixels = 1ULL << 28U;  ///< width times height of a mask or texture
   std::uint64_t image_bytes = 1ULL << 32U;   ///< memory for the pixels of all images together
-  std::uint64_t textures = 1000;             ///< textures in the material files of one head
+  std::uint64_t textures = 1000;             ///< number of textures that the material files of one
+                                             ///< head may name
   std::uint64_t yaml_bytes = 1ULL << 20U;    ///< size of a config or review file
   std::uint64_t yaml_depth = 64;             ///< nesting depth of lists and mappings
 };
@@ -22,16 +23,17 @@ struct InputLimits {
 /// The current limits.
 const InputLimits& input_limits();
 
-/// Sets one limit by its field name, such as "vertices=2000000". Call it at program start, before
-/// any thread starts.
+/// Sets one limit by its field name, such as "vertices=2000000". Call this function at program
+/// start, before any thread starts.
 /// \throws UsageError if there is no such limit, or if the number is not between 1 and 2^31
 ///         (image_bytes: 2^50).
 void set_input_limit(std::string_view assignment);
 
-/// Lowers the limit `image_bytes` to `bytes` if it is larger. Call it at program start.
+/// Lowers the limit `image_bytes` to `bytes` if the limit is larger than `bytes`. Call it at
+/// program start.
 void limit_image_memory(std::uint64_t bytes);
 
-/// Names and default values for help texts: "vertices (67108864), faces (…), …".
+/// Names and default values of all limits, for help texts: "vertices (67108864), faces (…), …".
 std::string describe_input_limits();
 
 }  // namespace crowdface

@@ -32,7 +32,8 @@ std::vector<std::string> instruction_sets() {
 
 void use_instruction_set(std::string_view name) {
   for (const Known& known : kKnown) {
-    // Highway chooses the best target among these bits, and the portable one if there is none.
+    // Highway chooses the best target whose bit is set, or the portable target if no bit fits this
+    // processor.
     if (known.name == name && is_here(known)) return hwy::GetChosenTarget().Update(known.target);
   }
   throw UsageError(concat("expected an instruction set of this machine (", join(instruction_sets()),

@@ -8,7 +8,8 @@
 namespace crowdface {
 
 /// The instruction sets for which the kernels have code and which this processor supports, best
-/// first: a subset of "avx512", "avx2", "portable". All give the same bits.
+/// first: a subset of "avx512", "avx2", "portable". Results are bitwise equal with each of these
+/// instruction sets.
 std::vector<std::string> instruction_sets();
 
 /// Makes the kernels use this instruction set from now on. Meant for tests and for tracking down

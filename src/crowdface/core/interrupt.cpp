@@ -14,7 +14,8 @@
 namespace crowdface {
 namespace {
 
-// Written by the signal handler and read by all threads. Lock-free, as a signal handler requires.
+// The number of the signal that arrived; 0: none. The signal handler writes it, and all threads
+// read it. It is lock-free, as a signal handler requires.
 std::atomic<int> signal_seen = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -24,8 +25,8 @@ constexpr timespec kGrace = {0, 700'000'000};  ///< 0.7 s
 timer_t grace_timer;
 const int kGraceSignal = SIGRTMIN;
 
-/// Ends the program immediately, like SIGKILL. No output file is left half-written under its final
-/// name.
+/// Ends the program immediately. This leaves no half-written output file, because a file gets its
+/// final name only when it is complete.
 extern "C" void end_program(int) {
   for (const char* text : {"error: ", kMessage, "\n"}) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
@@ -33,7 +34,8 @@ extern "C" void end_program(int) {
   ::_exit(static_cast<int>(ExitCode::kInterrupted));
 }
 
-// Calls only functions that a signal handler may call (POSIX).
+// Signal handler: records the signal and starts the timer that ends the program. Calls only
+// functions that POSIX allows in signal handlers.
 extern "C" void remember_signal(int signal) {
   signal_seen = signal;
   // A second signal ends the program.
@@ -49,11 +51,13 @@ void catch_interrupts() {
   sigevent event{};
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = kGraceSignal;
-  // Without a timer, the program ends after the current block of work, however long that takes.
+  // If no timer can be created, the program ends after the current block of work, however long this
+  // block takes.
   ::timer_create(CLOCK_MONOTONIC, &event, &grace_timer);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction action {};
-    // Keep ignoring a signal that the parent process, such as nohup, has set to be ignored.
+    // If the parent process (such as nohup) has made this process ignore the signal, keep ignoring
+    // it.
     if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = remember_signal;

@@ -8,9 +8,10 @@
 
 namespace crowdface {
 
-/// A map that computes each value at the first request and keeps it. Thread-safe. No lock is held
-/// during the computation, because it may run parallel loops. Two threads may therefore compute the
-/// same value; the first result is kept.
+/// A map that computes the value of a key when it is first requested, and keeps the value.
+/// Thread-safe. No lock is held during the computation, because it may run parallel loops. Two
+/// threads may therefore compute the value of the same key; the map keeps the result that is ready
+/// first.
 template <class Key, class Value>
 class LazyMap {
  public:

@@ -42,8 +42,8 @@ struct Sinks {
     if (!failure) failure = what;
   }
 
-  /// Runs direct calls on a sink, which may throw. (Errors in calls on the logger go to the
-  /// error handler above.)
+  /// Runs calls to a log sink. These calls may throw, whereas errors in calls to the logger go to
+  /// the error handler above.
   template <class Work>
   void guarded(const Work& work) {
     try {

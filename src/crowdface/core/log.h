@@ -11,16 +11,18 @@ namespace crowdface {
 
 enum class LogLevel { kQuiet, kNormal, kVerbose };
 
-/// Sets which lines go to standard error. Log files always receive all lines.
+/// Sets the level of the log lines that standard error receives. Log files always receive all
+/// lines.
 void set_log_level(LogLevel level);
 LogLevel log_level();
-/// Also appends all lines to this file, in addition to earlier log files. \throws CannotCreate.
+/// Opens one more log file. All later lines are appended to it and to the earlier log files.
+/// \throws CannotCreate.
 void add_log_file(const std::filesystem::path& path);
 /// Stops writing to the log file added last.
 void close_log_file() noexcept;
-/// Flushes the log files and returns the first error in writing one of them, which names the file;
-/// nothing if all lines were written. Logging itself never throws, so that work continues; the
-/// caller checks for an error at the end.
+/// Flushes the log files. Returns the message of the first error in writing a log file, which names
+/// the file; nothing if all lines were written. Logging itself never throws, so that work
+/// continues; the caller checks for an error at the end.
 std::optional<std::string> first_log_file_error();
 
 /// Keeps the last 1000 log lines while the object lives, for a log file that is opened later.

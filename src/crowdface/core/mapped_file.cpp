@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // MappedFile (declared in file.h). If a file is truncated while mapped, access to a missing page
-// raises SIGBUS. The handler finds the mapping in a table and does what `OnTruncation` says.
+// raises SIGBUS. The signal handler finds the mapping in a table and does what the mapping's
+// `OnTruncation` value says.
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -36,11 +37,13 @@ struct Watch {
   std::array<char, 512> message = {};
 };
 
-// More entries than a process usually has open files. Further mappings are not watched.
+// The table has more entries than a process usually has open files. If the table is full, the
+// handler does not watch further mappings.
 std::array<Watch, 4096> watches;
 std::atomic<bool> watching = false;
 
-// Calls only functions that are safe in a signal handler. (On Linux, mmap is a plain system call.)
+// The SIGBUS handler. Calls only functions that are safe in a signal handler. (On Linux, mmap is
+// one of these, because it is a plain system call.)
 void on_bus_error(int signal, siginfo_t* info, void*) {
   auto* at = static_cast<char*>(info->si_addr);
   for (Watch& watch : watches) {
@@ -60,7 +63,8 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
     }
     break;
   }
-  // The address is in no watched mapping: let the access fault again and end the process.
+  // The address is in no watched mapping: remove the handler, so that the repeated access ends the
+  // process.
   std::signal(signal, SIG_DFL);
 }
 
@@ -82,12 +86,14 @@ int begin_watch(char* begin, std::size_t size, OnTruncation on_truncation, const
   return -1;
 }
 
+/// Opens a new file without a name, for reading and writing.
 /// \throws CannotCreate.
 Descriptor nameless_file(const fs::path& folder) {
   make_directories(folder);
   Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (file.valid()) return file;
-  // Some file systems do not support O_TMPFILE.
+  // For file systems that do not support O_TMPFILE: create a file with a name, then remove the
+  // name.
   std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
   file = Descriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
   if (!file.valid()) throw_with_errno<CannotCreate>(folder, "no file can be created there");
@@ -131,7 +137,7 @@ struct MappedFile::Mapping {
   void* data;
   std::size_t size;
   int watch = -1;
-  Descriptor kept{-1};  ///< the open file, with kFill only
+  Descriptor kept{-1};  ///< the open file; kept open only with kFill
 };
 
 MappedFile::MappedFile(const fs::path& path, OnTruncation on_truncation) {

@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-/// The memory limit of one control group, in bytes; nothing if there is none.
+/// The memory limit of one control group, in bytes; nothing if the group has no limit.
 std::optional<std::uint64_t> group_limit(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string text;
@@ -23,9 +23,9 @@ std::optional<std::uint64_t> group_limit(const std::filesystem::path& file) {
   return parse_unsigned(text);  // "max" is not a number: no limit
 }
 
-/// Lowers `least` to the least limit of a control group and all its parent groups.
+/// Lowers `least` to the smallest memory limit among a control group and all its parent groups.
 /// \param mount  folder of the outermost group.
-/// \param file   name of the limit's file in each group's folder.
+/// \param file   name of the file in each group's folder that holds the limit.
 void lower_to_groups(std::optional<std::uint64_t>& least, const std::filesystem::path& mount,
                      const std::filesystem::path& group, const char* file) {
   std::filesystem::path folder = mount;

@@ -9,11 +9,11 @@
 
 namespace crowdface {
 
-/// Bytes of memory that this process may use: the machine's physical memory or the limit of its
-/// control groups, whichever is less.
+/// Bytes of memory that this process may use: the machine's physical memory or the limit of the
+/// process's control groups, whichever is less.
 std::uint64_t usable_memory();
-/// The least memory limit, in bytes, of the control groups of this process and of all their parent
-/// groups (version 2, or the controller `memory` of version 1); nothing if there is no limit.
+/// The smallest memory limit, in bytes, among the control groups of this process and all parents of
+/// these groups (version 2, or the controller `memory` of version 1); nothing if there is no limit.
 /// \param groups  the file that names the control groups of the process.
 /// \param root    where the control groups are mounted.
 std::optional<std::uint64_t> control_group_memory_limit(
@@ -24,8 +24,8 @@ std::optional<std::uint64_t> control_group_memory_limit(
 std::uint64_t peak_memory_bytes();
 
 /// After this call `is_out_of_memory` tells whether any `new` has failed. Libraries may catch
-/// std::bad_alloc and continue with incomplete results, so the program has to ask. Call it at
-/// program start.
+/// std::bad_alloc and continue with incomplete results, so the program has to ask. Call this
+/// function at program start.
 void watch_for_out_of_memory();
 bool is_out_of_memory();
 

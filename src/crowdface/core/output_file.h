@@ -13,7 +13,7 @@ namespace crowdface {
 ///         is not a regular file (a folder, device or pipe).
 std::filesystem::path checked_output_path(const std::filesystem::path& path);
 
-/// Rejects outputs that would overwrite an input.
+/// Checks that no output would overwrite an input.
 /// \throws UsageError if an output is the same file as an input, even under another name.
 void refuse_to_write_over(const std::vector<std::filesystem::path>& inputs,
                           const std::vector<std::filesystem::path>& outputs);

@@ -24,9 +24,9 @@
 namespace crowdface {
 namespace {
 
-/// Tells ThreadSanitizer that one thread hands work to another. Debian builds TBB and Embree
-/// without ThreadSanitizer, so ThreadSanitizer does not see their synchronisation. Does nothing in
-/// other builds.
+/// Tells ThreadSanitizer that one thread passes data to another thread in a synchronised way.
+/// Debian builds TBB and Embree without ThreadSanitizer, so ThreadSanitizer does not see their
+/// synchronisation. Does nothing in other builds.
 class HandOver {
  public:
 #ifdef __SANITIZE_THREAD__
@@ -109,7 +109,8 @@ void detail::run_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   if (blocks == 1) return body(0, count);
   LoopItems items;
   items.begin();
-  // Isolated: a thread that waits for this loop must not start another heavy item of an outer loop.
+  // Run the loop in isolation, so that a thread that waits for it does not start another heavy item
+  // of an outer loop.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
       items.run([&] {
@@ -138,8 +139,8 @@ void detail::run_items(std::ptrdiff_t count, const std::function<void(std::ptrdi
 }
 
 struct BackgroundTasks::Group {
-  // The closures. This list holds them instead of TBB's tasks, so that ThreadSanitizer sees how
-  // threads receive the closures.
+  // The closures that wait to run. This list and not TBB's tasks holds the closures, so that
+  // ThreadSanitizer sees how threads receive them.
   std::deque<std::function<void()>> pending;
   tbb::task_group tasks;
   LoopItems items;

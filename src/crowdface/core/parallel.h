@@ -43,14 +43,15 @@ void parallel_blocks(Count count, std::type_identity_t<Count> block, const Body&
                      });
 }
 
-/// Calls `body(i)` for each i in [0, count), one task per i. For a few heavy items.
+/// Calls `body(i)` for each i in [0, count), with one task per i. Use it for a few items that take
+/// long.
 template <std::integral Count, class Body>
 void parallel_for_each(Count count, const Body& body) {
   detail::run_items(static_cast<std::ptrdiff_t>(count),
                     [&](std::ptrdiff_t i) { body(static_cast<Count>(i)); });
 }
-/// Calls `body(i)` for each i, with one task per block, as in `parallel_blocks`. For many light
-/// items.
+/// Calls `body(i)` for each i, with one task per block of `parallel_blocks`. Use it for many items
+/// that are quick.
 template <std::integral Count, class Body>
 void parallel_for_each(Count count, std::type_identity_t<Count> block, const Body& body) {
   parallel_blocks(count, block, [&](Count begin, Count end) {
@@ -58,12 +59,12 @@ void parallel_for_each(Count count, std::type_identity_t<Count> block, const Bod
   });
 }
 
-/// Tasks that run in parallel to the caller. Idle threads run them, and so does the thread that
-/// calls `wait`.
+/// Tasks that run in parallel to the caller. Idle threads run these tasks; the thread that calls
+/// `wait` also runs tasks while it waits.
 class BackgroundTasks {
  public:
   BackgroundTasks();
-  ~BackgroundTasks();  ///< waits for all tasks; drops exceptions
+  ~BackgroundTasks();  ///< waits for all tasks; ignores their exceptions
   BackgroundTasks(const BackgroundTasks&) = delete;
   BackgroundTasks& operator=(const BackgroundTasks&) = delete;
 

@@ -8,10 +8,10 @@
 
 namespace crowdface {
 
-/// Collects all errors of an input, so that the user sees them at once.
+/// Collects all errors of an input, so that the user sees all errors in one run.
 class Problems {
  public:
-  /// Adds an error. Repeated messages are dropped.
+  /// Adds an error, unless the same message was added before.
   /// \param message  one or more lines: file, place, what was expected, what was found.
   void add(ExitCode code, std::string message);
   void add(const Error& error) { add(error.code(), error.what()); }
@@ -19,8 +19,8 @@ class Problems {
   std::size_t size() const { return messages_.size(); }
   const std::vector<std::string>& messages() const { return messages_; }
 
-  /// The exit code of the most basic error: 64 before 66 before 65 before any other; 0 if there is
-  /// none.
+  /// The exit code of the most basic of the collected errors. Code 64 is more basic than 66, 66
+  /// more than 65, and 65 more than any other. Returns 0 if there is no error.
   ExitCode code() const;
 
   /// \throws RecoverableError with all messages, one per line, if there are any.

@@ -66,7 +66,7 @@ std::optional<double> Progress::seconds_left() const {
   return seconds_left(done_);
 }
 
-/// Call this with mutex_ locked.
+/// The estimated remaining time. The caller must hold mutex_.
 std::optional<double> Progress::seconds_left(std::size_t done) const {
   const std::optional<double> rate = rate_.rate();
   if (!rate) return std::nullopt;

@@ -18,7 +18,7 @@ using SecondsClock = std::function<double()>;
 SecondsClock steady_seconds_clock();
 
 /// Shows the progress of a stage: done/total and, once known, rate and remaining time (see
-/// StepRate). A terminal shows one line that is updated in place; otherwise a line is logged every
+/// StepRate). On a terminal, the object updates one line in place; otherwise it logs a line every
 /// ten seconds. Silent if the log level is kQuiet. `step` is thread-safe.
 class Progress {
  public:
@@ -53,8 +53,9 @@ class Progress {
   bool shown_ = false;
 };
 
-/// Receives the name of a stage, the number of finished steps and the number of all steps. Called on
-/// any thread, one call at a time, at the start of a stage and after each step.
+/// A function that receives the name of a stage, the number of finished steps and the number of all
+/// steps. It is called at the start of a stage and after each step, on any thread, but never by two
+/// threads at the same time.
 using ProgressListener =
     std::function<void(const std::string& stage, std::size_t done, std::size_t total)>;
 /// Reports all progress of the process to `listener`; an empty listener ends the reports.

@@ -16,7 +16,8 @@ double to_unit(std::uint32_t high, std::uint32_t low) {
 }  // namespace
 
 std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane) {
-  // The counter has 128 bits: 64 for the index, 64 for a mix of purpose, attempt and lane.
+  // The generator's counter has 128 bits: 64 for the index, and 64 for a mix of purpose, attempt
+  // and lane.
   const std::uint64_t purpose = hash_bytes(key.purpose).low;
   const std::uint64_t attempt = std::uint64_t{key.attempt} << 16 | (lane & 0xffffU);
   const std::uint64_t mixed = purpose ^ attempt * 0x9E3779B97F4A7C15ULL;
@@ -38,8 +39,8 @@ double random_between(const RandomKey& key, double low, double high) {
 }
 
 double random_stratified(const RandomKey& key, std::uint64_t strata) {
-  // Each run of `strata` indices visits all intervals in cyclic order, starting at a random
-  // interval and in a random direction.
+  // Every `strata` consecutive indices visit all intervals once, in cyclic order. The first
+  // interval and the direction are random.
   constexpr std::uint32_t kRunLane = 0x5A17;
   const RandomKey run{key.seed, key.index / strata, key.purpose, key.attempt};
   const auto [place, direction] = random_pair(run, kRunLane);

@@ -9,8 +9,8 @@ namespace crowdface {
 
 /// Random numbers as a pure function of (seed, index, purpose, attempt, lane). There is no
 /// generator state, so the numbers of a face do not depend on the number of faces, the threads or
-/// the shard, and a new purpose leaves the numbers of all others unchanged. Generator:
-/// Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
+/// the shard, and adding a new purpose leaves the numbers of all other purposes unchanged.
+/// Generator: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
 struct RandomKey {
   std::uint64_t seed = 0;
   std::uint64_t index = 0;        ///< number of the face or head
@@ -18,7 +18,7 @@ struct RandomKey {
   std::uint32_t attempt = 0;      ///< number of rejected earlier samples for this face
 };
 
-/// Two independent numbers in [0, 1), multiples of 2⁻⁵³.
+/// Two independent uniform numbers in [0, 1). Both are multiples of 2⁻⁵³.
 /// \param lane  number of the pair for this key; < 2¹⁶.
 std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane = 0);
 
@@ -28,8 +28,9 @@ double random_unit(const RandomKey& key, std::uint32_t lane = 0);
 /// A uniform number in [low, high).
 double random_between(const RandomKey& key, double low, double high);
 
-/// A uniform number in [0, 1), stratified over successive indices: of the numbers for the indices
-/// k·strata … (k + 1)·strata − 1, one lies in each of `strata` equal intervals.
+/// A uniform number in [0, 1), stratified over successive indices: [0, 1) has `strata` equal
+/// intervals, and each interval holds exactly one of the numbers for the indices k·strata … (k +
+/// 1)·strata − 1.
 double random_stratified(const RandomKey& key, std::uint64_t strata);
 
 /// An approximately standard normal number: the sum of twelve uniform numbers minus 6, hence in

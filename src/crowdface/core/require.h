@@ -6,8 +6,8 @@
 
 namespace crowdface {
 
-/// A caller broke a documented precondition: a bug in crowdface, not a mistake of the user. Exit
-/// code 70.
+/// Thrown if a caller broke a documented precondition. This means a bug in crowdface, not a mistake
+/// of the user. Exit code 70.
 struct BrokenPrecondition : Error {
   explicit BrokenPrecondition(const std::string& message) : Error(ExitCode::kBug, message) {}
 };

@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-/// A new folder for temporary files, removed with its content by the destructor.
+/// A new folder for temporary files. The destructor removes the folder and its content.
 class ScratchFolder {
  public:
   /// \throws CannotCreate

@@ -18,7 +18,8 @@ std::vector<std::ranges::range_value_t<Items>> evenly_spaced_items(const Items& 
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
 }
-/// The value at position `rank` (from 0) in ascending order. \param rank  < values.size().
+/// The value that would be at index `rank` if the values were sorted in ascending order.
+/// \param rank  < values.size().
 inline double nth_smallest(std::vector<double> values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(values.begin(), at, values.end());

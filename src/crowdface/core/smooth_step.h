@@ -6,7 +6,7 @@
 namespace crowdface {
 
 /// Smooth step: 0 for x ≤ low, 1 for x ≥ high, else 3t² − 2t³ with t = (x − low) / (high − low).
-/// Needs no libm.
+/// Uses no function of the C math library.
 inline double smooth_step(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return t * t * (3 - 2 * t);

@@ -4,7 +4,8 @@
 namespace crowdface {
 
 void StepRate::record(double seconds, std::size_t done) {
-  // Smallest time between stored samples, in seconds, so that millions of steps need little memory.
+  // Smallest time between two stored samples, in seconds. It limits the memory that millions of
+  // steps need.
   constexpr double kMinInterval = 0.05;
   if (samples_.empty()) {
     first_seconds_ = seconds;

@@ -8,15 +8,17 @@
 namespace crowdface {
 
 /// Estimates how many steps a stage makes per second, from the second half of the time since its
-/// first step. The time before the first step does not count: a stage may need a long preparation.
-/// The first half does not count because steps may become slower, as in a crowd that is nearly full.
+/// first step. The time before the first step does not count, because a stage may need a long
+/// preparation. The first half does not count because steps may become slower, as in a crowd that
+/// is nearly full.
 class StepRate {
  public:
   /// \param burst  number of steps that may end at almost the same time, such as the number of
   ///     threads. The estimate compares only the first steps of bursts.
   explicit StepRate(std::size_t burst = 1) : burst_(burst) {}
 
-  /// Records the number of finished steps. \param seconds  time of the call; never decreases.
+  /// Records the number of finished steps.
+  /// \param seconds  time of the call; must not be less than in the previous call.
   void record(double seconds, std::size_t done);
   /// Returns the steps per second; nothing before the first step of the second burst.
   std::optional<double> rate() const;
@@ -28,7 +30,8 @@ class StepRate {
   };
   std::size_t burst_;
   double first_seconds_ = 0;
-  std::deque<Sample> samples_;  ///< from about the middle of the time since the first step
+  std::deque<Sample> samples_;  ///< samples of about the second half of the time since the first
+                                ///< step
 };
 
 }  // namespace crowdface

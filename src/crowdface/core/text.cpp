@@ -24,7 +24,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 /// The decimal exponent of the first nonzero digit: 2 for "123", -3 for "0.001", 998 for "0.1e999".
-/// Needed because from_chars reports overflow and underflow with the same error.
+/// The function is needed because from_chars reports overflow and underflow with the same error.
 long long decimal_exponent(std::string_view number) {
   if (number.starts_with('-')) number.remove_prefix(1);
   const std::size_t e = number.find_first_of("eE");
@@ -43,14 +43,14 @@ long long decimal_exponent(std::string_view number) {
   return leading + std::clamp(exponent, -kHuge, kHuge);
 }
 
-/// The UTF-8 character at `at`, or one byte if the bytes there are invalid.
+/// The UTF-8 character at `at`, or a single byte if the bytes at `at` are not valid UTF-8.
 std::string_view character_at(std::string_view text, std::size_t at) {
   return text.substr(at, std::max<std::size_t>(utf8_length(text.substr(at)), 1));
 }
 
-/// Whether a terminal would interpret the character as a command or reorder text because of it:
-/// control characters (C0, DEL, C1), line separators, marks of text direction, and bytes that are
-/// not valid UTF-8.
+/// Whether the character may make a terminal execute a command or reorder text. Such characters
+/// are: control characters (C0, DEL, C1), line separators, marks of text direction, and bytes that
+/// are not valid UTF-8.
 bool is_unprintable(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   const auto within = [](unsigned value, unsigned low, unsigned high) {

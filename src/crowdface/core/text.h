@@ -15,8 +15,8 @@ namespace crowdface {
 /// locale. A leading '+' is allowed; white space, hexadecimal, "nan" and "inf" are not.
 std::optional<double> parse_double(std::string_view text);
 
-/// Parses the whole of `text` as an unsigned decimal integer; nothing on a sign, overflow or
-/// trailing characters.
+/// Parses the whole of `text` as an unsigned decimal integer; nothing if the text has a sign or
+/// trailing characters, or if the number overflows.
 std::optional<std::uint64_t> parse_unsigned(std::string_view text);
 
 /// The shortest decimal text that reads back as exactly `value`.
@@ -27,20 +27,21 @@ std::string format_fixed(double value, int decimals);
 /// Pads with zeros to at least `digits` digits: "0007".
 std::string zero_padded(std::uint64_t number, std::size_t digits);
 
-/// The last `digits` hexadecimal digits, padded with zeros: "00ff".
+/// The lowest `digits` hexadecimal digits of a number, padded with zeros, such as "00ff".
 std::string hex(std::uint64_t number, std::size_t digits);
 
 /// Converts A–Z to lower case; other characters stay.
 std::string lower_case(std::string_view text);
 
-/// Makes `text` safe for a terminal. Control characters other than line ends, line separators,
-/// marks of text direction and invalid UTF-8 become hexadecimal escapes.
+/// Makes `text` safe for a terminal. Line separators, marks of text direction, invalid UTF-8 and
+/// control characters (except line ends) become hexadecimal escapes.
 std::string printable(std::string_view text);
 
-/// `text` in double quotes, printable. Line ends, quotes and backslashes are escaped too. Only the
-/// first 80 bytes are kept.
+/// `text` in double quotes, printable. Escapes line ends, quotes and backslashes too. Keeps only
+/// the first 80 bytes of the text.
 std::string quoted(std::string_view text);
-/// Without these overloads, overload resolution would choose std::quoted.
+/// These overloads exist because overload resolution would otherwise choose std::quoted for their
+/// argument types.
 inline std::string quoted(const std::string& text) {
   return quoted(std::string_view(text));
 }
@@ -50,13 +51,13 @@ inline std::string quoted(const char* text) {
 
 inline constexpr std::size_t kMaxNameLength = 64;
 inline constexpr std::size_t kMaxIdLength = 2 * kMaxNameLength + 22;  ///< form: CROWD_FAMILY_NUMBER
-/// Whether `text` can be a file name on any system: 1 to `longest` letters (A–Z, a–z), digits, '_',
-/// '-' and '.', not starting with '.'. "__proto__" is refused because in JavaScript it would set an
-/// object's prototype.
+/// Whether `text` can be a file name on any system. It must have 1 to `longest` characters, each a
+/// letter (A–Z, a–z), digit, '_', '-' or '.', and must not start with '.'. "__proto__" is refused
+/// because in JavaScript it would set an object's prototype.
 bool is_name(std::string_view text, std::size_t longest = kMaxNameLength);
 
-/// The candidate with the least edit distance to `word`; nothing if none is close enough to be a
-/// typo.
+/// The candidate with the least edit distance to `word`; nothing if `word` is too different from
+/// all candidates to be a misspelling.
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
 

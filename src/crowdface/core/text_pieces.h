@@ -14,19 +14,20 @@
 namespace crowdface {
 
 using TakePiece = std::function<void(std::string_view)>;
-/// A function that passes the pieces of a text to `take`, the same text at every call. Objects that
-/// the function captures by reference must outlive it.
+/// A function that passes all pieces of a text to `take`, in order. Every call passes the same
+/// text. Objects that the function captures by reference must outlive it.
 using TextPieces = std::function<void(const TakePiece& take)>;
 
-/// The concatenated texts of items 0 … count − 1. Several threads call `item`. The returned
-/// function throws Interrupted after a signal.
+/// Makes a text by concatenating `item(0)` … `item(count − 1)`. Several threads call `item`. The
+/// returned function throws Interrupted after a signal.
 TextPieces text_of_items(std::size_t count, std::function<std::string(std::size_t)> item);
 
 /// The whole text in memory.
 std::string whole_text(const TextPieces& text);
 /// Size and hash of the text.
 FileDigest digest_of(const TextPieces& text);
-/// Like `write_file` of the whole text. \return size and hash of the file.
+/// Writes the whole text to a file atomically, like `write_file`. \return size and hash of the
+/// file.
 FileDigest write_file(const std::filesystem::path& path, const TextPieces& text);
 
 /// Reads a file in pieces, from start to end. \throws MissingInput, IoError like read_file.

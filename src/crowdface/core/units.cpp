@@ -16,7 +16,7 @@ struct NamedUnit {
   LengthUnit unit;
 };
 constexpr LengthUnit kFoot{304.8};
-/// A unit is written with the first of its names.
+/// A unit may have several names in this list; `name_of` returns the first.
 constexpr std::array<NamedUnit, 7> kNamedUnits = {{{"mm", LengthUnit::kMillimetre},
                                                    {"cm", LengthUnit::kCentimetre},
                                                    {"m", LengthUnit::kMetre},
@@ -62,7 +62,8 @@ LengthUnit fitting_unit(double length, double typical_mm) {
   const double mm = typical_mm / std::max(length, 1e-9);
   const double step = std::pow(10, std::floor(std::log10(mm)) - 1);
   const double digits = std::round(mm / step);
-  // The inverse of a step below 1 is a whole number, so that 2.3 does not become 2.3000000000000003.
+  // For a step below 1, divide by its inverse, which is a whole number, so that 2.3 does not become
+  // 2.3000000000000003.
   return {step < 1 ? digits / std::round(1 / step) : digits * step};
 }
 

@@ -27,14 +27,15 @@ inline constexpr std::array kLengthUnits = {LengthUnit::kMillimetre, LengthUnit:
 inline double mm_per(LengthUnit unit) {
   return unit.mm;
 }
-/// "mm", "cm", "m" or "in"; for any other unit its length, such as "2438.4 mm".
+/// "mm", "cm", "m" or "in". For a unit without a name, its length, such as "2438.4 mm".
 std::string name_of(LengthUnit unit);
 /// Parses the name of a unit or a length with a unit, such as "243.84 cm"; nothing if the text is
-/// neither, or the length is outside 1e-6 mm … 1e9 mm.
+/// neither of these, or if the length is outside 1e-6 mm … 1e9 mm.
 std::optional<LengthUnit> parse_length_unit(std::string_view text);
-/// The unit (mm, cm or m) in which `length` is nearest to `typical_mm`, measured as a ratio.
+/// The unit (mm, cm or m) in which `length` comes closest to `typical_mm` (ratio closest to 1).
 LengthUnit nearest_unit(double length, double typical_mm);
-/// The unit that makes `length` equal to `typical_mm`, rounded to two significant digits.
+/// The unit in which `length` equals `typical_mm`. The unit's length is rounded to two significant
+/// digits.
 LengthUnit fitting_unit(double length, double typical_mm);
 /// Parses a length with its unit, such as "8 mm" or "1.5cm". Returns millimetres; nothing if the
 /// text is not a length.

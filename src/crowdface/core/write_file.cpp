@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporaryStart = ".crowdface-", kTemporaryEnd = ".tmp";
 
-/// A name that is unique in this process. Short, so that it is valid wherever the final name is.
+/// A name that is unique in this process. The name is short, so that it is valid in every folder in
+/// which the final name is valid.
 std::string temporary_name() {
   static std::atomic<unsigned> serial{0};
   return concat(kTemporaryStart, ::getpid(), '-', serial++, kTemporaryEnd);
@@ -36,8 +37,8 @@ bool is_temporary(const fs::path& path) {
 
 enum class Claim { kOurs, kTaken, kImpossible };
 
-/// Locks an open file until it is closed, also against other machines. kImpossible if the file
-/// system does not support locks.
+/// Locks an open file until it is closed, against other processes and machines. Returns kImpossible
+/// if the file system does not support locks.
 Claim claim(int fd) {
   if (::flock(fd, LOCK_EX | LOCK_NB) == 0) return Claim::kOurs;
   return errno == EWOULDBLOCK || errno == EINTR ? Claim::kTaken : Claim::kImpossible;
@@ -72,8 +73,8 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  /// Writes the bytes. After every 8 MiB, starts to write the bytes back to disk, so that `finish`
-  /// waits for less.
+  /// Writes the bytes. After every 8 MiB, tells the system to start writing them to disk, so that
+  /// `finish` has less to wait for.
   void write(std::string_view bytes) {
     while (!bytes.empty()) {
       const std::string_view some = bytes.substr(0, kWritebackSize);
@@ -84,7 +85,7 @@ class TemporaryFile {
     }
   }
 
-  /// Asynchronous; `finish` reports errors.
+  /// Starts writing to disk without waiting; `finish` reports errors.
   void start_writing_back() {
     ::sync_file_range(file_.get(), static_cast<off_t>(bytes_in_writeback_), 0,
                       SYNC_FILE_RANGE_WRITE);
@@ -134,10 +135,11 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// Makes a rename survive a power cut: the new name is stored in the folder.
+/// Syncs a folder to disk. After a rename, this is needed so that the new name survives a power
+/// cut.
 void sync_directory(const fs::path& directory) {
   const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // A folder that is writable but not readable cannot be synced.
+  // Accept this error: a folder that is writable but not readable cannot be synced.
   if (!descriptor.valid() && errno == EACCES) return;
   if (!descriptor.valid() || !sync(descriptor.get())) {
     throw_with_errno<IoError>(directory, "cannot be synchronised");

@@ -78,7 +78,8 @@ void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& a
 }
 
 /// The kind of texture that a material property of FBX refers to, such as `DiffuseColor`,
-/// `Maya|normalCamera` or `3dsMax|main|norm_map`; nothing for kinds that faces do not have.
+/// `Maya|normalCamera` or `3dsMax|main|norm_map`; nothing for kinds that generated faces do not
+/// have.
 std::optional<TextureKind> kind_of_property(std::string_view property) {
   property.remove_prefix(property.rfind('|') + 1);  // npos + 1 is 0
   std::string name(property);
@@ -100,9 +101,9 @@ std::optional<TextureKind> kind_of_property(std::string_view property) {
   return std::nullopt;
 }
 
-/// Adds a texture unless the material has one of this kind. For external textures, stores only the
-/// file names in `external_textures`, not the bytes.
-/// \return  whether the texture is the material's texture of this kind.
+/// Adds a texture to a material unless the material already has a texture of this kind. For an
+/// external texture, stores only the file name (in `external_textures`), not the bytes.
+/// \return  whether the material's texture of this kind is now this texture.
 bool add_texture(const aiScene& scene, const std::string& material, TextureKind kind,
                  const aiString& name, FileMesh& mesh,
                  std::vector<std::string>& external_textures) {
@@ -147,7 +148,8 @@ void collect_textures(const aiScene& scene, FileMesh& mesh,
         unused.emplace(key.substr(key.rfind('|') + 1));
       }
     }
-    // A layered texture is not a property of the material; Assimp reports only its lowest layer.
+    // A layered texture is not among the material's properties; of its layers, Assimp reports only
+    // the lowest.
     for (const auto& [type, kind] : {std::pair(aiTextureType_DIFFUSE, TextureKind::kColour),
                                      std::pair(aiTextureType_NORMALS, TextureKind::kNormal)}) {
       aiString name;
@@ -161,7 +163,8 @@ void collect_textures(const aiScene& scene, FileMesh& mesh,
   mesh.notes.push_back("its textures of these properties are not used: " + names);
 }
 
-/// Adds a note about shapes, which the program reads from files of their own.
+/// Adds a note that the blend shapes in the file are ignored: the program reads each blend shape
+/// from a separate mesh file.
 void note_shapes(const aiScene& scene, FileMesh& mesh) {
   std::set<std::string> shapes;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {

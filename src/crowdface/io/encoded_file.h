@@ -13,9 +13,9 @@
 
 namespace crowdface {
 
-/// The complete content of a file to be written, as a list of byte ranges. Data that all faces
-/// share (texture coordinates, polygons) is referenced in place; the object allocates memory only
-/// for the other ranges.
+/// The complete content of a file to be written, as a list of byte ranges. Data that is the same in
+/// all files (texture coordinates, polygons) is referenced in place. The object allocates memory
+/// only for the other data.
 class EncodedFile {
  public:
   EncodedFile() = default;
@@ -25,10 +25,10 @@ class EncodedFile {
   void refer_to(std::string_view bytes);
   /// Appends bytes that this object owns.
   void add(std::string text);
-  /// Keeps `owner` alive as long as this object.
+  /// Keeps `owner`, which holds referenced bytes, alive as long as this object.
   void keep(std::shared_ptr<const void> owner);
-  /// Allocates `capacity` bytes, uninitialised. The caller fills them and appends ranges of them
-  /// with `refer_to`.
+  /// Allocates `capacity` uninitialised bytes. The caller fills these bytes and appends ranges of
+  /// them with `refer_to`.
   char* reserve(std::size_t capacity);
 
   /// Replaces the first line that begins with `word` and a blank, and removes all later such lines.
@@ -36,7 +36,7 @@ class EncodedFile {
   bool replace_line(std::string_view word, std::string_view line);
 
   std::uint64_t size() const { return size_; }
-  /// Size of the bytes that this object owns, without the referenced ranges.
+  /// Number of bytes that this object owns; referenced bytes do not count.
   std::size_t memory_bytes() const { return memory_bytes_; }
   /// `hash_bytes` of the whole content.
   Digest digest() const;
@@ -45,7 +45,7 @@ class EncodedFile {
   /// The whole content as one string.
   std::string text() const;
   /// Writes the file.
-  /// \throws CannotCreate, IoError; the file does not exist afterwards (see `write_file`).
+  /// \throws CannotCreate, IoError; in that case `path` is as before (see `write_file`).
   void write(const std::filesystem::path& path) const;
 
  private:

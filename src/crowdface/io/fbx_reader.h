@@ -14,14 +14,14 @@ namespace crowdface {
 /// program loads the library when it meets the first FBX file. The signature uses only types of
 /// this project.
 /// \param external_textures  #textures: path of each external texture file, as the exporting
-/// machine wrote it; empty for embedded textures
+///                           machine wrote it; empty for embedded textures
 using ReadFbx = bool(std::string_view bytes, FileMesh& mesh,
                      std::vector<std::string>& external_textures, std::string& error);
 
-/// Reads all meshes of an FBX file, transformed by their nodes; polygons are kept. Assimp creates
-/// one vertex per polygon corner, so the original vertex order is lost; `join_split_vertices`
-/// merges the copies.
-/// \param path  path of the FBX file; external textures are searched beside this file.
+/// Reads all meshes of an FBX file and applies the transforms of their nodes. Polygons stay
+/// polygons, without triangulation. Assimp creates one vertex per polygon corner, so the original
+/// vertex order is lost. `join_split_vertices` merges the copies of a vertex.
+/// \param path  path of the FBX file; the function searches external textures beside this file.
 /// \throws InvalidInput; IoError if the library cannot be loaded.
 FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path);
 

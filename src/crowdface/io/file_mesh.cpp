@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// The vertices with the same id in the same piece.
+/// Joins the vertices that have the same id and lie in the same mesh of the file.
 JoinedBorders joined_ids(const FileMesh& mesh) {
   JoinedBorders result;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> of_id;
@@ -38,8 +38,8 @@ void join_vertices(FileMesh& mesh) {
   mesh.topology.vertex_count = mesh.positions.rows();
 }
 
-/// Merges equal texture coordinates at corners of the same vertex; unequal texture coordinates form
-/// a seam.
+/// Merges the texture coordinates of two corners of the same vertex if they are equal. Where they
+/// differ, there is a seam.
 void join_uvs(FileMesh& mesh) {
   Topology& topology = mesh.topology;
   std::map<std::tuple<std::uint32_t, double, double>, std::uint32_t> rows;

@@ -15,60 +15,62 @@
 
 namespace crowdface {
 
-/// A texture embedded in a mesh file or named by it.
+/// A texture that a mesh file embeds or names.
 struct MeshTexture {
   std::string material;
   TextureKind kind;
   std::string bytes;  ///< content of the image file
 };
 
-/// A mesh as read from a file of any format: vertices and polygons in the file's order, unit and
-/// axes.
+/// A mesh as read from a file of any format. Vertices and polygons have the order of the file;
+/// positions have the unit and axes of the file.
 struct FileMesh : Mesh {
   Positions colours;                     ///< #V by 3, sRGB from 0 to 1; or no rows
   std::vector<MaterialRange> materials;  ///< ranges of polygons, ascending; may be empty
-  /// #V, for formats that split vertices at seams: index of the mesh in the file that contains each
-  /// vertex. Empty if the format does not split vertices.
+  /// #V: for each vertex, the index of its mesh among the meshes of the file. Only for formats that
+  /// split vertices at seams; empty for other formats.
   std::vector<std::uint32_t> pieces;
   std::vector<std::uint32_t>
       vertex_ids;  ///< #V: vertex ids before the split; empty if the file does not store them
   std::vector<MeshTexture> textures;  ///< textures of the materials
   /// Base colours of materials in linear light, for formats without material files.
   std::map<std::string, std::array<float, 3>> material_colours;
-  /// Material files that an OBJ file names; other formats hold `textures` instead.
+  /// Material files that an OBJ file names. Empty for other formats, which list their textures in
+  /// `textures`.
   std::vector<std::string> material_libraries;
   std::vector<std::string> notes;  ///< repairs and omissions, one sentence each
 };
 
-/// Gives a mesh its vertices, texture coordinates and vertex colours. If there are no texture
-/// coordinates, clears the texture coordinates of the corners.
+/// Sets the vertices, texture coordinates and vertex colours of a mesh. If there are no texture
+/// coordinates, clears the corners' indices of texture coordinates.
 /// \param points, colours  three numbers per vertex; `colours` may be empty
 /// \param uvs              two numbers per texture coordinate
 void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vector<double>& uvs,
               const std::vector<double>& colours);
 
-/// Note about shapes in a mesh file, which faces take from files of their own (docs/shapes.md).
+/// The text of a note that the blend shapes in a mesh file are ignored, because the program reads
+/// each blend shape from a separate mesh file (docs/shapes.md).
 inline std::string shapes_note(std::size_t count, std::string_view kind) {
   return "its " + std::to_string(count) + ' ' + std::string(kind) +
          " are not used: export each as a mesh of its own for `shapes`";
 }
 
-/// Merges vertices that a format has split at seams: vertices of the same mesh with the same id or,
-/// if the file has no ids, border vertices with the same position (see joined_borders). Merged
-/// vertices are ordered by their first copies. Texture coordinates move from vertices to polygon
-/// corners. Adds a note if vertices are merged.
-/// \return whether vertices are merged.
+/// Merges vertices that a format has split at seams. Copies of one vertex have the same mesh and
+/// the same id or, if the file has no ids, lie on the mesh's border at the same position (see
+/// joined_borders). The merged vertices have the order of their first copies. Texture coordinates
+/// move from vertices to polygon corners. Adds a note if it merges any.
+/// \return whether any vertices were merged.
 bool join_split_vertices(FileMesh& mesh);
 
 /// Parses a PLY or STL file.
 /// \param name  name of the file, for messages.
 FileMesh parse_ply(std::string_view bytes, const std::string& name);
 FileMesh parse_stl(std::string_view bytes, const std::string& name);
-/// Parses glTF 2.0 (GLB or JSON text): the triangles of all nodes of the scene, transformed by
-/// their nodes.
+/// Parses glTF 2.0 (GLB or JSON text): the triangles of all nodes of the scene, with each node's
+/// transform applied.
 FileMesh parse_gltf(std::string_view bytes, const std::filesystem::path& path);
-/// Parses USD text: all Mesh prims that the layer itself defines, transformed. Ignores references,
-/// variants and animation.
+/// Parses USD text: all Mesh prims that the layer itself defines, with their transforms applied.
+/// Ignores references, variants and animation.
 FileMesh parse_usda(std::string_view text, const std::string& name);
 
 }  // namespace crowdface

@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Vertices with given normals, which are not computed from the mesh.
+/// Vertices whose normals are given and not computed from the mesh.
 struct FixedNormals {
   std::vector<std::uint32_t> vertices;
   Positions normals;  ///< #vertices by 3

@@ -11,8 +11,8 @@ namespace crowdface {
 /// \throws InvalidInput with the kind of file found and how to obtain the mesh.
 void refuse_foreign_file(std::string_view bytes, const std::filesystem::path& path);
 
-/// Advice for a word where a text mesh should have a finite number, such as a number with a decimal
-/// comma or "nan". Empty for other words.
+/// Advice to the user about a word that a text mesh has in place of a finite number, such as "1,5"
+/// (decimal comma) or "nan". Empty if there is no advice for the word.
 std::string_view advice_on_number(std::string_view word);
 
 }  // namespace crowdface

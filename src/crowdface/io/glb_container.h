@@ -14,7 +14,7 @@ namespace glb {
 inline constexpr std::uint32_t kMagic = 0x46546c67, kContainerVersion = 2;  // "glTF"
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 inline constexpr std::size_t kFileHeaderSize = 12, kChunkHeaderSize = 8;
-/// Number of bytes of headers around the JSON text and before the buffer.
+/// Number of bytes of all headers: the file header and the headers of both chunks.
 inline constexpr std::size_t kBinaryHeaderSize = kFileHeaderSize + 2 * kChunkHeaderSize;
 }  // namespace glb
 
@@ -29,7 +29,7 @@ struct GlbChunks {
   std::string_view json, binary;
 };
 
-/// The two chunks of a GLB file; nothing if the bytes are not GLB or are truncated.
+/// The two chunks of a GLB file; nothing if the bytes are not a GLB file or the file is truncated.
 inline std::optional<GlbChunks> glb_chunks(std::string_view bytes) {
   using namespace glb;
   if (bytes.size() < kBinaryHeaderSize || number_at<std::uint32_t>(bytes.data()) != kMagic ||

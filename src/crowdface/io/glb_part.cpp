@@ -29,7 +29,7 @@ Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture
   return json;
 }
 
-/// \param moves  displacements of the part's vertices.
+/// \param moves  for each target, displacements of the part's vertices.
 void add_targets(std::span<const Displacements> moves, std::span<const std::uint32_t> split,
                  Index vertex_count, Json& scene, GlbBuffer& buffer) {
   for (const Displacements& target : moves) {

@@ -24,13 +24,13 @@ namespace crowdface {
 struct GlbPartMaterial {
   enum class Alpha {
     kOpaque,
-    kMask,   ///< visible or invisible, by the image's alpha
-    kBlend,  ///< blended by alpha
+    kMask,   ///< each texel is visible or invisible; the image's alpha decides
+    kBlend,  ///< partly transparent according to alpha
   };
   std::string name;
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
-  /// Index of the base colour image among the part's images. The number of these images as index
-  /// means the image of a PartLook.
+  /// Index of the base colour image among the part's images. An index equal to the number of the
+  /// part's images stands for the image of the PartLook.
   std::optional<std::size_t> image = {};
   Alpha alpha = Alpha::kOpaque;
 };
@@ -42,17 +42,18 @@ struct GlbImage {
   std::string name = {};
 };
 
-/// An additional mesh with its own topology, materials and images in the GLB files of faces, as a
-/// child of the face's node. Like `GlbTemplate`, the object is prepared once; per face it writes
-/// only positions and normals.
+/// An additional mesh in the GLB files of faces, with its own topology, materials and images. Its
+/// node is a child of the face's node. Like `GlbTemplate`, the object is prepared once; for each
+/// face it writes only the positions, the normals and the displacements of the morph targets.
 class GlbPart {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
   /// \param materials  at least one.
   /// \param face_materials  #F indices into `materials`.
-  /// \param influences  #V, for the joints of the faces' rig; empty: the mesh is not skinned.
+  /// \param influences  #V, weights of the rig's joints for each vertex; empty: the mesh is not
+  ///                    skinned.
   /// \param targets  names of the morph targets.
-  /// \param fixed  normals that do not follow from the mesh.
+  /// \param fixed  vertices whose normals are given and not computed from the mesh.
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
           const std::vector<GlbPartMaterial>& materials,
           const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images,
@@ -61,19 +62,20 @@ class GlbPart {
 
   /// Adds node, mesh, materials and accessors to a scene.
   /// \param size  bytes in the buffer so far, a multiple of four.
-  /// \param moves  #targets, indexed by vertices of this mesh.
+  /// \param moves  #targets: displacements of vertices of this mesh.
   /// \return the buffer size afterwards, a multiple of four.
   std::size_t describe(nlohmann::ordered_json& scene, const Positions& positions,
                        std::span<const Displacements> moves, const PartLook& look,
                        std::size_t size) const;
-  /// Appends the data that `describe` declares. The file references memory of this object.
+  /// Appends the data that `describe` declares. `file` references memory of this object.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   void append(EncodedFile& file, const Positions& positions, std::span<const Displacements> moves,
               const PartLook& look) const;
 
   std::size_t memory_bytes() const { return shared_.size(); }
-  /// Memory needed for one encode, in bytes: positions, normals with their double-precision
-  /// intermediate values, and morph targets as if every vertex moved.
+  /// Upper bound of the memory needed to encode one file, in bytes. Counts the positions, the
+  /// normals with their double-precision intermediate values, and morph targets in which every
+  /// vertex moves.
   std::size_t encode_bytes() const;
 
  private:
@@ -96,7 +98,7 @@ class GlbPart {
   std::string shared_;  ///< texture coordinates, influences, triangles, images
 };
 
-/// A `GlbPart` with its positions in the file of one face.
+/// A `GlbPart` and its positions for one face.
 struct PlacedGlbPart {
   const GlbPart* part;
   const Positions* positions;

@@ -17,36 +17,37 @@
 
 namespace crowdface {
 
-/// A JSON array of the components in single precision.
+/// A JSON array of the vector's components, rounded to single precision.
 nlohmann::ordered_json vector_json(const Eigen::RowVector3d& vector);
 
 /// The glTF description of a material. \param overlay index of the overlay among the file's images.
 nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay);
 
-/// The root node of a face, without a name: converts unit and axes. With a rig this node belongs to
-/// the joints, and the mesh has a node of its own.
+/// The root node of a face, without a name. Its transform converts unit and axes. In a file with a
+/// rig, this node is the parent of the joints, and the mesh has a separate node.
 nlohmann::ordered_json node_json(const GlbOptions& options);
 
 /// Adds an image and a texture that uses it.
-/// \param view  index of the buffer view with the image.
+/// \param view  index of the buffer view that holds the image.
 void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::string& name,
                const std::string& type);
 
 /// Adds morph targets to a mesh.
 /// \param first  accessor of the first target's displacements; the accessors of further targets
-/// follow.
+///               follow.
 void set_targets(nlohmann::ordered_json& mesh, std::size_t first,
                  const std::vector<std::string>& names);
 
-/// Adds arrays to a glTF buffer, with one buffer view each, and describes them in the scene.
+/// Adds arrays to a glTF buffer. Each array gets one buffer view, which the scene describes.
 class GlbBuffer {
  public:
-  /// \param size  bytes in the buffer so far.
+  /// \param size  number of bytes that the buffer already has.
   GlbBuffer(nlohmann::ordered_json& scene, std::size_t size) : scene_(scene), size_(size) {}
 
   std::size_t size() const { return size_; }
 
-  /// Adds a buffer view at the end. \return index of the new buffer view.
+  /// Adds a buffer view of `size` bytes at the end of the buffer. \return index of the new buffer
+  /// view.
   std::size_t add_view(std::size_t size, int target = 0);
 
   /// Aligns the start of the next view to four bytes.
@@ -73,11 +74,12 @@ class GlbBuffer {
   std::size_t size_;
 };
 
-/// The texture coordinates of all split vertices, as bytes: two numbers for each vertex.
+/// The texture coordinates of all split vertices, in the binary form of the buffer: two numbers for
+/// each vertex.
 /// \param uvs  v upwards as in OBJ.
 std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
 
-/// A morph target in files whose vertices are split at seams.
+/// The rows of one morph target in files whose vertices are split at seams.
 struct GlbTargetRows {
   std::vector<std::uint32_t> rows;      ///< indices into the target's displacements
   std::vector<std::uint32_t> vertices;  ///< #rows split vertices, ascending
@@ -87,13 +89,13 @@ struct GlbTargetRows {
 
 /// Finds the split vertices that a target moves.
 /// \param vertices  original vertices that the target moves
-/// \param split  original vertex of each split vertex
+/// \param split  for each split vertex, its original vertex
 /// \param count  number of original vertices
 GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
                           std::span<const std::uint32_t> split, Index count);
 
-/// Minimum and maximum of a target's displacements. They include zero unless the target moves all
-/// vertices.
+/// Minimum and maximum of a target's displacements, for each coordinate. Vertices that the target
+/// does not move count as zero.
 std::pair<Eigen::RowVector3d, Eigen::RowVector3d> displacement_bounds(const Displacements& moves,
                                                                       bool moves_all_vertices);
 

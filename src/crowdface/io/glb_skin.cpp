@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kOfSet = 4;
 
-/// The inverse rotation applied to a vector.
+/// Applies the inverse of a rotation to a vector.
 Eigen::Vector3d inversely_rotated(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& v) {
   Eigen::Vector3d back;
   for (Index c = 0; c < 3; ++c) {

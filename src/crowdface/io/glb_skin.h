@@ -20,14 +20,14 @@ struct Influence {
   float weight;  ///< the weights of a vertex add up to one
 };
 
-/// A joint of the rig that all files share. Its position differs per face.
+/// A joint of the rig that all files share. Only the joint's position differs from face to face.
 struct GlbJoint {
   std::string name;
   std::uint32_t parent;      ///< kNoIndex: no parent
   Eigen::Matrix3d rotation;  ///< from the joint's axes to the axes of the positions
 };
 
-/// Joints under a face's node, and their weights for the face's vertices.
+/// The joints below a face's node, and the joints' weights for the face's vertices.
 struct GlbSkin {
   std::vector<GlbJoint> joints;               ///< empty: no rig
   CompressedRows<Influence> influences = {};  ///< #V
@@ -41,14 +41,14 @@ struct GlbSkinAttribute {
   int component;
   std::string bytes;
 };
-/// Builds as many pairs of JOINTS_n and WEIGHTS_n (four influences each) as the vertex with the
-/// most influences needs.
-/// \param vertices  #vertices of the file: the row of `influences` of each vertex
+/// Builds pairs of JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex; the vertex with
+/// the most influences determines the number of pairs.
+/// \param vertices  for each vertex of the file, its row in `influences`
 std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices);
 
 /// Adds the nodes of the joints, as children of the first node, and the skin. `set_joint_positions`
-/// sets their positions.
+/// later sets the positions of the joints.
 void add_joints(const GlbSkin& skin, std::size_t matrices, nlohmann::ordered_json& scene);
 /// Sets the positions of the joints.
 /// \param first  index of the first joint's node

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the GLB container (28 bytes around a JSON text and a buffer) without a library, so that
-// faces share all arrays but two; tinygltf would copy each face's whole buffer several times (see
-// tests/benchmarks/io_bench.cpp).
+// the files of all faces share all arrays except positions and normals. tinygltf would copy each
+// face's whole buffer several times (see tests/benchmarks/io_bench.cpp).
 #include "crowdface/io/glb_template.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 using namespace gltf;
 using namespace glb;
 
-/// The triangles of one material, in the order of the faces.
+/// The triangles of one material, in the order of the polygons.
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions& options) {
@@ -45,7 +45,8 @@ std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions&
 std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32_t>& ids) {
   std::string bytes;
   bytes.reserve(split.vertices.size() * sizeof(float));
-  // Store vertex ids as floats: glTF forbids unsigned int for attributes, and 16 bits are too few.
+  // Store vertex ids as floats, because glTF forbids 32-bit integers for attributes and 16 bits are
+  // too few.
   for (const std::uint32_t vertex : split.vertices) {
     append_number(bytes, static_cast<float>(ids.empty() ? vertex : ids[vertex]));
   }
@@ -89,7 +90,8 @@ Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, 
 }
 
 /// Adds one primitive per material; leaves out materials without triangles.
-/// \param overlay  accessor of the overlay coordinates, if there is one
+/// \param overlay  index of the accessor of the overlay's texture coordinates; nothing without an
+///              overlay
 void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>& groups,
                     const Json& attributes, std::optional<std::size_t> overlay,
                     const GlbOptions& options) {
@@ -115,8 +117,9 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
   if (!materials.empty()) scene["materials"] = std::move(materials);
 }
 
-/// Adds images, which come last in the buffer. Their sizes and offsets are set for each file.
-/// \param overlay  buffer view of the overlay image, if there is one
+/// Adds the images, which come last in the buffer. `place_images` later sets their sizes and
+/// offsets for each file.
+/// \param overlay  index of the buffer view of the overlay image; nothing without an overlay
 void add_images(Json& scene, std::optional<std::size_t> overlay, const GlbOptions& options) {
   for (const GlbFaceImage& image : options.images) {
     add_image(scene, scene["bufferViews"].size(), image.suffix, image.type);
@@ -141,8 +144,8 @@ std::size_t place_images(Json& scene, std::size_t size, std::span<const std::str
   return size;
 }
 
-/// Writes one vector per split vertex: first all rows, then the rows of the additional split
-/// vertices.
+/// Writes one vector per split vertex: first the rows of all original vertices, then again the rows
+/// of the vertices that have copies, one for each copy.
 void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32_t>& split) {
   const auto further = static_cast<Index>(split.size());
   parallel_blocks(rows.rows() + further, kRowsPerBlock, [&](Index begin, Index end) {
@@ -364,7 +367,7 @@ Positions read_glb_positions(const std::filesystem::path& path, Index vertices) 
   need(chunks.has_value());
   const Json scene = Json::parse(chunks->json, nullptr, false);
   const Json generator = scene.value(Json::json_pointer("/asset/generator"), Json());
-  // The positions are first in the buffer.
+  // The buffer begins with the positions.
   need(generator == "crowdface" &&
        static_cast<std::size_t>(vertices) <= chunks->binary.size() / kVectorSize);
   return read_singles(chunks->binary.data(), vertices, kVectorSize, path.string());

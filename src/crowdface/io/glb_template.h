@@ -20,10 +20,11 @@
 namespace crowdface {
 
 /// Writes binary glTF 2.0 files of one topology. The data that all faces share (texture
-/// coordinates, triangles, the split of vertices at seams, see `SplitVertices`) is built once, and
-/// each file references it. Positions keep their unit and axes. The attribute `_VERTEX_ID` holds
-/// the original vertex of each split vertex, or the value given in the options. The first #V
-/// vertices are the original vertices in order. Files with a normal map have tangents.
+/// coordinates, triangles, vertices split at seams, see `SplitVertices`) is built once, and each
+/// encoded file references this data. Positions keep their unit and axes. The attribute
+/// `_VERTEX_ID` holds the original vertex of each split vertex, or the value that
+/// `GlbOptions::vertex_ids` gives for the original vertex. The first #V vertices of the file are
+/// the original vertices in order. Files with a normal map have tangents.
 class GlbTemplate {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
@@ -31,13 +32,13 @@ class GlbTemplate {
   /// attribute is single precision, which is exact up to 2²⁴.
   GlbTemplate(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options);
 
-  /// The file with these positions. The result references memory of this object.
+  /// Encodes the file of one face. The result references memory of this object.
   /// \param normals  #V by 3, unit; always needed, because viewers shade a mesh without normals
-  /// flat.
-  /// \param name  of the mesh, in the file and in messages.
-  /// \param moves  #targets displacements from `positions`.
+  ///                 flat.
+  /// \param name  name of the mesh in the file and in messages.
+  /// \param moves  #targets: displacements from `positions`.
   /// \param images  content of the image files, as many as the options declare; must outlive the
-  /// result.
+  ///                result.
   /// \param points  #points by 3, in the positions' unit.
   /// \param parts  additional meshes; must outlive the result.
   /// \param joints  #joints by 3, in the positions' unit.
@@ -51,12 +52,12 @@ class GlbTemplate {
 
   /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
-  /// Memory needed for one encode, in bytes.
+  /// Memory needed to encode one file, in bytes.
   std::size_t encode_bytes() const { return vertex_bytes() + target_bytes_ + skin_.matrix_bytes(); }
 
  private:
   std::size_t vector_bytes() const;
-  /// Bytes of positions, normals, colours and tangents.
+  /// Number of bytes of the positions, normals, colours and tangents of one file.
   std::size_t vertex_bytes() const {
     return (has_colours_ ? 3 : 2) * vector_bytes() +
            (tangents_ ? tangents_->count() * Tangents::kSize : 0);
@@ -66,17 +67,18 @@ class GlbTemplate {
   bool has_colours_;
   std::size_t image_count_;
   Index point_count_;
-  /// Original vertices of the split vertices with index ≥ #V.
+  /// The original vertex of each split vertex with an index ≥ #V.
   std::vector<std::uint32_t> copied_vertices_;
-  std::optional<Tangents> tangents_;    ///< if a material has a normal map
-  std::string shared_;                  ///< the part of the buffer that all faces share
+  std::optional<Tangents> tangents_;    ///< set if a material has a normal map
+  std::string shared_;                  ///< the part of the buffer that is the same in all files
   std::vector<GlbTargetRows> targets_;  ///< without the lists of vertices
-  /// Accessor of the first morph target's displacements; the accessors of further morph targets
-  /// follow.
+  /// Index of the accessor of the first morph target's displacements; the accessors of further
+  /// morph targets follow.
   std::size_t first_target_ = 0;
   GlbSkin skin_;                  ///< without influences
   std::size_t target_bytes_ = 0;  ///< bytes of the displacements of all targets
-  std::string json_;              ///< the scene without bounds and names, which differ per face
+  std::string json_;              ///< the scene without bounds and names, which differ from face to
+                                  ///< face
 };
 
 /// Reads the positions of a file that `GlbTemplate` wrote.

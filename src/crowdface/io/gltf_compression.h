@@ -15,8 +15,8 @@ struct MeshoptView {
   std::string mode, filter;
 };
 /// Decompresses a meshopt buffer view.
-/// \return nothing if the data is damaged or the view declares a larger size than the data can
-/// expand to.
+/// \return nothing if the data is damaged, or if the data is too short to expand to the size that
+/// the view declares.
 std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptView& view);
 
 /// A decoded Draco mesh: triangles, and attributes in row-major order.
@@ -30,8 +30,8 @@ struct DracoAttribute {
   std::size_t width = 0;
 };
 /// Decompresses a Draco mesh.
-/// \param attributes  ids and widths of the attributes to decode.
-/// \return nothing if the bytes are damaged or lack one of the attributes.
+/// \param attributes  for each attribute to decode: its id and its number of components.
+/// \return nothing if the bytes are damaged or one of the attributes is missing.
 std::optional<DracoMesh> decode_draco(std::string_view bytes,
                                       const std::vector<DracoAttribute>& attributes);
 

@@ -18,9 +18,10 @@ namespace {
 using namespace gltf;
 using GltfJson = GltfFile::Json;
 
-/// Largest absolute value in a matrix: a thousand kilometres.
+/// Largest absolute value that a node's matrix may contain: 1000 km in metres.
 constexpr double kFarthestNode = 1e6;
-constexpr std::size_t kOften = 4;  ///< limit for the numbers read from a file, per byte of the file
+constexpr std::size_t kOften = 4;  ///< how many numbers may be read from the file per byte of its
+                                   ///< buffers
 
 std::size_t size_of_type(int type) {
   if (type == kUnsignedByte || type == kByte) return 1;
@@ -28,7 +29,7 @@ std::size_t size_of_type(int type) {
   return 4;
 }
 
-/// The divisor of normalized integers of a type.
+/// The number by which a normalized integer of this component type is divided; 1 for floats.
 double full_of_type(int type) {
   if (type == kUnsignedByte) return 255;
   if (type == kByte) return 127;
@@ -185,8 +186,8 @@ std::string_view GltfFile::view(std::size_t number) {
   return part(json);
 }
 
-/// Limits the total number of values read, because many nodes may use one mesh, and several
-/// accessors may share data.
+/// Counts values against the limit of all values read. The file size alone is no limit: many nodes
+/// may use one mesh, and several accessors may share data.
 void GltfFile::reserve_numbers(std::size_t more) {
   if (more > remaining_numbers_) {
     fail("its meshes and skins use far more numbers than its buffers have bytes");
@@ -244,7 +245,8 @@ std::vector<double> GltfFile::read_values(std::size_t accessor, std::size_t widt
                         json.value("byteOffset", std::size_t{0}), type, count, width, accessor);
   } else {
     if (json.contains("sparse")) {
-      // Reading a view enlarges the limit that the next check uses.
+      // Read the view first: each view that is read raises `remaining_numbers_`, which the next
+      // line checks.
       view(json["sparse"].at("indices").at("bufferView").get<std::size_t>());
     }
     if (count > remaining_numbers_ / width) reserve_numbers(remaining_numbers_ + 1);
@@ -301,7 +303,7 @@ std::vector<std::uint32_t> GltfFile::parents() const {
   return parents;
 }
 
-/// Processes nodes from the roots down, each once.
+/// Processes each node once, parents before children.
 std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
     const std::vector<std::uint32_t>& parents) const {
   const Json& nodes = scene_.at("nodes");

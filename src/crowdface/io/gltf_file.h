@@ -20,7 +20,7 @@ class GltfFile {
   using Json = nlohmann::ordered_json;
 
   /// \param bytes  a GLB file or JSON text; must outlive this object.
-  /// \param path  path of the file; external buffers are searched beside this file.
+  /// \param path  path of the file; the object searches external buffers beside this file.
   /// \throws InvalidInput
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
@@ -28,14 +28,14 @@ class GltfFile {
   /// \throws InvalidInput with a message that names the file.
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// The values of an accessor in row-major order. Normalized integers become the fractions they
-  /// encode; sparse values are filled in.
+  /// The values of an accessor in row-major order. Normalized integers become the fractions that
+  /// they encode. Sparse values replace the values of the base array.
   /// \throws InvalidInput if a value is not finite.
   std::vector<double> read_values(std::size_t accessor, std::size_t width);
   /// The values of an accessor as unsigned integers.
   std::vector<std::uint32_t> read_unsigned_values(std::size_t accessor, std::size_t width);
   /// The data of a URI: embedded, or read from a file beside this one.
-  /// \param what  for messages: "its buffer 2"
+  /// \param what  name of the data in messages, such as "its buffer 2"
   std::string read_uri(const std::string& uri, const std::string& what) const;
   /// The uncompressed content of a buffer view.
   std::string_view view(std::size_t number);

@@ -37,7 +37,7 @@ struct UvTransform {
   double x = 0, y = 0, rotation = 0, scale_x = 1, scale_y = 1;
 };
 
-/// The rows that an accessor's vertices occupy among the vertices of the whole file.
+/// The range of rows that hold an accessor's vertices among the vertices of the whole file.
 struct Rows {
   std::uint32_t first = 0, count = 0;
 };
@@ -64,8 +64,8 @@ class GltfMeshReader {
   }
 
  private:
-  /// glTF 2.0, section 3.12: a file must not be read without the extensions that it requires.
-  /// Extensions that do not affect meshes are ignored.
+  /// Rejects a file that requires an unknown extension, as glTF 2.0 (section 3.12) demands.
+  /// Required extensions that do not affect meshes are accepted.
   void refuse_unknown_extensions() const {
     constexpr std::array<std::string_view, 5> kRead = {
         "KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_meshopt_compression",
@@ -150,7 +150,7 @@ class GltfMeshReader {
     ++piece_;
   }
 
-  /// \param known  the vertex ranges of accessors used by earlier primitives of the node
+  /// \param known  by accessor: the vertex ranges that earlier primitives of the same mesh added
   void add_primitive(const GltfJson& json, int mode, const Eigen::Matrix4d& place,
                      const std::string& material, std::map<std::size_t, Rows>& known) {
     const GltfJson& attributes = json.at("attributes");
@@ -313,7 +313,8 @@ class GltfMeshReader {
     }
   }
 
-  /// Adds the glTF names of the material's textures of kinds that faces do not have.
+  /// Adds to `unused` the glTF names of textures that the material has but that generated faces
+  /// cannot have.
   static void note_unused_textures(const GltfJson& material, std::set<std::string>& unused) {
     const auto add = [&](const GltfJson& from, const char* key) {
       if (from.contains(key)) unused.insert(key);
@@ -343,7 +344,7 @@ class GltfMeshReader {
     if (most > 0) mesh_.notes.push_back(shapes_note(most, "morph targets"));
   }
 
-  /// \param from  JSON object that may contain a texture reference under `key`
+  /// \param from  JSON object that may have a texture reference under `key`
   void add_texture(const GltfJson& from, const char* key, const std::string& material,
                    TextureKind kind) {
     if (!from.contains(key)) return;

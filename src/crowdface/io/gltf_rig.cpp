@@ -47,7 +47,7 @@ class RigReader {
       const Json& mesh = file_.scene().at("meshes").at(nodes[n].at("mesh").get<std::size_t>());
       std::optional<std::size_t> skin;
       if (nodes[n].contains("skin")) skin = nodes[n].at("skin").get<std::size_t>();
-      // Primitives may share vertices; read each accessor once.
+      // Primitives may share vertices, so read each accessor of positions only once.
       std::map<std::size_t, bool> read;
       for (const Json& primitive : mesh.at("primitives")) {
         const auto positions = primitive.at("attributes").at("POSITION").get<std::size_t>();
@@ -100,10 +100,10 @@ class RigReader {
     }
   }
 
-  /// The joints to which the indices in JOINTS_n refer.
+  /// The joints of a skin, in the order of the indices in JOINTS_n.
   struct Skin {
     std::vector<std::uint32_t> joints;
-    /// #joints: transforms from the mesh's axes in the rest pose
+    /// #joints: in the rest pose, the transform from the mesh's axes to the file's axes
     std::vector<Eigen::Matrix4d> at_rest;
   };
   const Skin& skin_of(std::size_t number) {
@@ -171,7 +171,8 @@ class RigReader {
 
   GltfFile file_;
   std::vector<std::uint32_t> parents_;   ///< #nodes
-  std::vector<Eigen::Matrix4d> worlds_;  ///< #nodes: rest pose
+  std::vector<Eigen::Matrix4d> worlds_;  ///< #nodes: transform from the node's axes to the file's
+                                         ///< axes in the rest pose
   std::vector<std::uint32_t> joint_of_;  ///< #nodes
   std::map<std::size_t, Skin> skins_;
   std::vector<Eigen::Vector3d> points_;

@@ -12,7 +12,8 @@
 
 namespace crowdface {
 
-/// The joints and skinned meshes of a glTF 2.0 file in the rest pose: metres, +Y up, +Z front.
+/// The joints and skinned meshes of a glTF 2.0 file in the rest pose, in metres, with +Y up and +Z
+/// to the front.
 struct GltfRig {
   struct Joint {
     std::string name;
@@ -21,7 +22,7 @@ struct GltfRig {
   };
   std::vector<Joint> joints;
   Positions points;  ///< vertices of all meshes, one mesh after the other
-  /// #points values of `_VERTEX_ID`; empty if the file has none
+  /// #points: the value of `_VERTEX_ID` of each vertex; empty if the file lacks this attribute
   std::vector<std::uint32_t> vertex_ids;
   CompressedRows<Influence> influences;  ///< #points
 };

@@ -77,8 +77,8 @@ void check_size(const path& file, const ImageHeader& spec, const ImageLimits& li
   }
 }
 
-/// Bits per pixel before a palette is resolved. Expects a valid PNG header that libpng has
-/// accepted.
+/// Number of bits that the file stores per pixel; for a palette image, the bits of the index.
+/// Expects a valid PNG header that libpng has accepted.
 std::uint64_t png_bits_per_pixel(std::string_view bytes) {
   // Samples per pixel for each PNG colour type
   constexpr std::uint64_t kSamples[8] = {1, 0, 3, 1, 2, 0, 4, 0};
@@ -88,7 +88,8 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 
 /// Rejects PNG headers that claim more pixels than the file can contain, because memory for all
 /// pixels is allocated before decoding. TIFFs are checked before they are opened (`tiff_defect`);
-/// OpenEXR and JPEG have no such bound, only the memory limit for all images.
+/// For OpenEXR and JPEG, the file size does not limit the number of pixels; only the memory limit
+/// for all images does.
 void check_png_claim(const path& file, std::string_view bytes, const ImageHeader& spec) {
   constexpr std::uint64_t kMaxOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
   const std::uint64_t bits = png_bits_per_pixel(bytes);
@@ -103,8 +104,8 @@ void check_png_claim(const path& file, std::string_view bytes, const ImageHeader
 
 void check_kind(const path& file, std::string_view format, const ImageHeader& spec) {
   if (spec.deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
-  // Only OpenEXR has display windows; offsets in other formats record where the image was cropped
-  // from.
+  // Only OpenEXR has display windows. In other formats an offset says from where in a larger image
+  // this image was cropped.
   const bool has_windows = format == "openexr";
   if (!has_windows && (spec.width != spec.full_width || spec.height != spec.full_height)) {
     refuse_file(file, concat("expected the whole image, found ", spec.width, " x ", spec.height,
@@ -133,7 +134,7 @@ void* make_room(const path& file, const ImageHeader& facts, Image& image) {
   refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type));
 }
 
-/// Bytes of the decoded pixels; integers keep their own type.
+/// Number of bytes of the decoded pixels. Integers keep the type that they have in the file.
 std::uint64_t pixel_bytes(const ImageHeader& facts) {
   const bool bytes = facts.values == ImageHeader::Values::kBytes;
   const bool words = facts.values == ImageHeader::Values::kWords;
@@ -143,7 +144,7 @@ std::uint64_t pixel_bytes(const ImageHeader& facts) {
 std::mutex taking;
 std::uint64_t taken = 0;  ///< bytes reserved for all images
 
-/// \pre  the caller holds the mutex.
+/// Number of bytes of the limit `most` that are not reserved. The caller must hold the mutex.
 std::uint64_t free_of(std::uint64_t most) {
   return most - std::min(taken, most);
 }
@@ -162,7 +163,7 @@ void check_finite(const path& file, const Image& image) {
   }
 }
 
-/// \param values  number of values in the image.
+/// \param values  number of values in `picture.pixels`; must be width · height · channels.
 std::string encode(const std::string& format, const ImageToEncode& picture, std::size_t values) {
   const auto [form, width, height, channels, pixels] = picture;
   require(width > 0 && height > 0 &&
@@ -178,7 +179,7 @@ std::string encode(const std::string& format, const ImageToEncode& picture, std:
   return bytes;
 }
 
-/// Opens a file and rejects what must not be decoded.
+/// Opens a file and rejects images that are not safe or not supported to decode.
 OpenPicture open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
   const ImageCodec& codec = codec_of(format);
@@ -282,8 +283,8 @@ Image read_image(const path& file, const ImageLimits& limits) {
   try {
     return decode(file, mapped, limits);
   } catch (const InvalidInput&) {
-    // Decoders report a lack of memory as damaged data. To tell the two apart, decode a second
-    // time.
+    // Decoders report a lack of memory as damaged data. To tell a lack of memory from damaged data,
+    // decode a second time.
     try {
       return decode(file, mapped, limits);
     } catch (const InvalidInput& again) {

@@ -13,34 +13,34 @@
 
 namespace crowdface {
 
-/// A reservation from the memory limit for all images together (`input_limits().image_bytes`). The
-/// last owner releases it.
+/// A reserved part of the memory limit for all images together (`input_limits().image_bytes`). When
+/// the last owner is destroyed, the reservation ends.
 using ImageMemory = std::shared_ptr<const void>;
 
 /// Reserves memory for an image. Thread-safe.
 /// \throws InvalidInput, naming the file, if all images together would exceed the limit.
 ImageMemory reserve_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
-/// Number of bytes of the memory limit that are not reserved at present.
+/// Number of bytes of the memory limit for all images that are not reserved at present.
 std::uint64_t available_image_memory();
 
-/// An image with values exactly as in the file: same type, no gamma conversion, alpha not
-/// premultiplied.
+/// An image with the exact values of the file: the value type of the file, no gamma conversion,
+/// alpha not premultiplied.
 struct Image {
   int width = 0;
   int height = 0;
   int channels = 0;
   int alpha_channel = -1;  ///< index of the alpha channel; −1: none
-  /// Row-major from the top row; the channels of a pixel are interleaved.
+  /// The pixels row by row, top row first. The channels of each pixel are next to each other.
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
   ImageMemory memory = {};
   std::vector<std::string> channel_names = {};  ///< #channels, if the format has any
 
-  /// Whether the values are single-precision numbers.
+  /// Whether the values are single-precision numbers; otherwise they are integers.
   bool has_floats() const { return pixels.index() == 0; }
 
-  /// The value of a channel of a pixel; integers as fractions of their maximum. The code divides,
-  /// because multiplication by a rounded 1/255 gives other values.
+  /// The value of one channel of a pixel. Integers become fractions of their maximum, by division:
+  /// multiplication by a rounded 1/255 would give slightly different values.
   float at(int x, int y, int channel) const {
     const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                            static_cast<std::size_t>(x)) *
@@ -55,16 +55,18 @@ struct Image {
   }
 };
 
-/// The largest images accepted. Larger ones are rejected before any allocation.
+/// Limits of image size. Larger images are rejected before memory is allocated for pixels.
 struct ImageLimits {
   int max_side = 16384;  ///< pixels
   int max_channels = 16;
-  std::int64_t max_values = 1LL << 30U;  ///< width · height · channels
-  bool jpeg = false;                     ///< accept JPEG: for colours, never for masks
-  bool is_own_file = false;  ///< this program wrote the file: `input_limits()` does not apply
+  std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
+  bool jpeg = false;                     ///< whether to accept JPEG; true for colour textures,
+                                         ///< false for masks
+  bool is_own_file = false;  ///< whether this program wrote the file; if so, `input_limits()` does
+                             ///< not apply
 };
 
-/// Thrown if the pixels of a file with a valid header are damaged.
+/// Thrown if the header of a file is valid but the pixels are damaged.
 class DamagedImage : public InvalidInput {
  public:
   DamagedImage(std::filesystem::path image, const std::string& what)
@@ -72,27 +74,29 @@ class DamagedImage : public InvalidInput {
   std::filesystem::path path;
 };
 
-/// Reads the (first) image of a PNG, TIFF or OpenEXR file. The content, not the name, determines
-/// the format. Palettes are resolved; alpha and colours keep the values of the file. For EXR the
-/// result is the display window; pixels outside the data window are zero.
-/// \throws MissingInput if the file does not exist; DamagedImage if the pixels cannot be read or
-/// one is not finite (the message names the first); InvalidInput if the format is unsupported, the
-/// file is truncated or exceeds the limits, integers have more than 16 bits, a TIFF has a
-/// compression other than none, LZW, Deflate and PackBits (with `jpeg` also JPEG), or all images
-/// together would exceed the memory limit.
+/// Reads the image (if there are several, the first) of a PNG, TIFF or OpenEXR file. The content,
+/// not the file name, determines the format. Palette indices become colours; alpha and colours keep
+/// the values of the file. For EXR the result is the display window; pixels outside the data window
+/// are zero.
+/// \throws MissingInput if the file does not exist; DamagedImage if the pixels cannot be read or a
+/// value is not finite (the message names the first such pixel); InvalidInput if the format is
+/// unsupported, the file is truncated or exceeds the limits, integers have more than 16 bits, a
+/// TIFF has a compression other than none, LZW, Deflate and PackBits (with `jpeg` also JPEG), or
+/// all images together would exceed the memory limit.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-/// Size and value type of the image that `read_image` would return; reading them needs no decoding.
+/// Size and value type of the image that `read_image` would return. They are read from the header
+/// without decoding pixels.
 struct ImageSize {
   int width = 0;
   int height = 0;
   int channels = 0;
   bool has_bytes = false;   ///< 8 bits per value
-  bool has_floats = false;  ///< single precision; 16 bits per value if neither flag is set
+  bool has_floats = false;  ///< single precision; if neither flag is set, 16 bits per value
 };
 ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-/// Encodes an 8-bit PNG file in memory. Same pixels give the same bytes; there is no time stamp.
+/// Encodes an 8-bit PNG file in memory. Equal pixels give equal bytes; the file has no time stamp.
 /// \param channels  1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; alpha is not premultiplied.
 /// \param pixels  height · width · channels values.
 /// \throws BrokenPrecondition if the sizes do not match.

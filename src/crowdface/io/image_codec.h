@@ -27,12 +27,12 @@ struct ImageToEncode {
   Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
   const void* pixels =
-      nullptr;  ///< row-major; floats for OpenEXR, 16 bits for kWordPng, else bytes
+      nullptr;  ///< row-major; floats for OpenEXR, 16-bit numbers for kWordPng, otherwise bytes
 };
 
-/// Decodes and encodes image files of some formats. image.cpp checks the limits. The struct
-/// consists of function pointers and has no virtual functions, because OpenImageIO is behind a
-/// shared library and type identity across libraries is unreliable.
+/// Functions that decode and encode image files of some formats. The codec does not check limits;
+/// image.cpp does. The struct consists of function pointers and has no virtual functions, because
+/// OpenImageIO is behind a shared library and type identity across libraries is unreliable.
 struct ImageCodec {
   /// Opens an image and reads its header.
   /// \param format  name of the reader in OpenImageIO.
@@ -49,10 +49,10 @@ struct ImageCodec {
 };
 
 /// The codec for all formats but PNG, based on OpenImageIO. OpenImageIO depends on some 250
-/// libraries, which need 0.2 s to load. The codec is therefore in a shared library
-/// (openimageio_codec.cpp), which holds no state of this program; the first call loads the library.
+/// libraries, which need 0.2 s to load. The codec is therefore in a separate shared library
+/// (openimageio_codec.cpp), which the first call loads. The library holds no state of this program.
 /// Thread-safe.
-/// \throws IoError if the library is not where it was installed or cannot be loaded.
+/// \throws IoError if the library is missing from its installed place or cannot be loaded.
 const ImageCodec& image_codec();
 
 }  // namespace crowdface

@@ -15,8 +15,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// Whether the chunks of a PNG are contiguous up to the IEND chunk. libpng accepts files without
-/// it.
+/// Whether the chunks of a PNG follow each other without a gap up to the IEND chunk. The check is
+/// needed because libpng accepts files without an IEND chunk.
 bool png_is_whole(std::string_view bytes) {
   std::size_t at = 8;
   while (at + 12 <= bytes.size()) {
@@ -28,8 +28,8 @@ bool png_is_whole(std::string_view bytes) {
 }
 
 /// Whether the data of a JPEG reaches the end marker; if not, the decoder would invent the missing
-/// pixels. The scan data follows segments, each a two-byte marker and a length, which contain no
-/// end marker.
+/// pixels. The function skips the segments before the scan data (each has a two-byte marker and a
+/// length), because bytes in a segment may look like an end marker.
 bool jpeg_is_whole(std::string_view bytes) {
   constexpr char kStartOfScan = '\xDA';
   std::size_t at = 2;
@@ -57,6 +57,7 @@ class ExrHeader {
   bool at_end() const { return at_ < bytes_.size() && bytes_[at_] == '\0'; }
   void skip_end() { ++at_; }
 
+  /// Reads the next attribute.
   /// \return nothing if the attribute is truncated.
   std::optional<Attribute> next() {
     Attribute attribute;
@@ -83,7 +84,7 @@ class ExrHeader {
   std::size_t at_;
 };
 
-/// Sizes in bytes of the types with fixed size.
+/// Size in bytes of each attribute type whose size is fixed.
 constexpr std::pair<std::string_view, std::size_t> kFixedTypes[] = {
     {"box2f", 16},      {"box2i", 16},    {"chromaticities", 32},
     {"compression", 1}, {"double", 8},    {"envmap", 1},
@@ -126,9 +127,9 @@ bool is_list_of_texts(std::string_view value) {
   return value.empty();
 }
 
-/// Whether the stored size of a value is the size of its type. For some types the decoder ignores
-/// the stored size; if the two sizes differed, it would read the next attribute at another position
-/// than this parser.
+/// Whether the stored size of an attribute's value equals the size of the attribute's type. For
+/// some types the decoder ignores the stored size. If the two sizes differed, the decoder would
+/// read the next attribute at another position than this parser.
 bool has_its_size(const Attribute& attribute) {
   for (const auto& [type, size] : kFixedTypes) {
     if (attribute.type == type) return attribute.value.size() == size;
@@ -140,8 +141,9 @@ bool has_its_size(const Attribute& attribute) {
   return true;
 }
 
-/// The defect of a window that is too large: the decoder allocates a table entry for each row, and
-/// buffers as wide as the window.
+/// A description of the defect if the data window is too large; otherwise empty. Large data windows
+/// are dangerous because the decoder allocates a table entry for each row, and buffers as wide as
+/// the window.
 std::string window_defect(const Attribute& attribute, int max_side) {
   if (attribute.type != "box2i" || attribute.value.size() != 16) return {};
   const auto side = [&](std::size_t axis) {

@@ -11,11 +11,11 @@ namespace crowdface {
 std::string image_format(std::string_view bytes);
 
 /// Finds defects that a decoder would miss, or that would make the decoder allocate as much memory
-/// as the file claims to need: a PNG or JPEG without end marker; an OpenEXR header with an
-/// attribute longer than the file, or a data window wider or higher than `max_side` pixels; a TIFF
-/// rejected by `tiff_defect`.
+/// as the file claims to need. The defects are: a PNG or JPEG without end marker; an OpenEXR header
+/// with an attribute longer than the file, or a data window wider or higher than `max_side` pixels;
+/// a TIFF rejected by `tiff_defect`.
 /// \param jpeg  whether a TIFF may contain JPEG data.
-/// \return the defect; empty if there is none.
+/// \return a description of the defect; empty if there is none.
 std::string container_defect(std::string_view format, std::string_view bytes, int max_side,
                              bool jpeg);
 

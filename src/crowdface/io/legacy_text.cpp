@@ -8,10 +8,11 @@
 namespace crowdface {
 namespace {
 
-/// Converts to UTF-8; empty if the bytes are not valid in that encoding.
+/// Converts bytes from `encoding` to UTF-8. Returns an empty text if the bytes are not valid in
+/// `encoding`.
 std::string converted(std::string_view bytes, const char* encoding) {
   const iconv_t converter = ::iconv_open("UTF-8", encoding);
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open says -1 for failure
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open returns -1 on failure
   if (converter == reinterpret_cast<iconv_t>(-1)) return {};
   constexpr std::size_t kMaxPerByte = 4;
   std::string in(bytes), out(kMaxPerByte * bytes.size(), '\0');

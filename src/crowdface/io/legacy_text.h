@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// Possible interpretations, converted to UTF-8, of bytes that are not UTF-8: as GBK (GB 18030),
-/// Shift-JIS or Latin-1 (Windows-1252). Empty if the bytes are UTF-8.
+/// Decodes bytes that are not UTF-8 as GBK (GB 18030), Shift-JIS and Latin-1 (Windows-1252), and
+/// returns each valid result as UTF-8. Empty if the bytes are UTF-8.
 std::vector<std::string> legacy_decodings(std::string_view bytes);
 
 }  // namespace crowdface

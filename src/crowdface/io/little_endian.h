@@ -8,7 +8,8 @@
 
 namespace crowdface {
 
-// The binary formats are little endian; numbers are copied without conversion.
+// The binary mesh formats are little endian. The code below copies numbers without conversion, so
+// the processor must be little endian too.
 static_assert(std::endian::native == std::endian::little);
 
 /// Writes the number's bytes to `out`.

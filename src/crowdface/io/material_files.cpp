@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 constexpr const char* kBlanks = " \t\r";
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
-/// Whether a path stays below its starting folder. (A NUL is rejected because the operating system
-/// would truncate the name there.)
+/// Whether a relative path stays inside the folder from which it starts. (A NUL is rejected because
+/// the operating system would truncate the name there.)
 bool stays_inside(const fs::path& relative) {
   if (relative.native().find('\0') != std::string::npos) return false;
   const fs::path normal = relative.lexically_normal();
@@ -40,8 +40,8 @@ std::string with_forward_slashes(std::string_view text) {
   return path;
 }
 
-/// Whether a file with this name beside meshes could be one of crowdface's own files: a mesh, or an
-/// array of the common topology.
+/// Whether a file with this name in the folder of the meshes could be one of crowdface's own output
+/// files: a mesh, or an array of the topology that all meshes share.
 bool is_name_of_ours(const fs::path& relative) {
   const fs::path normal = relative.lexically_normal();
   const bool is_mesh = std::ranges::any_of(
@@ -54,7 +54,7 @@ bool is_name_of_ours(const fs::path& relative) {
 std::string_view objection_to(const fs::path& relative) {
   if (!stays_inside(relative)) return "lies outside the head's folder";
   if (is_name_of_ours(relative)) return "has a name that belongs to crowdface's own files";
-  // Ledger and report are UTF-8.
+  // The ledger and the report of a run are UTF-8, so they cannot contain other names.
   if (!is_utf8(relative.native())) return "has a name that is not UTF-8";
   return {};
 }
@@ -66,7 +66,8 @@ class Collector {
 
   void add_library(const std::string& argument) {
     throw_if_interrupted();
-    // The argument may be one name with spaces, or a list of names; use whichever exists.
+    // The argument may be one name with spaces, or a list of names. If a file has the whole
+    // argument as its name, it is one name.
     if (exists(argument)) return take_library(argument);
     if (const auto beside = library_beside(argument)) return take_renamed(*beside);
     for (const std::string& name : words_of(argument)) {
@@ -94,7 +95,7 @@ class Collector {
   }
 
  private:
-  /// The distinct names of material files, or of textures, up to a limit.
+  /// A set of distinct file names (of material files or of textures) with a maximum size.
   struct Names {
     std::set<fs::path> known;
     bool full = false;
@@ -145,8 +146,8 @@ class Collector {
     return true;
   }
 
-  /// The existing file for a path that has backslashes or comes from another machine: the same path
-  /// with slashes, otherwise the file with this name in the mesh's folder.
+  /// Finds the file for a path that has backslashes or comes from another machine. Tries the path
+  /// with forward slashes, then the path's file name in the mesh's folder.
   std::optional<fs::path> library_beside(std::string_view text) const {
     for (const std::string& name : readings_of(text)) {
       const fs::path path = with_forward_slashes(name);
@@ -194,8 +195,9 @@ class Collector {
     }
   }
 
-  /// The longest suffix of the statement that names an existing file or the first tile of one. If
-  /// there is none: the whole text or, after options, the last word.
+  /// The longest suffix of the statement that names an existing file or (with <UDIM>) an existing
+  /// first tile. If there is no such suffix: the whole text or, if the statement has options, the
+  /// last word.
   fs::path texture_of(std::string_view rest, const fs::path& folder) {
     const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
     if (!is_new) return known->second;
@@ -209,8 +211,8 @@ class Collector {
       if (!exists(relative) && !exists(udim_tile_path(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
-    // The path may come from another machine, or have the encoding of another system: look for the
-    // file name beside the head, then search it.
+    // The path may come from another machine, or have the encoding of another system: first look
+    // for the file name in the folder, then search the subfolders.
     for (const std::string_view suffix : suffixes) {
       for (const std::string& name : readings_of(suffix)) {
         const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
@@ -228,7 +230,8 @@ class Collector {
     return known->second;
   }
 
-  /// Possible interpretations of a name: in other encodings, then as it stands in the file.
+  /// The names that these bytes may stand for: first decoded from other encodings, last the bytes
+  /// unchanged.
   static std::vector<std::string> readings_of(std::string_view text) {
     std::vector<std::string> names = legacy_decodings(text);
     names.emplace_back(text);
@@ -249,18 +252,18 @@ class Collector {
   }
 
   fs::path mesh_, folder_;
-  std::set<std::string> materials_;  ///< materials defined in all libraries
+  std::set<std::string> materials_;  ///< names of the materials that the material files define
   Names libraries_, textures_;
   /// largest number of searches, each of which lists the folder and its subfolders
   static constexpr int kMaxSearches = 64;
   int searches_ = 0;
   std::set<fs::path> destinations_;
-  /// Texture path for the text of each statement; valid within one library.
+  /// Maps the text of a statement to its texture path. Valid only within one material file.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;
-  /// The texture kinds for which one name is used, and its files.
+  /// The kinds for which statements name one texture, and the files of this texture.
   struct Taken {
-    /// Kinds of the statements that name the texture; nothing for unknown statements.
+    /// The kinds of the statements that name the texture; an unknown statement adds std::nullopt.
     std::set<std::optional<TextureKind>> kinds;
     std::vector<std::size_t> files;
   };

@@ -9,22 +9,22 @@
 
 namespace crowdface {
 
-/// Whether a head may be stored in a file with this extension: the format keeps the vertex order,
-/// or split vertices can be joined again. STL does neither.
+/// Whether a head may be stored in a file with this extension. The format must keep the vertex
+/// order, or must allow split vertices to be joined again. STL does neither.
 bool is_head_file(const std::filesystem::path& path);
 bool is_obj(const std::filesystem::path& path);
 
-/// Converts a mesh to the OBJ file that would be written for it, in memory.
+/// Converts a mesh to an OBJ file in memory.
 /// \param path  of the source file.
 /// \param library  material file to name in the OBJ text; may be empty.
-/// \throws InvalidInput if the mesh has no faces or positions are not finite.
+/// \throws InvalidInput if the mesh has no polygons or positions are not finite.
 ObjFile convert_to_obj(FileMesh mesh, const std::filesystem::path& path,
                        const std::string& library = {});
 
 /// Reads a mesh of any format and joins vertices that the format split. `notes` reports the join.
 FileMesh read_joined_mesh(const std::filesystem::path& path);
-/// Reads a mesh of any format as an OBJ file; OBJ files keep their text. Reverses the faces of a
-/// mesh that is inside out.
+/// Reads a mesh of any format and returns it as an OBJ file. An OBJ file keeps its text; other
+/// formats get a new text. Reverses the polygons of a mesh that is inside out.
 ObjFile read_mesh_as_obj(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One row per format; the columns are the members of MeshFormatTraits in order.
+// One entry per format. An entry lists the values of the members of MeshFormatTraits in order.
 constexpr std::array<MeshFormatTraits, kMeshFormatCount> kTraits = {
     {{MeshFormat::kObj, "obj", ".obj", "mesh", true, true, FileNormals::kOnLevels,
       DataStorage::kOwnFiles, DataStorage::kOwnFiles, DataStorage::kOwnFiles,

@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// An output format. Each format has a row in the table of mesh_format.cpp and in the table of
-/// run/mesh_encoder.cpp; the compiler enforces both.
+/// An output format. Each format has an entry in the table of mesh_format.cpp and an entry in the
+/// table of run/mesh_encoder.cpp. If an entry is missing, compilation fails.
 enum class MeshFormat {
   kObj,     ///< the text of the target's file with other positions
   kPly,     ///< binary
@@ -22,40 +22,44 @@ enum class MeshFormat {
 };
 inline constexpr std::size_t kMeshFormatCount = 5;
 
-/// Where a format stores shapes, attachments or textures.
+/// Where a format stores a kind of data: shapes, attachments or textures.
 enum class DataStorage {
   kNowhere,
-  kInside,    ///< stored in the face's own file
-  kOneFile,   ///< stored together in one more file of the same format
+  kInside,    ///< stored in the file of the face
+  kOneFile,   ///< stored together in one additional file of the same format
   kOwnFiles,  ///< one file for each shape or texture, one OBJ file for each attachment
 };
 
 /// Which normals an encoder needs.
 enum class FileNormals {
   kNone,
-  kOnLevels,    ///< only for levels of detail; the full mesh has the normals of the target's file
+  kOnLevels,    ///< normals only for levels of detail; the full mesh keeps the normals of the OBJ
+                ///< file that it copies
   kLikeTarget,  ///< only if the target's file has normals
   kAlways,
 };
 
-/// Properties of a format, by which the program plans, names, reads and checks its files.
+/// Properties of a format. The program needs them to plan, name, read and check files of the
+/// format.
 struct MeshFormatTraits {
   MeshFormat format;
   std::string_view name;        ///< name in the config: "points"
   std::string_view extension;   ///< ".npy"
   std::string_view report_key;  ///< key of the face's file in report.json
-  bool has_faces;               ///< the file stores the faces, so levels of detail can be written
-  bool has_material_file;       ///< the file names an MTL file
+  bool has_faces;               ///< whether the file stores polygons; needed to write levels of
+                                ///< detail
+  bool has_material_file;       ///< whether the file refers to an MTL file
   FileNormals normals;
   DataStorage shapes, attachments, textures;
-  /// Reads the positions of a face's file; null if the format does not keep the vertex order.
+  /// Function that reads the positions from the file of one face. Null if the format does not keep
+  /// the vertex order.
   /// \throws InvalidInput if another program wrote the file.
   Positions (*read)(const std::filesystem::path& file, Index vertices);
 };
 
 const MeshFormatTraits& traits_of(MeshFormat format);
-/// Whether the face files name the textures of attachments, which are then stored beside the
-/// meshes.
+/// Whether face files of this format name texture files of attachments. If so, these texture files
+/// are stored beside the meshes.
 inline bool names_attachment_textures(const MeshFormatTraits& format) {
   return format.attachments == DataStorage::kOwnFiles ||
          (format.attachments == DataStorage::kInside && format.textures == DataStorage::kOwnFiles);
@@ -71,15 +75,15 @@ bool any_format(const Formats& formats, const Predicate& predicate) {
   }
   return false;
 }
-/// The format's name in the config: "points".
+/// The format's name in the config, such as "points".
 inline std::string_view name_of(MeshFormat format) {
   return traits_of(format).name;
 }
-/// The format's file extension: ".npy".
+/// The format's file extension, such as ".npy".
 inline std::string_view extension_of(MeshFormat format) {
   return traits_of(format).extension;
 }
-/// ".obj, .ply, .glb, .npy or .usda", for messages.
+/// The text ".obj, .ply, .glb, .npy or .usda", for messages.
 std::string list_of_extensions();
 /// The format of a file by its extension, ignoring case; nothing if unknown.
 std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& file);

@@ -14,7 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// The file extension for an image, chosen by its first bytes as readers choose the format.
+/// The file extension for an image. The image's first bytes determine the extension, as they
+/// determine the format when the image is read.
 std::string_view image_ending(std::string_view bytes) {
   return bytes.starts_with("\x89PNG")          ? ".png"
          : bytes.starts_with("\xff\xd8")       ? ".jpg"

@@ -9,22 +9,25 @@
 
 namespace crowdface {
 
-/// Writes the textures of a mesh as image files to a folder, and a material file that names them.
+/// Writes the textures of a mesh as image files to a folder, and a material file that names these
+/// image files.
 /// \param name  prefix of the file names.
 /// \return the name of the material file.
 /// \throws CannotCreate, IoError
 std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,
                                 const std::string& name);
 
-/// Reads the bytes of textures that are separate files. A file is searched at its name
-/// relative to the mesh file, then by `search_texture`. Removes textures without a file and adds a
-/// note for each.
-/// \param files  #mesh.textures: the names of the files; an empty name if the texture has its bytes
-/// \param path   of the mesh file
+/// Reads the bytes of textures that are separate files. Looks for each file first at its path
+/// relative to the mesh file, then with `search_texture`. If a file is not found, removes the
+/// texture and adds a note.
+/// \param files  #mesh.textures: the name of each texture's file; an empty name if the mesh file
+///               embeds the texture
+/// \param path   path of the mesh file
 void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,
                         FileMesh& mesh);
 
-/// A material name that is valid in OBJ and material files: one line, not empty.
+/// Changes a name into a material name that is valid in OBJ and material files: one line, not
+/// empty.
 std::string material_name_of(std::string name);
 
 }  // namespace crowdface

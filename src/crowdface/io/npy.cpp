@@ -17,7 +17,7 @@ namespace crowdface {
 namespace {
 
 /// A header as NumPy writes it, padded so that the data begins at a multiple of 64 bytes.
-/// \param type  in Python syntax: "'<f4'".
+/// \param type  element type in Python syntax, such as "'<f4'".
 std::string npy_header(std::string_view type, const std::string& shape) {
   std::string dictionary =
       concat("{'descr': ", type, ", 'fortran_order': False, 'shape': (", shape, "), }");
@@ -115,8 +115,8 @@ EncodedFile encode_npy(std::span<const Displacements> shapes, const std::string&
 Positions read_npy(const std::filesystem::path& path) {
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
-  // Check that crowdface wrote the file: compute the number of rows from the file size; the file
-  // must begin with exactly the header for that number.
+  // Check that crowdface wrote the file. The file size gives the number of rows, and the file must
+  // begin with exactly the header that crowdface writes for this number.
   constexpr std::size_t kHeader = 128;
   const auto rows = static_cast<Index>((bytes.size() - std::min(bytes.size(), kHeader)) / 12);
   const std::string header = positions_header(rows);

@@ -30,7 +30,7 @@ double number_of(const char* at) {
 }
 
 using ReadNumber = double (*)(const char*);
-/// \param type  NumPy's name: "f4"
+/// \param type  NumPy's name of the type, such as "f4"
 ReadNumber reader_of(std::string_view type) {
   if (type == "f4") return number_of<float>;
   if (type == "f8") return number_of<double>;
@@ -46,7 +46,7 @@ ReadNumber reader_of(std::string_view type) {
   return nullptr;
 }
 
-/// The text after a key in the header's dictionary.
+/// The part of the header's dictionary that follows a key.
 std::string_view value_of(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(key);
   if (at == header.npos) return {};
@@ -72,7 +72,7 @@ std::optional<std::vector<std::size_t>> shape_of(std::string_view header) {
   return shape;
 }
 
-/// Converts from Fortran order to C order.
+/// Converts values from Fortran order (first index fastest) to C order (last index fastest).
 std::vector<double> turned(const std::vector<double>& values,
                            const std::vector<std::size_t>& shape) {
   std::vector<double> out(values.size());

@@ -18,8 +18,8 @@ struct NpyArray {
   std::size_t width() const { return rows() == 0 ? 0 : values.size() / rows(); }
 };
 
-/// Parses versions 1 to 3, both byte orders, C and Fortran order, all integers, booleans, and
-/// floats of 2 to 8 bytes.
+/// Parses an array in NumPy's format (versions 1 to 3, either byte order, C or Fortran order).
+/// Values may be integers of any size, booleans, or floats of 2 to 8 bytes.
 /// \param name  of the file, for messages.
 /// \throws InvalidInput.
 NpyArray parse_npy(std::string_view bytes, const std::string& name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours at vertices in OBJ files: `v x y z r g b`, and ZBrush's comments `#MRGB`.
+// Vertex colours in OBJ files. There are two notations: `v x y z r g b`, and ZBrush's comments
+// `#MRGB`.
 #pragma once
 
 #include <optional>
@@ -11,20 +12,21 @@
 
 namespace crowdface {
 
-/// Converts colours between bytes and sRGB values from 0 to 1.
+/// These functions convert sRGB colours from values between 0 and 1 to bytes, and back.
 ColourRows byte_colours(const Positions& shares);
 Positions colour_fractions(const ColourRows& colours);
 
-/// The colours of the `v` lines; no rows if any line lacks a colour. Values up to 255 count as
-/// bytes.
+/// The colours of the `v` lines; no rows if any line lacks a colour. If values exceed 1, all values
+/// count as bytes from 0 to 255.
 /// \param vertices  number of vertices in the text.
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 
-/// The text with these colours after the coordinates of each `v` line, and without `#MRGB` lines.
+/// Returns the text with a colour after the coordinates of each `v` line, and without the `#MRGB`
+/// lines.
 std::string with_colours(std::string_view text, const ColourRows& colours);
 
-/// The text with the colours of `#MRGB` lines moved to the `v` lines; nothing unless `#MRGB` gives
-/// a colour for every vertex.
+/// Returns the text after the colours of `#MRGB` lines are moved to the `v` lines. Returns nothing
+/// unless `#MRGB` lines give a colour for every vertex.
 std::optional<std::string> move_polypaint_to_vertices(std::string_view text);
 
 }  // namespace crowdface

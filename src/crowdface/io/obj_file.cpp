@@ -18,8 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// A stream buffer that reads a text in memory without copying it. After a signal, the text ends
-/// early, because the reader of the stream does not look for signals.
+/// A stream buffer that reads a text in memory without copying it. After a signal, the buffer
+/// pretends that the text ends, because the code that reads the stream does not check for signals.
 class ViewBuffer : public std::streambuf {
  public:
   explicit ViewBuffer(std::string_view text) : rest_(text) {}
@@ -72,8 +72,8 @@ void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
   clear_if_all_none(result.corner_normals);
 }
 
-/// Checks that the loader and the scan agree on the file; otherwise the loader or the scan has an
-/// error.
+/// Checks that the loader and the scan agree on the file; a difference means that one of them has a
+/// bug.
 void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const ObjFile& result) {
   const Topology& topology = result.topology;
   const auto loaded = static_cast<Index>(attributes.vertices.size() / 3);
@@ -90,7 +90,7 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
   }
 }
 
-/// Replaces values of the loader by the more accurate values of the scan.
+/// Replaces the loader's values with the scan's more accurate values.
 void take_places(ObjScan scan, ObjFile& result) {
   // Scanned positions are rounded correctly; the loader's positions are not.
   result.positions = std::move(scan.positions);
@@ -100,7 +100,7 @@ void take_places(ObjScan scan, ObjFile& result) {
   result.notes.insert(result.notes.end(), scan.notes.begin(), scan.notes.end());
 }
 
-/// Scans the text; if the scan fails, mends the text and scans the result.
+/// Scans the text. If the scan fails, repairs the text (`mend_obj`) and scans the repaired text.
 ObjScan scan_or_mend(ObjFile& obj, const ObjOutline& outline) {
   const std::string name = obj.path.string();
   try {

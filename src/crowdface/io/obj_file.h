@@ -11,23 +11,25 @@
 
 namespace crowdface {
 
-/// A parsed OBJ file: its mesh, and its text, which stays mapped so that it can be written again
-/// with other positions and no other change.
+/// A parsed OBJ file: its mesh and its text. The text stays mapped, so that the program can write
+/// it again with other positions and no other change.
 struct ObjFile {
   std::filesystem::path path;
   MappedFile file;
-  Topology topology;       ///< quads and n-gons kept, vertex order kept
+  Topology topology;       ///< polygons and vertices as in the file, not triangulated and in the
+                           ///< same order
   Positions positions;     ///< #V by 3, in file units
   TextureCoordinates uvs;  ///< #T by 2
-  /// #C indices of `vn`, or kNoIndex; empty if the file has no `vn`.
+  /// #C: for each corner, the index of its `vn` line, or kNoIndex. Empty if the file has no `vn`
+  /// lines.
   std::vector<std::uint32_t> corner_normals;
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;
   std::vector<std::string> notes;  ///< repairs and ignored statements, one sentence each
   bool is_mended = false;          ///< whether repairs changed the text
-  /// Path of any file in the folder that holds the material files; empty if that is the folder of
-  /// `path`.
+  /// Path of some file in the folder that holds the material files. Empty if the material files are
+  /// in the folder of `path`.
   std::filesystem::path textures_at;
 
   const std::filesystem::path& material_path() const {
@@ -35,9 +37,10 @@ struct ObjFile {
   }
 };
 
-/// Reads an OBJ file with tinyobjloader after a strict check of the text (see `scan_obj`). Repairs
-/// a text that fails the check (see `mend_obj`).
-/// \throws MissingInput, or InvalidInput naming file, line, what was expected and what was found.
+/// Reads an OBJ file with tinyobjloader after a strict check of the text (see `scan_obj`). If the
+/// text fails the check, repairs it (see `mend_obj`).
+/// \throws MissingInput, or InvalidInput with a message that names the file, the line, the expected
+/// text and the text found.
 ObjFile read_obj(const std::filesystem::path& path);
 /// Reads an OBJ file whose content is mapped.
 /// \param file  content of the file at `path`.
@@ -46,19 +49,20 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
 
 /// Reads an OBJ file whose polygons and texture coordinates equal those of an earlier file. The
 /// result's topology, texture coordinates and corner normals stay empty.
-/// \param outline  outline of the file, with the same `mesh` hash as the earlier file.
+/// \param outline  outline of this file; its hash `mesh` must equal that of the earlier file.
 ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file,
                               const ObjOutline& outline);
 
 /// The material of each polygon.
 struct FaceMaterials {
   std::vector<std::string>
-      names;  ///< unique, in order of first use by a face; empty where a face has no material
+      names;  ///< unique names, in order of their first use by a polygon; the name "" stands for no
+              ///< material
   std::vector<std::uint32_t> material_of_face;  ///< #F indices into `names`
 };
 
 /// Returns the material of each polygon.
-/// \param ranges  materials of an OBJ file.
+/// \param ranges  the ranges of polygons with equal material, as an OBJ file lists them.
 FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index face_count);
 
 }  // namespace crowdface

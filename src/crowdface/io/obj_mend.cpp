@@ -78,7 +78,8 @@ class Mender {
     return line;
   }
 
-  /// Counts the rows, and checks whether the normals of all corners are valid.
+  /// Counts the `vn` lines, finds invalid `vt` lines, and checks whether the normals of all corners
+  /// are valid.
   void count() {
     std::uint64_t normals_so_far = 0;
     for (int pass = 0; pass < 2; ++pass) {
@@ -107,7 +108,7 @@ class Mender {
 
   static bool is_face(std::string_view statement) { return statement == "f" || statement == "fo"; }
 
-  /// The words after the statement, without a comment.
+  /// The words of a line after its first word (the statement), without a trailing comment.
   static std::vector<std::string_view> words_after(std::string_view line) {
     std::vector<std::string_view> words;
     for (std::size_t at = 0;;) {
@@ -129,7 +130,7 @@ class Mender {
                        [](std::string_view word) { return parse_double(word).has_value(); });
   }
 
-  /// The row that an index refers to; nothing if there is none.
+  /// The row that an OBJ index refers to; nothing if there is no such row.
   static std::optional<std::uint64_t> row_of(std::string_view word, std::uint64_t total,
                                              std::uint64_t so_far) {
     const bool relative = word.starts_with('-');
@@ -166,7 +167,8 @@ class Mender {
     out += line;
   }
 
-  /// Appends the line unchanged if it needs no repair.
+  /// Appends the statement with at most `most` of the words to `out`. If the line has no further
+  /// words and no comment, appends the line unchanged.
   static void add_words(std::string_view statement, const std::vector<std::string_view>& words,
                         std::size_t most, std::string_view line, std::string& out) {
     const bool is_sound = words.size() <= most && line.find('#') == line.npos;

@@ -16,8 +16,8 @@ struct MendedObj {
 
 /// Repairs common harmless exporter errors: a byte-order mark, lone CRs, NULs at the end, continued
 /// lines, comments after statements, missing or non-numeric normals and texture coordinates,
-/// non-numeric colours, faces with fewer than three corners. Line numbers do not change. The
-/// function never invents positions or faces.
+/// non-numeric colours, polygons with fewer than three corners. Line numbers do not change. The
+/// function never invents positions or polygons.
 /// \return nothing if the text has no such error.
 std::optional<MendedObj> mend_obj(std::string_view text);
 

@@ -16,9 +16,10 @@ namespace {
 
 constexpr std::size_t kMaxCorners = 255;  // the loader counts corners in one byte
 constexpr std::uint64_t kMaxPerVertex = 8;
-// Longest material name, group name, or list of material files, in bytes.
+// Maximum length in bytes of a material name, a group name, or a list of material files.
 constexpr std::size_t kLongestObjName = 1000;
-// Larger numbers are refused: in single precision, their neighbours are a unit or more away.
+// The scan refuses larger numbers: beyond this size, adjacent single-precision numbers differ by a
+// whole unit or more.
 constexpr double kLargestCoordinate = 1e7;
 
 /// Splits a line into words without copying.
@@ -61,13 +62,14 @@ std::string_view without_blanks_before(std::string_view line) {
   return line;
 }
 
-/// Whether a line without leading blanks begins with a statement.
+/// Whether a line begins with this statement. The line must have no leading blanks.
 bool is_of(std::string_view line, std::string_view statement) {
   return line.size() > statement.size() && line.starts_with(statement) &&
          is_blank(line[statement.size()]);
 }
 
-/// Counts lines, so that indices can be checked in one pass, and hashes what defines the mesh.
+/// Counts the lines of each kind, so that a later single pass can check the indices. Also computes
+/// the hash `ObjOutline::mesh`.
 class Outliner {
  public:
   void look_at(std::string_view whole_line) {
@@ -100,7 +102,7 @@ class Outliner {
   }
 
  private:
-  /// Hashes consecutive lines together.
+  /// Adds a line to the hash. Consecutive lines are hashed as one text.
   void take(std::string_view line) {
     constexpr std::ptrdiff_t kLongestEnd = 2;  // CR LF
     const std::ptrdiff_t gap = run_.empty() ? -1 : line.data() - (run_.data() + run_.size());
@@ -116,7 +118,8 @@ class Outliner {
     if (!run_.empty()) hasher_.add(run_);
     run_ = {};
   }
-  /// Hashes the numbers of rows so far, because relative indices count back from them.
+  /// Adds to the hash how many vertices and normals precede this line, because relative indices
+  /// count back from these numbers.
   void mark_place() { hasher_.add(outline_.vertices).add(outline_.normals); }
 
   ObjOutline outline_;
@@ -134,7 +137,8 @@ class Scanner {
       fail("expected plain text, found a byte-order mark; save the file as UTF-8 without BOM");
     }
     require_at_most(input_limits().vertices, total_.vertices, "vertices");
-    // A vertex may have several texture coordinates and normals, but not arbitrarily many.
+    // A vertex may have several texture coordinates and normals, so their limits are kMaxPerVertex
+    // times the limit of vertices.
     require_at_most(kMaxPerVertex * input_limits().vertices, total_.uvs, "texture coordinates");
     require_at_most(kMaxPerVertex * input_limits().vertices, total_.normals, "normals");
     require_at_most(input_limits().faces, total_.faces, "faces");
@@ -172,7 +176,7 @@ class Scanner {
         concat(name_, ": expected at most ", most, ' ', what, " (--limit), found ", found));
   }
 
-  /// Whether a line belongs to a known mesh and can be skipped.
+  /// Whether the check can skip a line because it belongs to the known mesh (a `vt` or `f` line).
   bool passes_over(std::string_view line) {
     line = without_blanks_before(line);
     if (is_of(line, "vt")) return true;
@@ -207,7 +211,8 @@ class Scanner {
     }
   }
 
-  /// Programs add their own statements, which readers ignore.
+  /// Handles a statement that OBJ does not define. Programs add such statements; readers ignore
+  /// them.
   void other_statement(std::string_view statement) {
     if (!is_name(lower_case(statement))) {
       fail(concat("expected an OBJ statement, found ", quoted(statement)));
@@ -270,8 +275,8 @@ class Scanner {
     ++seen_.normals;
   }
 
-  /// Checks a 1-based index against the number of rows, or a relative index against the number of
-  /// rows so far.
+  /// Checks a 1-based index against the number of rows, or a relative index (negative) against the
+  /// number of rows before this line.
   void check_index(std::string_view digits, std::string_view what, std::uint64_t total,
                    std::uint64_t so_far) const {
     const bool relative = digits.starts_with('-');
@@ -307,7 +312,8 @@ class Scanner {
   }
 
   /// Checks a corner: v, v/vt, v//vn or v/vt/vn.
-  /// \return which of the four forms, as bits: 1 texture coordinate, 2 normal.
+  /// \return the form of the corner as bits: 1 if it has a texture coordinate, plus 2 if it has a
+  /// normal.
   int corner(std::string_view word) const {
     const std::size_t first = word.find('/');
     const std::size_t second = first == word.npos ? word.npos : word.find('/', first + 1);
@@ -330,7 +336,7 @@ class Scanner {
   std::string_view text_;
   const std::string& name_;
   std::size_t line_number_ = 0;
-  bool in_cut_line_ = false;  ///< whether the text ends within the line
+  bool in_cut_line_ = false;  ///< whether the text ends in this line, without a line end
   std::vector<std::string_view> words_;
   ObjLines lines_;
   ObjOutline total_, seen_;  ///< counts in the whole text, and in the lines checked so far

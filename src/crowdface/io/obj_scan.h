@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// A range of faces with the same material; ends where the next range begins.
+/// A range of polygons with the same material. The range ends where the next range begins.
 struct MaterialRange {
   std::string name;
   Index first_face = 0;
@@ -30,12 +30,12 @@ struct ObjScan {
   std::vector<std::string> notes;     ///< ignored statements, one sentence each
 };
 
-/// Counts and a hash of an OBJ text, from a first fast pass.
+/// Line counts and a hash of an OBJ text. A fast first pass over the text computes them.
 struct ObjOutline {
   std::uint64_t vertices = 0, uvs = 0, normals = 0, faces = 0;
   /// Hash of the whole text except the numbers of `v` and `vn`, comments, and the names of groups,
-  /// objects and materials. Texts with the same hash have the same faces and texture coordinates,
-  /// line by line.
+  /// objects and materials. Texts with the same hash have the same polygons and texture coordinates
+  /// on the same lines.
   Digest mesh;
 };
 ObjOutline outline_obj(std::string_view text);
@@ -43,16 +43,18 @@ ObjOutline outline_obj(std::string_view text);
 /// Which lines `scan_obj` checks.
 enum class ObjLines {
   kAll,
-  kAllButMesh,  ///< all but `f` and `vt` lines, which are equal in a text that was checked before
+  kAllButMesh,  ///< all except `f` and `vt` lines, because an earlier checked text has equal `f`
+                ///< and `vt` lines
 };
 
-/// Checks an OBJ text line by line, because the loader accepts errors: words in place of numbers,
-/// numbers that overflow, indices out of range or wrapping around, polygons with more than 255
-/// corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
+/// Checks an OBJ text line by line, because the loader accepts these errors: words in place of
+/// numbers, numbers that overflow, indices out of range or wrapping around, polygons with more than
+/// 255 corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
 /// vertex colours are valid; statements of other programs are ignored.
 /// \param name  name of the file, for messages.
 /// \param outline  outline of the text.
-/// \param lines  with kAllButMesh the result has no texture coordinates and no corners.
+/// \param lines  the lines to check; with kAllButMesh the result has no texture coordinates and no
+///               corners.
 /// \throws InvalidInput naming file, line, what was expected and what was found.
 ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,
                  ObjLines lines);

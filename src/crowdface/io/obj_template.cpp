@@ -36,13 +36,14 @@ char* write_coloured(char* out, const Positions& rows, const ColourRows& colours
   return out;
 }
 
-/// The location of x y z in a `v` or `vn` line.
+/// The part of a `v` or `vn` line that holds the numbers x y z.
 struct Coordinates {
   std::string_view text;  ///< empty if the line is neither `v` nor `vn`
   bool is_normal = false;
 };
 
-/// \param whole  include everything after the coordinates of a `v` line
+/// \param whole  whether the location extends to the end of a `v` line, so that it includes `w` or
+///               colours
 Coordinates coordinates_of(std::string_view line, bool whole) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (whole) {
@@ -68,7 +69,8 @@ Coordinates coordinates_of(std::string_view line, bool whole) {
   return {line.substr(begin, at - begin), is_normal};
 }
 
-/// Checks that the text has the numbers of rows that the target was read with.
+/// Checks that the text has as many vertices as when the target was read, and all normals that
+/// corners use.
 void check_row_counts(const ObjFile& target, std::uint32_t vertices, Index expected,
                       std::uint32_t normals) {
   bool fits = static_cast<Index>(vertices) == expected;
@@ -105,7 +107,7 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
       topology_(topology),
       vertex_count_(topology.vertex_count),
       has_colours_(colours) {
-  // If no face uses normals, `vn` lines are copied unchanged.
+  // If no polygon uses normals, `vn` lines are copied unchanged.
   const bool has_normals = !target.corner_normals.empty();
   std::uint32_t vertices = 0, normals = 0;
   std::vector<NumberRange> ranges;  // vertices and normals may be interleaved
@@ -135,8 +137,8 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
 void ObjTemplate::fix_normals(const std::vector<std::uint32_t>& corner_rows,
                               const FixedNormals& fixed) {
   if (fixed.vertices.empty()) return;
-  // For each row of normals, the only vertex whose corners use the row; kNoIndex if corners at
-  // several vertices use the row.
+  // For each normal, the vertex whose corners use it; kNoIndex if corners of several vertices use
+  // the normal.
   std::vector<std::uint32_t> vertices(static_cast<std::size_t>(fans_->rows()), kNoIndex);
   std::vector<bool> is_used(vertices.size(), false);
   for (std::size_t c = 0; c < corner_rows.size(); ++c) {
@@ -161,8 +163,9 @@ void ObjTemplate::add_block(const std::vector<NumberRange>& ranges) {
   block.begin = blocks_.empty() ? 0 : blocks_.back().end;
   block.end = ranges.back().begin + ranges.back().length;
   block.buffer = buffer_size_;
-  // Upper bound: new numbers at maximum length plus the old text without the digits of vertices.
-  // Digits of normals count, because a normal that no face uses keeps its text.
+  // Upper bound of the block's length: the new numbers at maximum length, plus the old text without
+  // the digits of vertices. The digits of old normals stay in the sum, because a normal that no
+  // polygon uses keeps its text.
   std::size_t old_text = block.end - block.begin;
   for (const NumberRange& range : ranges) {
     if (range.is_normal) continue;

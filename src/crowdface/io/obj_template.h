@@ -18,49 +18,51 @@
 namespace crowdface {
 
 /// Writes copies of an OBJ file with other positions. Every byte comes from the file, in the order
-/// of its lines, except the x y z of `v` lines (and of `vn` lines, if any). Built once per target;
-/// needs 16 bytes per line besides the text.
+/// of its lines, except the x y z of `v` lines (and of `vn` lines, if any). The object is built
+/// once per target file. It needs 16 bytes per `v` or `vn` line in addition to the text.
 class ObjTemplate {
  public:
   /// \param target  the file to copy. Its mapped text must outlive this object and the encoded
   ///                files; the rest of the target need not.
-  /// \param topology  the faces, which all heads share; must outlive this object.
+  /// \param topology  the polygons, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  vertices with given normals. Files have the given normals in the `vn` lines that
-  ///               no other vertex uses.
+  /// \param fixed  vertices with given normals. Files get the given normals in those `vn` lines
+  ///               that only the given vertices use.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const FixedNormals& fixed = {});
 
-  /// The file with these positions. Each number is the shortest text that reads back as the same
-  /// single-precision value. Normals are recomputed from the faces whose corners use them; an
-  /// unused normal keeps its text. The bytes do not depend on the number of threads.
+  /// Encodes a copy of the file with these positions. Each number is the shortest text that reads
+  /// back as the same single-precision value. Each normal is recomputed from the polygons whose
+  /// corners use it; an unused normal keeps its text. The bytes do not depend on the number of
+  /// threads.
   /// \param positions  #V by 3, in the file's unit.
   /// \param what  names the mesh in messages.
-  /// \param colours  #V if files have colours: red, green and blue from 0 to 1 with four digits.
+  /// \param colours  #V if files have colours; written as red, green and blue from 0 to 1 with four
+  ///                 digits.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const std::string& what,
                      const ColourRows& colours = {}) const;
 
   /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
-  /// Upper bound of the memory needed for one encode, with the result, in bytes. Numbers rarely
-  /// have their maximum length, so an encode touches about half of this memory.
+  /// Upper bound of the memory needed to encode one file, including the result, in bytes. Numbers
+  /// rarely have their maximum length, so encoding a file touches about half of this memory.
   std::size_t encode_bytes() const;
 
  private:
-  /// The location, in the text, of the numbers of a `v` or `vn` line.
+  /// The range of the text that holds the numbers of one `v` or `vn` line.
   struct NumberRange {
     std::uint64_t begin = 0;
     std::uint32_t length = 0;
     std::uint32_t row : 31 = 0;
     std::uint32_t is_normal : 1 = 0;
   };
-  /// Successive number ranges of the text that one thread formats.
+  /// A sequence of number ranges in the text. One thread formats all ranges of a block.
   struct Block {
     /// Offset in the text at which the block starts: the end of the preceding range.
     std::uint64_t begin = 0;
-    std::uint64_t end = 0;     ///< end of the last range
-    std::uint64_t buffer = 0;  ///< offset of the output
+    std::uint64_t end = 0;     ///< offset in the text at which the block ends
+    std::uint64_t buffer = 0;  ///< offset of the block's output in the output buffer
     std::vector<NumberRange> ranges;
   };
   struct Rows {
@@ -79,9 +81,10 @@ class ObjTemplate {
   Index vertex_count_ = 0;
   bool has_colours_;
   std::vector<Block> blocks_;
-  /// Rows of the normals that have given values, and these values.
+  /// The normals whose values are given: row (number of the `vn` line) and value.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> fixed_normals_;
-  std::optional<NormalFans> fans_;  ///< polygons around each `vn`; empty if no face uses normals
+  std::optional<NormalFans> fans_;  ///< for each `vn` line, the polygons that use it; empty if no
+                                    ///< polygon uses normals
   std::size_t buffer_size_ = 0;
 };
 

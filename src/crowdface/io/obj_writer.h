@@ -13,7 +13,7 @@
 namespace crowdface {
 
 /// Encodes a copy of the target's file with other positions (see `ObjTemplate`).
-/// \param topology  the faces, which all heads share; only used if the file has normals.
+/// \param topology  the polygons, which all heads share; only used if the file has normals.
 /// \param positions  #V by 3, in the file's unit.
 /// \param what  names the mesh in messages.
 /// \throws InvalidInput if positions are not #V by 3 or not finite.
@@ -25,9 +25,9 @@ EncodedFile encode_obj_like(const ObjFile& target, const Topology& topology,
 Digest write_obj_like(const ObjFile& target, const Topology& topology, const Positions& positions,
                       const std::filesystem::path& path);
 
-/// Encodes a mesh as a new OBJ file: positions, texture coordinates, faces.
+/// Encodes a mesh as a new OBJ file with positions, texture coordinates and polygons.
 /// \param comment  one line for the start of the file; may be empty.
-/// \param materials  of the faces, ascending first_face; may be empty.
+/// \param materials  materials of the polygons, ascending first_face; may be empty.
 /// \param library  name of the material file; may be empty.
 /// \throws InvalidInput if positions are not #V by 3 or not finite.
 EncodedFile encode_obj(const Mesh& mesh, const std::string& comment,

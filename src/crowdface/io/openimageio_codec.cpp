@@ -52,8 +52,8 @@ ImageHeader facts_of(const OIIO::ImageSpec& spec) {
   return facts;
 }
 
-/// Decoders receive the mapped bytes: decoders that read files themselves report a failing disk as
-/// a damaged file.
+/// Pass the mapped bytes to the decoder. A decoder that reads the file itself would report a
+/// failing disk as a damaged file.
 void* open(const std::string& format, const std::string& file, std::string_view bytes,
            ImageHeader& facts, std::string& error) {
   auto picture = std::make_unique<Picture>(bytes);
@@ -75,14 +75,14 @@ void* open(const std::string& format, const std::string& file, std::string_view 
     return nullptr;
   }
   facts = facts_of(spec);
-  // In other formats the order of channels is fixed, whatever their names.
+  // In other formats than OpenEXR the order of channels is fixed and their names do not matter.
   if (format == "openexr") facts.channel_names = spec.channelnames;
   return picture.release();
 }
 
-/// Whether to decode the strips of a TIFF row by row: when the decoder reads several strips at
-/// once, it hides damage of one of them. (With separate planes the decoder reports damage, and
-/// reading by rows would decode the rows again for each plane.)
+/// Whether to decode the strips of a TIFF row by row. This is needed because a decoder that reads
+/// several strips at once does not report damage of a single strip. (With separate planes the
+/// decoder reports damage, and reading by rows would decode the rows again for each plane.)
 bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
   return std::string_view(input.format_name()) == "tiff" && spec.tile_width == 0 &&
          spec.get_string_attribute("planarconfig") != "separate";
@@ -103,7 +103,7 @@ bool read(void* picture, void* pixels, std::string& error) {
   } else {
     read = input.read_image(0, 0, 0, -1, type, pixels);
   }
-  // For some damage the decoder returns success but sets its error flag.
+  // For some kinds of damage the decoder returns success but sets its error flag.
   read = read && !input.has_error();
   if (!read) error = input.geterror();
   return read;
@@ -113,6 +113,7 @@ void close(void* picture) {
   delete static_cast<Picture*>(picture);
 }
 
+/// Sets the value type and attributes of an image to be encoded.
 /// \return name of the writer in OpenImageIO.
 const char* describe(Form form, OIIO::ImageSpec& spec) {
   if (form == Form::kExr) {

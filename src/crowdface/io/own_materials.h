@@ -10,23 +10,25 @@
 
 namespace crowdface {
 
-/// The material files of a mesh merged into one, in which textures can be replaced.
+/// All material files of a mesh, merged into one file. Textures in the merged file can be replaced.
 class MergedMaterials {
  public:
-  /// \param mesh, libraries  as in `find_material_files`; unreadable files are skipped.
-  /// \param shared  path from the new file to the textures that are not replaced, such as "..";
-  ///                empty: the same folder.
+  /// \param mesh, libraries  as in `find_material_files`; material files that cannot be read are
+  ///                         skipped.
+  /// \param shared  path from the new file's folder to the folder of the textures that are not
+  ///                replaced, such as ".."; empty: the same folder.
   MergedMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
                   const std::string& shared = {});
 
-  /// Replacement files by kind and by material; paths may contain <UDIM>. The empty name means the
-  /// only material.
+  /// Replacement files by kind of texture and name of material; paths may contain <UDIM>. The empty
+  /// name stands for the mesh's only material.
   using Replacements = std::map<TextureKind, std::map<std::string, std::string>>;
 
-  /// The text of a material file to be written beside the mesh. Every `map_Kd` of a material with a
-  /// replacement is replaced; a material without `map_Kd` gets one and a white `Kd`. A texture of
-  /// another kind is replaced where the material names the texture, with the same options, or else
-  /// added. All other lines stay.
+  /// The text of a material file to be written beside the mesh. If a material has a replacement for
+  /// its colour map, every `map_Kd` of the material names the replacement; a material without
+  /// `map_Kd` gets a `map_Kd` and a white `Kd`. For other kinds, the replacement takes the place of
+  /// the texture that the material names and keeps its options; if the material names none, a
+  /// statement is added. All other lines stay.
   std::string text(const Replacements& textures) const;
 
  private:

@@ -7,12 +7,13 @@
 
 namespace crowdface {
 
-/// The colour of an additional mesh in the file of one face.
+/// The tint and the texture that an additional mesh has in the file of one face.
 struct PartLook {
-  std::array<float, 3> tint = {1, 1, 1};  ///< factors on the light of the materials, linear RGB
-  /// Replaces `UsdaPart::kLookName` in the names of texture files.
+  std::array<float, 3> tint = {1, 1, 1};  ///< factors by which the materials' colours are
+                                          ///< multiplied, linear RGB
+  /// Text that replaces `UsdaPart::kLookName` in the names of texture files.
   std::string name = {};
-  /// Content of a PNG file that only this face has; empty: there is none.
+  /// Content of a PNG file that belongs to this face only; empty if there is no such file.
   std::string_view image = {};
 };
 

@@ -16,7 +16,8 @@ constexpr double kPixelsAnInch = 150;
 constexpr double kPointsAnInch = 72;
 constexpr double kLongestSide = 14400;  // points, PDF 1.4's limit
 
-/// The compressed rows of a PNG. PDF's Flate filter with PNG predictors uses the same encoding.
+/// The compressed rows of pixels of a PNG. PDF's Flate filter with PNG predictors decodes them
+/// without conversion.
 struct PackedPicture {
   std::uint32_t width = 0, height = 0;
   std::string data;
@@ -47,7 +48,7 @@ PackedPicture unwrap(const std::string& png) {
   return picture;
 }
 
-/// Writes numbered objects and the table of their offsets.
+/// Writes the numbered objects of a PDF file and the table of the objects' offsets.
 class PdfWriter {
  public:
   void object(const std::string& content) {

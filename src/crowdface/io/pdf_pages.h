@@ -10,7 +10,8 @@ namespace crowdface {
 /// than PDF's limit of 200 inches are scaled down. Every pixel is kept: the PDF contains the
 /// compressed data of the PNGs unchanged.
 /// \param pngs  files made by `encode_png` with three channels.
-/// \throws BrokenPrecondition if there are no images or an image is not such a PNG.
+/// \throws BrokenPrecondition if there are no images or an image is not a three-channel PNG of this
+/// kind.
 std::string encode_pdf(std::span<const std::string> pngs);
 
 }  // namespace crowdface

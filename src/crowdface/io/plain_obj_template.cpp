@@ -13,7 +13,7 @@ namespace crowdface {
 namespace {
 
 constexpr Index kLinesPerBlock = 8192;
-/// Longest line: "vn " and three numbers with separators.
+/// Length of the longest line, which is "vn " followed by three numbers with separators.
 constexpr std::size_t kLongestLine = 3 + 3 * (kMaxSingleLength + 1);
 
 void append_single(std::string& out, double value) {

@@ -10,18 +10,18 @@
 
 namespace crowdface {
 
-/// Writes new OBJ files of one topology: header lines, positions, optional normals, texture
-/// coordinates, and faces grouped by material.
+/// Writes new OBJ files of one topology. A file has header lines, positions, optional normals,
+/// texture coordinates, and polygons grouped by material.
 class PlainObjTemplate {
  public:
   enum class Normals { kNone, kVertex };
 
   /// \param uvs  #T by 2; may be empty.
-  /// \param materials  of the faces, ascending first_face; may be empty.
+  /// \param materials  materials of the polygons, ascending first_face; may be empty.
   PlainObjTemplate(const Topology& topology, const TextureCoordinates& uvs,
                    const std::vector<MaterialRange>& materials, Normals normals);
 
-  /// The file with these positions. The result references memory of this object.
+  /// Encodes the file of one face. The result references memory of this object.
   /// \param head  whole lines for the start of the file, or empty.
   /// \param normals  #V by 3, only with Normals::kVertex.
   /// \param what  names the mesh in messages.
@@ -29,14 +29,14 @@ class PlainObjTemplate {
   EncodedFile encode(const std::string& head, const Positions& positions, const Positions& normals,
                      const std::string& what) const;
 
-  /// Memory used by this object, and needed for one encode, in bytes.
+  /// Memory in bytes: used by this object, and needed to encode one file.
   std::size_t memory_bytes() const { return shared_.size(); }
   std::size_t encode_bytes() const;
 
  private:
   Index vertex_count_;
   Normals normals_;
-  std::string shared_;  ///< texture coordinates and faces
+  std::string shared_;  ///< the lines of texture coordinates and polygons, the same in all files
 };
 
 }  // namespace crowdface

@@ -24,11 +24,11 @@ double number_in(const std::array<char, 8>& raw) {
   return static_cast<double>(number);
 }
 
-/// A number type and its size in binary files.
+/// A number type of PLY, and its size in bytes in binary files.
 struct Type {
   std::string_view name, other;
   std::size_t bytes;
-  double full;  ///< value of full intensity if the number is a colour
+  double full;  ///< if the number is a colour: the value that means full intensity
   double (*read)(const std::array<char, 8>&);
 };
 constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std::int8_t>},
@@ -90,7 +90,8 @@ class PlyReader {
     throw InvalidInput(concat(name_, ": expected a PLY file, found that ", found));
   }
 
-  /// Reads a header line. Lines end in LF, CR LF or CR; all lines end like the first line.
+  /// Reads a header line. Lines end in LF, CR LF or CR; all lines of a file have the same end as
+  /// its first line.
   std::string_view line() {
     const char last = ends_in_cr_ ? '\r' : '\n';
     const std::size_t end = bytes_.find(last, at_);
@@ -155,7 +156,7 @@ class PlyReader {
     return type.read(raw);
   }
 
-  /// Reads a word as a number. Normals and quality values may be non-numeric.
+  /// Reads a word as a number. Normals and quality values may be non-numeric words such as "nan".
   double word() {
     const std::size_t begin = bytes_.find_first_not_of(" \t\r\n", at_);
     if (begin == std::string_view::npos) fail(kEndsTooSoon);
@@ -307,7 +308,7 @@ class PlyReader {
     }
   }
 
-  /// If no corner has texture coordinates, uses the texture coordinates of the vertices.
+  /// If no corner has a texture coordinate, gives each corner the texture coordinate of its vertex.
   void finish_uvs() {
     Topology& topology = mesh_.topology;
     if (!topology.corner_uvs.empty()) {
@@ -315,7 +316,8 @@ class PlyReader {
       mesh_.uvs.resize(static_cast<Index>(corner_uvs_.size() / 2), 2);
       std::copy(corner_uvs_.begin(), corner_uvs_.end(), mesh_.uvs.data());
     } else if (has_vertex_uvs_ && mesh_.uvs.allFinite()) {
-      // Where only vertices can have texture coordinates, the exporter has split vertices at seams.
+      // If a format has texture coordinates only at vertices, the exporter has split the vertices
+      // at seams.
       topology.corner_uvs = topology.corner_vertices;
       mesh_.pieces.assign(static_cast<std::size_t>(topology.vertex_count), 0);
     } else if (has_vertex_uvs_) {

@@ -21,7 +21,7 @@ std::string ply_header(Index vertices, Index faces, bool with_normals, bool with
       with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
       with_colours ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
       "element face ", faces,
-      // Uses "int" instead of "uint", because all readers support it.
+      // Use "int" instead of "uint" for the indices, because all readers support "int".
       "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 

@@ -12,14 +12,14 @@ namespace crowdface {
 
 /// Writes binary little-endian PLY files of one topology: vertices in order with x y z and optional
 /// nx ny nz as floats, then polygons of any size as `vertex_indices`. Files have no texture
-/// coordinates: the layout that programs agree on has one texture coordinate per vertex, which
-/// would split vertices at seams and lose their order.
+/// coordinates. The only layout that most programs read has one texture coordinate per vertex. It
+/// would split vertices at seams and change the order of vertices.
 class PlyTemplate {
  public:
-  /// \throws InvalidInput if a face has more than 255 corners.
+  /// \throws InvalidInput if a polygon has more than 255 corners.
   explicit PlyTemplate(const Topology& topology);
 
-  /// The file with these positions. The result references memory of this object.
+  /// Encodes the file of one face. The result references memory of this object.
   /// \param normals  #V by 3; no rows: the file has no normals.
   /// \param colours  #V, red, green and blue as bytes; no rows: the file has no colours.
   /// \param what  names the mesh in messages.
@@ -29,13 +29,13 @@ class PlyTemplate {
 
   /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const { return faces_.size(); }
-  /// Memory needed for one encode with normals and colours, in bytes.
+  /// Memory needed to encode one file with normals and colours, in bytes.
   std::size_t encode_bytes() const;
 
  private:
   Index vertex_count_;
   Index face_count_;
-  std::string faces_;  ///< encoded as in the file
+  std::string faces_;  ///< the polygons, encoded as in the file
 };
 
 /// Reads the positions of a file that `PlyTemplate` wrote.

@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// The reason why libpng failed. libpng leaves by longjmp, so the frames in between must not have
-/// objects with destructors.
+/// The reason why libpng failed. On an error, libpng jumps out with longjmp, so functions between
+/// the call and the error must not hold objects with destructors.
 struct PngError {
   char text[128] = "";
 };
@@ -28,8 +28,8 @@ struct PngError {
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*warning*/) {}
 
-/// Call this function before each row. After a signal this function fails; image.cpp then reports
-/// the interruption.
+/// Called before each row of pixels. After a signal, ends libpng's work with an error; image.cpp
+/// then reports the interruption.
 void give_up_if_interrupted(png_structp png) {
   if (interrupted()) png_error(png, "interrupted by a signal");
 }
@@ -51,7 +51,7 @@ struct OpenPng {
   OpenPng(const OpenPng&) = delete;
   OpenPng& operator=(const OpenPng&) = delete;
 
-  std::string_view rest;  ///< unread rest of the file
+  std::string_view rest;  ///< the part of the file that is not read yet
   PngError error;
   png_structp png;
   png_infop info;
@@ -72,7 +72,8 @@ void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::
   const bool known = info != nullptr && succeeds(png, [&] {
                        png_set_read_fn(png, &opened->rest, take_bytes);
                        png_read_info(png, info);
-                       // Expands palettes, depths below 8 bits, and transparent colours
+                       // Convert palette indices to colours, depths below 8 bits to 8 bits, and a
+                       // transparent colour to alpha
                        png_set_expand(png);
                        png_set_swap(png);
                        png_set_interlace_handling(png);
@@ -141,8 +142,8 @@ void give_bytes(png_structp png, png_bytep from, std::size_t count) {
 
 void flush_nothing(png_structp /*png*/) {}
 
-/// Compression settings for face images: within 7 % of the size of zlib's high levels in a quarter
-/// of the time.
+/// Sets the compression of face images. Files are at most 7 % larger than with zlib's high levels,
+/// and encoding takes a quarter of the time.
 void set_packing(png_structp png, ImageToEncode::Form form) {
   if (form == ImageToEncode::Form::kStoredPng) {
     png_set_compression_level(png, 0);

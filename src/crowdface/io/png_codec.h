@@ -5,8 +5,8 @@
 
 namespace crowdface {
 
-/// The codec for PNG, the format that nearly every run uses. Based on libpng, without the libraries
-/// that `image_codec` loads.
+/// The codec for PNG, the format that nearly every run uses. It uses libpng and does not need the
+/// libraries that `image_codec` loads.
 const ImageCodec& png_codec();
 
 }  // namespace crowdface

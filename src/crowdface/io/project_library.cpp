@@ -21,10 +21,11 @@
 namespace crowdface {
 namespace {
 
-/// The purpose of the library that is being loaded, for messages.
+/// What the library that is being loaded is needed for. Completes a sentence in messages.
 std::atomic<const char*> starting_for{"run"};
 
-// Calls only async-signal-safe functions.
+// Ends the process with a message that a library cannot be started. As a signal handler, calls only
+// async-signal-safe functions.
 [[noreturn]] void end_without_libraries(int /*signal*/) {
   const auto say = [](const char* text) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
@@ -35,19 +36,20 @@ std::atomic<const char*> starting_for{"run"};
   ::_exit(static_cast<int>(ExitCode::kIoError));
 }
 
-constexpr unsigned kLongestStart = 60;  ///< seconds
+constexpr unsigned kLongestStart = 60;  ///< seconds that loading a library may take
 
 std::atomic<bool> guarded = false;
 volatile std::sig_atomic_t starting = 0;
 
-/// Called by exit(), which libgfortran calls if it cannot allocate memory during start.
+/// Runs when a library calls exit() while it is being loaded. For example, libgfortran does this if
+/// it cannot allocate memory.
 void end_if_starting() {
   if (starting != 0) end_without_libraries(0);
 }
 
-/// While this object lives, a library that ends the program during loading for lack of memory does
-/// so with a message of this program. The same applies to a library that hangs, for example a
-/// logger that waits for a thread that could not start.
+/// While this object lives, the program prints an error message if a library ends the process
+/// during loading, for example for lack of memory. The same applies if a library hangs, for example
+/// a logger that waits for a thread that could not start.
 class StartOfLibraries {
  public:
   explicit StartOfLibraries(const char* needs) {
@@ -98,8 +100,8 @@ void guard_library_loading() {
 
 void* load_library_function(const char* library, const char* function, const char* needs,
                             const char* failure) {
-  // Third-party programs are linked with the library. This program loads the library from its
-  // folder relative to the executable.
+  // In a third-party program that links the library, the library is already loaded. The crowdface
+  // program loads the library from a folder relative to its executable.
   void* opened = open_library(library, RTLD_NOLOAD, needs, failure);
   std::string why;
   if (opened == nullptr) {

@@ -3,20 +3,21 @@
 
 namespace crowdface {
 
-/// Loads a function from one of the project's own shared libraries. These libraries contain code
-/// that only some runs need, and link third-party libraries that are slow to load. They lie beside
-/// the program, both in the build folder and after installation.
+/// Loads a function from one of the project's own shared libraries. These shared libraries contain
+/// code that only some runs need, and link third-party libraries that are slow to load. The shared
+/// libraries have the same place relative to the program in the build folder and after
+/// installation.
 /// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
 /// \param needs, failure  texts for messages: "images need (OpenImageIO)", "images cannot be read".
-/// \throws IoError if the library is not where it was installed, cannot be loaded, or lacks the
-///     function.
+/// \throws IoError if the library is missing from its installed place, cannot be loaded, or lacks
+///     the function.
 void* load_library_function(const char* library, const char* function, const char* needs,
                             const char* failure);
 
 /// Installs handlers of signals and of exit. If a library aborts, calls exit, or needs longer than
 /// a minute while it is being loaded, the handlers end the process with code 74 and a message; this
-/// happens when memory or threads run out. Only for programs, at their start: handlers and the
-/// alarm belong to the whole process.
+/// happens when memory or threads run out. Only a program may call this function, at its start,
+/// because the handlers and the alarm belong to the whole process.
 void guard_library_loading();
 
 }  // namespace crowdface

@@ -35,8 +35,8 @@ Index rows_of(const NpyArray& array) {
   return static_cast<Index>(array.rows());
 }
 
-/// Reads faces stored beside an array of positions: either the files that crowdface writes
-/// (topology/corners.npy, offsets.npy, …) or an array of triangles or quads.
+/// Reads polygons stored beside an array of positions. They are either in the files that crowdface
+/// writes (topology/corners.npy, offsets.npy, …) or in one array of triangles or quads.
 void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
   Topology& topology = mesh.topology;
   const auto index_of = [&](double number, Index rows, const fs::path& file) {
@@ -96,7 +96,7 @@ void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
   }
 }
 
-/// Reads positions, and faces if the folder has a file of faces.
+/// Reads positions, and polygons if the folder has a file of polygons.
 FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   const NpyArray array = parse_npy(bytes, path.string());
   const bool is_list = array.shape.size() == 3 && array.shape[0] != 1;
@@ -116,7 +116,8 @@ FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   return mesh;
 }
 
-/// The format by content, whatever the file's name; by extension if the content is ambiguous.
+/// The extension of the file's format. The first bytes decide, whatever the file's name; if they
+/// are ambiguous, the file's extension decides.
 std::string kind_of(std::string_view bytes, const fs::path& path) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return ".ply";
   if (bytes.starts_with("glTF")) return ".glb";

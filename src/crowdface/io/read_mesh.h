@@ -13,7 +13,7 @@ namespace crowdface {
 const std::vector<std::string_view>& mesh_extensions();
 
 /// Reads a mesh. The first bytes of the file determine the format; if they do not, the extension
-/// does. (A NumPy array may lack faces.)
+/// does. (The result of a NumPy file may lack polygons.)
 /// \throws MissingInput; InvalidInput naming the file, what was expected, what was found and what
 /// helps.
 FileMesh read_mesh(const std::filesystem::path& path);

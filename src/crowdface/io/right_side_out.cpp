@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// The OBJ text with the corners of each face after the first in reverse order.
+/// The OBJ text with reversed polygons: the first corner of each polygon stays first, and its other
+/// corners are in reverse order.
 std::string with_turned_faces(std::string_view text) {
   std::string turned;
   turned.reserve(text.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Orientation of meshes whose faces point inwards, for example after mirroring or from a program
-// with the opposite winding.
+// Corrects meshes whose polygons face inwards, for example after mirroring or from a program with
+// the opposite winding.
 #pragma once
 
 #include <string_view>
@@ -10,13 +10,13 @@
 
 namespace crowdface {
 
-/// Text of the note about a mesh whose faces were reversed.
+/// Text of the note about a mesh whose polygons were reversed.
 inline constexpr std::string_view kReversedFacesNote =
     "its faces pointed inward (inside out) and are flipped";
 
-/// Reverses the faces of a mesh that is inside out, and adds a note.
+/// Reverses the polygons of a mesh that is inside out, and adds a note.
 void reverse_inward_faces(FileMesh& mesh);
-/// Reverses the faces of an OBJ file that is inside out, also in its text.
+/// Reverses the polygons of an OBJ file that is inside out, both in its mesh and in its text.
 ObjFile with_outward_faces(ObjFile file);
 
 }  // namespace crowdface

@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// size in bytes of three single-precision numbers
 inline constexpr std::size_t kVectorSize = 3 * sizeof(float);
-/// Number of rows that a thread encodes at a time.
+/// Number of rows in the block that a thread encodes at a time.
 inline constexpr Index kRowsPerBlock = 1 << 15;
 
 /// Rounds a number as every mesh format stores it: to single precision, without negative zero.
@@ -21,7 +21,7 @@ inline float to_single(double value) {
   return single == 0 ? 0.0F : single;
 }
 
-/// Length of the longest text of a single-precision number: "-1.17549435e-38".
+/// Length of the longest text that `write_single` writes, such as "-1.17549435e-38".
 inline constexpr std::size_t kMaxSingleLength = 15;
 
 /// Writes the shortest text that reads back as the same single-precision number. `out` needs room
@@ -31,8 +31,8 @@ inline char* write_single(char* out, double value) {
   return std::to_chars(out, out + kMaxSingleLength, to_single(value)).ptr;
 }
 
-/// Positions rounded as every mesh format stores them, so that results computed from them equal
-/// results computed from the file.
+/// Rounds positions as every mesh format stores them. Results computed from the rounded positions
+/// equal results computed from a file.
 Positions round_to_single(const Positions& positions);
 
 /// Writes the three numbers of a row in binary.
@@ -49,7 +49,8 @@ inline char* put_row(char* out, const Positions& rows, Index i) {
 /// \throws InvalidInput if a number is not finite.
 Positions read_singles(const char* bytes, Index rows, std::size_t stride, const std::string& what);
 
-/// Checks positions before they are written.
+/// Checks the size of positions, and that all numbers are finite. Called before positions are
+/// written.
 /// \param what  names the mesh in messages.
 /// \throws BrokenPrecondition unless there are `vertices` rows; InvalidInput unless all numbers are
 /// finite in single precision.

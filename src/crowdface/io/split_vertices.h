@@ -9,13 +9,15 @@
 
 namespace crowdface {
 
-/// A topology for formats with one texture coordinate per vertex and only triangles. The first #V
-/// split vertices are the original vertices in order, each with the texture coordinate of its first
-/// corner. Copies for further texture coordinates follow, in order of corners. Depends only on the
-/// topology.
+/// A triangulated topology with copies of vertices, for formats that allow only triangles and one
+/// texture coordinate per vertex. The first #V split vertices are the original vertices in order,
+/// each with the texture coordinate of its first corner. Copies for further texture coordinates
+/// follow, in order of corners. Depends only on the topology.
 struct SplitVertices {
-  std::vector<std::uint32_t> vertices;  ///< #S: original vertex; i itself for i < #V
-  /// #S: row of the UVs or kNoIndex; empty if there are no UVs
+  std::vector<std::uint32_t> vertices;  ///< #S: the original vertex of each split vertex;
+                                        ///< vertices[i] is i for i < #V
+  /// #S: for each split vertex, its row in the texture coordinates, or kNoIndex; empty if the mesh
+  /// has no texture coordinates
   std::vector<std::uint32_t> uvs;
   /// Triangles of all polygons in order; each polygon is a fan around its first corner.
   std::vector<std::array<std::uint32_t, 3>> triangles;

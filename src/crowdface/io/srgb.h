@@ -20,7 +20,7 @@ inline double linear_of_srgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-/// Vertex colours in linear light, as GLB and USD store them.
+/// Converts vertex colours to linear light (#V by 3, 0 to 1), as GLB and USD store them.
 inline Positions linear_light(const ColourRows& colours) {
   constexpr double kMaxByte = 255;
   Positions linear(colours.rows(), 3);

@@ -17,8 +17,8 @@ constexpr std::string_view kStlBlanks = " \t\r\n";
   throw InvalidInput(concat(name, ": expected an STL file, found that ", found));
 }
 
-/// Reads text STL. Keywords are case-insensitive; the rest of a line after "solid" or "endsolid" is
-/// a name.
+/// Reads text STL. Keywords are case-insensitive. The text after "solid" or "endsolid" up to the
+/// line end is a name.
 class StlText {
  public:
   StlText(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -98,7 +98,8 @@ FileMesh parse_stl(std::string_view bytes, const std::string& name) {
   if (!is_exact && is_stl_text(bytes)) return StlText(bytes, name).read();
   const std::size_t room = bytes.size() < kStlHeader ? 0 : (bytes.size() - kStlHeader) / kStlRecord;
   const std::size_t count = claimed == 0 ? room : std::min<std::size_t>(claimed, room);
-  // If the file is a text of another kind, `count` consists of letters and is meaningless.
+  // If the file is not STL but a text, the four bytes of `count` are letters and the number is
+  // meaningless.
   if (count == 0 || (claimed > room && (bytes.size() - kStlHeader) % kStlRecord != 0)) {
     fail_stl(name, concat("it has ", bytes.size(), " bytes and claims ", claimed,
                           " triangles: copy or export it again"));

@@ -21,7 +21,8 @@ std::vector<float> leading_numbers(std::string_view text) {
   return numbers;
 }
 
-/// Among the textures whose names are at the end of a statement, the texture with the longest name.
+/// The texture whose name stands at the end of a statement. If several names match, the texture
+/// with the longest name.
 std::filesystem::path texture_at_end(std::string_view rest, const std::filesystem::path& folder,
                                      const MaterialFiles& files) {
   for (const std::string_view suffix : word_suffixes(rest)) {

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// The appearance of a material in a material file.
+/// The colour, opacity and maps of a material, as its material file describes them.
 struct SurfaceMaterial {
   std::string name;
   std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear, from 0 to 1
@@ -20,12 +20,13 @@ struct SurfaceMaterial {
   std::filesystem::path opacity_map = {};           ///< the file of `map_d`; empty: there is none
 };
 
-/// The materials of a mesh, in the order of its material files. Ignores textures that are not among
-/// the files.
+/// The materials of a mesh, in the order of its material files. Ignores textures that are not in
+/// `files`.
 /// \param files  result of `find_material_files`.
 std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files);
 
-/// The first material with each name; a name that no file describes gets a default material.
+/// Returns one material for each name: the first with this name in the files, or a default material
+/// if there is none.
 std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
                                                   const MaterialFiles& files);
 

@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Twice the signed area of a polygon in the texture; 0 if a corner has no texture coordinate.
+/// Twice the signed area of a polygon in texture coordinates; 0 if a corner has no texture
+/// coordinate.
 double uv_area(const Topology& topology, Index face, const TextureCoordinates& uvs) {
   const auto corners = topology.face_uvs(face);
   double area = 0;
@@ -33,7 +34,7 @@ Eigen::Vector3d in_plane(const Eigen::Vector3d& vector, const Eigen::Vector3d& n
   return length > 0 ? Eigen::Vector3d(flat / length) : Eigen::Vector3d::Zero();
 }
 
-/// The rounded arc cosine, because acos differs between versions of the C library.
+/// The arc cosine, rounded, because the last bits of acos differ between versions of the C library.
 double angle_of(double cosine) {
   constexpr double kSteps = 1e9;
   return std::round(kSteps * std::acos(std::clamp(cosine, -1.0, 1.0))) / kSteps;

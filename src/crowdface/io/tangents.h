@@ -10,13 +10,14 @@
 
 namespace crowdface {
 
-/// Like split_vertices, but polygons with mirrored texture coordinates share no split vertex with
-/// other polygons.
+/// Like split_vertices, but a polygon with mirrored texture coordinates shares no split vertex with
+/// a polygon whose texture coordinates are not mirrored.
 SplitVertices split_at_mirrored_uvs(const Topology& topology, const TextureCoordinates& uvs);
 
-/// The tangents in which normal maps are read, by the rules of MikkTSpace (Mikkelsen 2008,
-/// "Simulation of wrinkled surfaces revisited"): the direction of growing u on each triangle,
-/// weighted at each vertex by the triangle's angle in the plane of the vertex normal.
+/// Tangents for normal mapping, by the rules of MikkTSpace (Mikkelsen 2008, "Simulation of wrinkled
+/// surfaces revisited"). A vertex tangent is the mean of the directions in which u grows on the
+/// triangles at the vertex. The weight of a triangle is its angle at the vertex, projected onto the
+/// plane of the vertex normal.
 class Tangents {
  public:
   static constexpr std::size_t kSize = 4 * sizeof(float);  ///< bytes of a tangent
@@ -25,7 +26,8 @@ class Tangents {
   /// \param uvs    #T by 2, v upwards as in OBJ.
   Tangents(const SplitVertices& split, const TextureCoordinates& uvs);
 
-  /// Writes #S unit vectors, each followed by 1, or -1 where the texture coordinates are mirrored.
+  /// Writes #S unit vectors, each followed by 1, or by -1 where the texture coordinates are
+  /// mirrored.
   /// \param positions, normals  #V by 3.
   void write(char* out, const Positions& positions, const Positions& normals) const;
 
@@ -37,9 +39,10 @@ class Tangents {
     std::array<std::uint32_t, 3> corners;  ///< split vertices
     double along_first, along_second;      ///< weights of two edges in the direction of growing u
   };
-  std::vector<std::uint32_t> vertices_;  ///< #S: original vertex
+  std::vector<std::uint32_t> vertices_;  ///< #S: the original vertex of each split vertex
   std::vector<float> signs_;  ///< #S: −1 where the texture coordinates are mirrored, else 1
-  std::vector<UvTriangle> triangles_;  ///< the triangles that cover an area of the texture
+  std::vector<UvTriangle> triangles_;  ///< the triangles whose area in texture coordinates is not
+                                       ///< zero
 };
 
 }  // namespace crowdface

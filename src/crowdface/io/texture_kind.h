@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// What a texture stores, as named in material files.
+/// What a texture stores. Statements of material files correspond to these kinds.
 enum class TextureKind { kColour, kNormal, kRoughness, kSpecular, kDisplacement, kBump };
 
 struct TextureStatement {
@@ -16,8 +16,8 @@ struct TextureStatement {
   std::string_view name;  ///< name of the kind in file names
 };
 
-/// One row for each TextureKind, in order. `map_Bump`, also spelled `map_bump` and `bump`, names
-/// height maps; many programs use it for normal maps.
+/// One entry for each TextureKind, in the order of the enumeration. `map_Bump`, also spelled
+/// `map_bump` and `bump`, names height maps; many programs use it for normal maps.
 inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kColour, "map_Kd", "colour"},
     TextureStatement{TextureKind::kNormal, "norm", "normal"},
@@ -26,12 +26,12 @@ inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kDisplacement, "disp", "displacement"},
     TextureStatement{TextureKind::kBump, "map_Bump", "bump"}};
 
-/// Whether previews show a texture of this kind besides the colour map.
+/// Whether previews show textures of this kind; they always show the colour map.
 constexpr bool is_shown_in_previews(TextureKind kind) {
   return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
 }
 
-/// The row of a kind in kTextureStatements.
+/// The entry of kTextureStatements for a kind.
 constexpr const TextureStatement& statement_of(TextureKind kind) {
   return kTextureStatements[static_cast<std::size_t>(kind)];
 }

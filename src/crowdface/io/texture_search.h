@@ -6,9 +6,10 @@
 
 namespace crowdface {
 
-/// Searches a texture whose path comes from another machine: at the last parts of the path below
-/// the folder (most parts first), then in `STEM.fbm`, then in the only subfolder that has a file of
-/// this name. Ignores the case of names, as Windows does.
+/// Searches a texture whose path comes from another machine. First tries suffixes of the path
+/// relative to `folder`, longest first; then looks in the subfolder `STEM.fbm`; then takes the file
+/// of this name in any subfolder, if only one subfolder has such a file. Ignores the case of names,
+/// as Windows does.
 /// \param named  path with forward slashes; may be absolute
 /// \param stem   name of the mesh file without its extension
 /// \return the path relative to `folder`; nothing if there is no such file.

@@ -28,7 +28,8 @@ enum Tag : std::uint64_t {
   kTileByteCounts = 325,
 };
 
-/// The first directory: tags and their values. Access beyond the end of the file throws.
+/// The first image file directory of a TIFF, with its tags and their values. Reading beyond the end
+/// of the file throws an exception.
 class Directory {
  public:
   struct BeyondTheEnd {};
@@ -42,7 +43,8 @@ class Directory {
     require_inside(begin_, count_ * entry_size());
   }
 
-  /// \return empty if there is no such entry, or if it does not contain integers.
+  /// \return the numbers of an entry; empty if there is no such entry, or if it does not contain
+  /// integers.
   std::vector<std::uint64_t> numbers(Tag tag) const {
     for (std::uint64_t e = 0; e < count_; ++e) {
       const std::uint64_t entry = begin_ + e * entry_size();
@@ -121,7 +123,8 @@ std::uint64_t parts_of(std::uint64_t whole, std::uint64_t part) {
   return whole / part + (whole % part != 0 ? 1 : 0);
 }
 
-/// The division of an image into pieces; strips are treated as tiles as wide as the image.
+/// The division of a TIFF image into pieces (strips or tiles). A strip is treated as a tile that is
+/// as wide as the image.
 struct Cut {
   std::uint64_t width, height;  ///< size of the image
   std::uint64_t across, down;   ///< size of a piece
@@ -130,7 +133,7 @@ struct Cut {
   std::vector<std::uint64_t> begins, sizes;
 
   std::uint64_t pieces() const { return parts_of(width, across) * parts_of(height, down) * planes; }
-  /// Uncompressed bytes of a piece; the last strip may have fewer rows.
+  /// Number of uncompressed bytes of a piece. The last strip may have fewer rows than the others.
   std::uint64_t bytes_of(std::uint64_t piece, bool tiled) const {
     const std::uint64_t row = piece % parts_of(height, down);
     const std::uint64_t rows = tiled ? down : std::min(down, height - row * down);

@@ -8,10 +8,10 @@
 namespace crowdface {
 
 /// Numbers of UDIM texture tiles, which are unit squares in rows of ten. kFirstTile is the number
-/// of the tile at the origin, kLastTile the largest four-digit number.
+/// of the tile at the origin; kLastTile is the largest four-digit number.
 inline constexpr int kFirstTile = 1001, kLastTile = 9999;
 
-/// kFirstTile + column + 10 · row.
+/// The number of a tile: kFirstTile + column + 10 · row.
 /// \throws InvalidInput unless 0 ≤ column < 10, row ≥ 0 and the number is at most kLastTile.
 int tile_number(double column, double row);
 
@@ -21,8 +21,8 @@ constexpr std::string_view kTileWord = "<UDIM>";
 /// The path with each kTileWord replaced by the tile's number.
 std::filesystem::path udim_tile_path(const std::filesystem::path& path, int tile);
 
-/// The existing tile files, sorted by name, for a path whose file name contains kTileWord; empty
-/// for other paths.
+/// If the file name of `path` contains kTileWord, returns the tile files that exist, sorted by
+/// name. For other paths returns an empty list.
 std::vector<std::filesystem::path> find_tiles(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -17,8 +17,8 @@ std::string colour_text(const std::array<float, 4>& colour) {
   return concat('(', rounded(colour[0]), ", ", rounded(colour[1]), ", ", rounded(colour[2]), ')');
 }
 
-/// Formats a file name as an asset path: between @ or, if the name contains @, between @@@ with
-/// each @@@ in the name escaped.
+/// Formats a file name as a USD asset path. The name stands between two @. If the name contains @,
+/// it stands between two @@@, and each @@@ in the name is escaped.
 std::string asset_path(std::string_view file) {
   if (file.find('@') == file.npos) return concat('@', file, '@');
   std::string text = "@@@";

@@ -7,17 +7,19 @@
 
 namespace crowdface {
 
-/// The appearance of a material in a USD layer. File names are relative to the layer; an empty name
-/// means that there is no file.
+/// The appearance of a material in a USD layer. Paths of files are relative to the layer; an empty
+/// path means that there is no file.
 struct UsdaSurface {
   std::array<float, 4> colour = {
       1, 1, 1, 1};             ///< linear RGB if there is no picture; opacity if there is no mask
   std::string picture = {};    ///< colour map, sRGB
   std::string normals = {};    ///< tangent-space normal map
   std::string roughness = {};  ///< roughness map, first channel
-  /// Mask file: the surface is opaque where the mask is at least one half.
+  /// Path of a mask file. The surface is opaque where the mask is at least one half; elsewhere it
+  /// has holes.
   std::string holes = {};
-  /// Whether the mask is the file's alpha channel; otherwise it is the first channel.
+  /// Whether the alpha channel of the mask file is the mask; otherwise the first channel is the
+  /// mask.
   bool holes_in_alpha = false;
   /// whether textures are clamped and use the primvar `st1`; otherwise they repeat and use `st`
   bool overlay = false;

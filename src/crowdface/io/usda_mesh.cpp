@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// The primvar's values and the index of each corner; corners without texture coordinates get
-/// zeros.
+/// The lines of the primvar `st`: its values, and for each corner the index of a value. Corners
+/// without texture coordinates get the value (0, 0).
 std::string uv_lines(const Topology& topology, const TextureCoordinates& uvs) {
   TextureCoordinates all = uvs;
   std::vector<std::uint32_t> corners = topology.corner_uvs;
@@ -84,7 +84,8 @@ void UsdaMesh::add(EncodedFile& file, const PrimPaths& place, const Positions& p
                   kUsdaPoints));
   file.add(usda_rows(positions));
   file.add("]\n");
-  // Viewers compute the normals of a subdivided surface
+  // Write normals only without subdivision, because viewers compute the normals of a subdivided
+  // surface
   if (subdivision_ == Subdivision::kNone) {
     require_finite(normals, vertex_count_, what);
     file.add("            normal3f[] normals = [");
@@ -158,7 +159,7 @@ std::size_t UsdaMesh::memory_bytes() const {
 }
 
 std::size_t UsdaMesh::encode_bytes() const {
-  // Counts the text of each array and its copy in the file.
+  // Each array is in memory twice: as formatted text and as its copy in the file.
   return 2 * kMaxUsdaRowLength * (3 * static_cast<std::size_t>(vertex_count_) + target_rows_);
 }
 

@@ -17,7 +17,8 @@
 
 namespace crowdface {
 
-/// Text before the points of a Mesh prim. The first occurrence in a layer is the face's prim.
+/// Text before the points of a Mesh prim. Its first occurrence in a layer belongs to the prim of
+/// the face; later ones belong to additional meshes.
 inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 
 /// Writes a Mesh prim of one topology: polygons, texture coordinates as the primvar `st`, material
@@ -28,10 +29,10 @@ class UsdaMesh {
   struct Form {
     Subdivision subdivision = Subdivision::kNone;
     std::vector<std::string> materials = {};  ///< names; may be empty
-    /// #F indices into `materials`; empty: all faces use the first
+    /// #F indices into `materials`; empty: all polygons use the first material
     std::vector<std::uint32_t> face_materials = {};
-    /// Blend shapes, each with the vertices that it moves. If a target lists no vertices, each face
-    /// lists the vertices with that face's displacements.
+    /// Blend shapes, each with the vertices that it moves. If a target lists no vertices here, the
+    /// file of each face lists the moved vertices together with their displacements.
     std::vector<GlbTarget> targets = {};
     std::string lines = {};  ///< additional lines of the prim
   };
@@ -45,7 +46,7 @@ class UsdaMesh {
     std::string name;       ///< name of the Mesh prim
     std::string materials;  ///< path of the prim that contains the materials
   };
-  /// Adds the prim. The file references memory of this object.
+  /// Adds the Mesh prim to `file`, which then references memory of this object.
   /// \param normals  #V by 3, unit; not written for meshes with subdivision.
   /// \param moves  #targets displacements.
   /// \param what  names the mesh in messages.
@@ -55,13 +56,13 @@ class UsdaMesh {
            const Positions& normals, std::span<const Displacements> moves, const std::string& what,
            const ColourRows& colours = {}) const;
 
-  /// Prim names of the materials; empty for materials that no face uses.
+  /// Prim names of the materials; the name of a material that no polygon uses is empty.
   const std::vector<std::string>& materials() const { return materials_; }
   /// Names of the targets, in quotes.
   const std::vector<std::string>& tokens() const { return tokens_; }
 
   std::size_t memory_bytes() const;
-  /// Memory needed for one `add`, in bytes.
+  /// Memory needed for one call of `add`, in bytes.
   std::size_t encode_bytes() const;
 
  private:
@@ -71,10 +72,11 @@ class UsdaMesh {
 
   Index vertex_count_;
   Subdivision subdivision_;
-  std::string faces_;  ///< description of the mesh without positions, normals and colours
+  std::string faces_;  ///< the prim's text that is the same in all files (no positions, normals and
+                       ///< colours)
   std::vector<std::string> materials_;
-  std::vector<std::string> subsets_;  ///< polygons of each material
-  std::vector<std::string> shapes_;   ///< prim names of the targets
+  std::vector<std::string> subsets_;  ///< for each material, the text that lists its polygons
+  std::vector<std::string> shapes_;   ///< prim names of the blend shapes
   std::vector<std::string> tokens_;
   std::vector<std::string> indices_;  ///< formatted vertex indices of each target
   std::size_t target_rows_ = 0;       ///< upper bound of the number of displacements in all targets

@@ -15,12 +15,12 @@
 
 namespace crowdface {
 
-/// An additional mesh with its own topology and materials in the USD layers of faces. It is a
-/// sibling of the face's mesh and has the same blend-shape targets. Like `UsdaTemplate`, the object
-/// is built once.
+/// An additional mesh with its own topology and materials in the USD layers of faces. The prim of
+/// the additional mesh is a sibling of the face's mesh and has the same blend shapes. Like
+/// `UsdaTemplate`, the object is built once.
 class UsdaPart {
  public:
-  /// Part of a file's name that stands for the name of a PartLook.
+  /// Placeholder in file names. `PartLook::name` replaces it.
   static constexpr std::string_view kLookName = "<LOOK>";
 
   struct Material {
@@ -32,7 +32,7 @@ class UsdaPart {
   /// \param uvs  #T by 2; may be empty.
   /// \param materials  at least one.
   /// \param face_materials  #F indices into `materials`.
-  /// \param targets  names of the faces' targets.
+  /// \param targets  names of the blend shapes of the face's mesh.
   /// \param fixed  vertices with given normals.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
            const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
@@ -46,7 +46,7 @@ class UsdaPart {
   void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
                 std::span<const Displacements> moves, const std::string& what) const;
   /// Adds the part's materials below the root prim.
-  /// \param look  the name of the look replaces kLookName in file names.
+  /// \param look  its `name` replaces kLookName in file names.
   void add_materials(EncodedFile& file, const std::string& root, const PartLook& look) const;
 
   std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }
@@ -61,7 +61,7 @@ class UsdaPart {
   FixedNormals fixed_normals_;
 };
 
-/// A `UsdaPart` with its positions in the layer of one face.
+/// A `UsdaPart` and its positions for the layer of one face.
 struct PlacedUsdaPart {
   const UsdaPart* part;
   const Positions* positions;

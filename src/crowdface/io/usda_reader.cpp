@@ -42,7 +42,7 @@ struct Prim {
 };
 
 /// A rotation about axes by angles in degrees.
-/// \param order  of the rotations: "XYZ" rotates about x first
+/// \param order  order of the rotations; "XYZ" rotates about x first
 Eigen::Matrix3d turn_of(std::string_view order, const std::vector<double>& degrees) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -53,8 +53,8 @@ Eigen::Matrix3d turn_of(std::string_view order, const std::vector<double>& degre
   return turn;
 }
 
-/// The matrix of one transform operation: "xformOp:rotateXYZ:pivot". Unknown operations are the
-/// identity.
+/// The matrix of one transform operation, such as "xformOp:rotateXYZ:pivot". An unknown operation
+/// gives the identity.
 Eigen::Matrix4d matrix_of(std::string_view step, const std::vector<double>& numbers) {
   constexpr std::string_view kPrefix = "xformOp:";
   step.remove_prefix(std::min(kPrefix.size(), step.size()));
@@ -219,7 +219,8 @@ class UsdaReader {
     fail(concat("expected an index below ", count, ", found ", number));
   }
 
-  /// The values of a primvar and the row for each corner; empty if the prim has no such primvar.
+  /// Returns, for each corner, the row of its value in a primvar. Empty if the prim has no such
+  /// primvar.
   std::vector<std::uint32_t> rows_of_corners(const Prim& prim, const std::string& primvar,
                                              std::size_t width,
                                              const std::vector<std::uint32_t>& vertices) const {
@@ -249,7 +250,8 @@ class UsdaReader {
     return found == nullptr || found->texts.empty() ? std::string_view() : found->texts[0];
   }
 
-  /// The shader of a material to which an input is connected: </head/skin/colour.outputs:rgb>.
+  /// The shader of the same material to which an input of `shader` is connected, by a path such as
+  /// </head/skin/colour.outputs:rgb>. Null if there is none.
   static const Prim* connected(const Prim& material, const Prim& shader, std::string_view input) {
     std::string_view path = text_of(shader, concat(input, ".connect"));
     path = path.substr(0, path.find('.'));
@@ -258,7 +260,7 @@ class UsdaReader {
     return path.empty() || found == material.shaders.end() ? nullptr : &*found;
   }
 
-  /// The image files that the preview surface of a material names.
+  /// Adds the image files that the preview surface of a material uses.
   void add_textures(const Prim& material) {
     for (const Prim& surface : material.shaders) {
       if (text_of(surface, "info:id") != "UsdPreviewSurface") continue;
@@ -268,7 +270,7 @@ class UsdaReader {
         const Prim* texture = connected(material, surface, input);
         if (texture == nullptr || text_of(*texture, "info:id") != "UsdUVTexture") continue;
         std::string_view file = text_of(*texture, "inputs:file");
-        // The file may be an input of the material.
+        // The texture may get its file name from an input of the material.
         const std::string_view from = text_of(*texture, "inputs:file.connect");
         if (file.empty()) file = text_of(material, from.substr(from.rfind('.') + 1));
         if (file.empty()) continue;
@@ -342,7 +344,7 @@ class UsdaReader {
     topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
   }
 
-  /// The name of the material bound to the prim, or the prim's name.
+  /// The name of the material bound to the prim; without a bound material, the name of the prim.
   static std::string material_of(const Prim& prim) {
     const PrimProperty* binding = prim.find("material:binding");
     if (binding == nullptr || binding->texts.empty()) return std::string(prim.name);

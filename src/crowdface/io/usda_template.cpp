@@ -19,7 +19,8 @@ namespace {
 constexpr std::string_view kCreator = "string creator = \"crowdface\"";
 constexpr std::string_view kIdentity = "[((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))]";
 
-/// A transform that rotates `up` to +Y and `front` to +Z; empty if the stage supports that up axis.
+/// The text of a transform that rotates `up` to +Y and `front` to +Z. Empty if `up` can be the up
+/// axis of the USD stage.
 std::string turn_of(const GlbOptions& options) {
   const Axis up = options.up;
   if (up.sign > 0 && up.index > 0) return {};
@@ -37,7 +38,7 @@ std::string turn_of(const GlbOptions& options) {
                 "        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n");
 }
 
-/// The texture coordinates of overlaid faces on the overlay; all other vertices share one
+/// The primvar with the overlay's texture coordinates. Vertices without overlay share one
 /// coordinate.
 std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   std::vector<std::uint32_t> places(static_cast<std::size_t>(topology.vertex_count), 0);
@@ -55,7 +56,7 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   TextureCoordinates uvs = TextureCoordinates::Zero(static_cast<Index>(vertices.size()), 2);
   for (Index i = 1; i < uvs.rows(); ++i) {
     const auto& place = options.overlay->places[vertices[static_cast<std::size_t>(i)]];
-    // Measured from the left and lower edge
+    // USD measures texture coordinates from the left and the lower edge
     uvs.row(i) << place[0] / 65535.0, 1 - place[1] / 65535.0;
   }
   return concat("            texCoord2f[] primvars:st1 = ", usda_uvs(uvs),
@@ -91,8 +92,8 @@ UsdaMesh mesh_of(const Topology& topology, const TextureCoordinates& uvs, const 
   return {topology, uvs, form};
 }
 
-/// The prims that drive blend shapes: UsdSkel needs a skeleton; this one has a single joint that
-/// never moves.
+/// The prims that drive blend shapes. UsdSkel allows blend shapes only with a skeleton, so the text
+/// has a skeleton with a single joint that never moves.
 std::string skeleton_text(const std::string& root, std::span<const std::string> tokens) {
   const std::vector<std::string> weights(tokens.size(), "0");
   return concat(

@@ -19,7 +19,7 @@ namespace crowdface {
 /// as the primvar `st`, overlay coordinates as `st1`, material subsets bound to preview surfaces,
 /// and UsdSkel blend shapes if there are targets. Positions keep their unit, given by
 /// metersPerUnit. The stage's up axis is Y or Z; a transform rotates heads with another up axis to
-/// Y. Everything but vectors and names is formatted once.
+/// Y. All text except vectors and names is formatted only once.
 class UsdaTemplate {
  public:
   /// \param uvs  #T by 2; may be empty.
@@ -27,10 +27,10 @@ class UsdaTemplate {
   UsdaTemplate(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options,
                Subdivision subdivision);
 
-  /// The layer with these positions. The result references memory of this object.
+  /// Encodes the layer of one face. The result references memory of this object.
   /// \param normals  #V by 3, unit; not written for meshes with subdivision.
-  /// \param name  of the face and of the root prim, with characters replaced that USD does not
-  /// allow.
+  /// \param name  name of the face and of the root prim; characters that USD does not allow are
+  ///              replaced.
   /// \param moves  #targets displacements from `positions`.
   /// \param images  paths of the options' images, relative to the layer.
   /// \param points  #points by 3, in the positions' unit: child prims of the face's prim.
@@ -43,7 +43,7 @@ class UsdaTemplate {
                      std::span<const PlacedUsdaPart> parts = {},
                      const ColourRows& colours = {}) const;
 
-  /// Memory used by this object, and needed for one encode, in bytes.
+  /// Memory in bytes: used by this object, and needed to encode one file.
   std::size_t memory_bytes() const { return mesh_.memory_bytes(); }
   std::size_t encode_bytes() const { return mesh_.encode_bytes(); }
 

@@ -11,7 +11,8 @@
 
 namespace crowdface {
 
-/// A valid USD prim name for a text: letters, digits and '_', not beginning with a digit.
+/// Changes a text into a valid USD prim name, which has only letters, digits and '_' and does not
+/// begin with a digit.
 std::string usda_name(std::string_view text);
 
 /// Makes valid prim names unique by adding numbers to repeated names.
@@ -27,7 +28,7 @@ class UsdaNames {
 /// Formats a list: "[1, 2, 3]".
 std::string usda_list(std::span<const std::uint32_t> numbers);
 std::string usda_list(std::span<const std::string> items);
-/// `"text"`, with special characters escaped.
+/// The text in double quotes, with special characters escaped.
 std::string usda_string(std::string_view text);
 
 /// Formats rows as USD vectors, "(1,2,3),(4,5,6)", without enclosing brackets. Each number is the
@@ -40,8 +41,8 @@ std::string usda_rows(const Positions& rows);
 /// \param uvs  #T by 2
 std::string usda_uvs(const TextureCoordinates& uvs);
 
-/// The layer metadata for unit and up axis. The up axis is Y for heads whose up axis is neither Y
-/// nor Z.
+/// The metadata lines of a layer with unit and up axis. If `up` is neither the Y nor the Z axis,
+/// the layer's up axis is Y.
 std::string usda_layer_metadata(LengthUnit unit, Axis up);
 
 }  // namespace crowdface

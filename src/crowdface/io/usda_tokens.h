@@ -26,10 +26,11 @@ class UsdaTokens {
   UsdaToken next();
   /// Consumes a punctuation character if it is the next token. \return whether it was.
   bool consume(char sign);
-  /// Consumes everything up to the closing bracket of an open group.
+  /// Consumes everything up to the closing bracket of a group whose opening bracket is already
+  /// consumed.
   /// \return the interpolation named in the group.
   std::string skip_group();
-  /// All numbers of a value, ignoring brackets.
+  /// Consumes a value, which may have brackets, and returns all numbers in it.
   std::vector<double> read_numbers();
   /// \throws InvalidInput
   [[noreturn]] void fail(std::string_view what) const;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kBlock = 16384;
 
-/// Both directions of all polygon edges, grouped by their first vertex. An edge occurs once for
-/// each of its polygons.
+/// Both directions of all polygon edges, grouped by their first vertex. An edge occurs once in each
+/// direction for every polygon that has it.
 CompressedRows<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
   return compressed_rows<std::uint32_t>(
       static_cast<std::size_t>(topology.vertex_count), [&](const auto& put) {
@@ -35,7 +35,8 @@ CompressedRows<std::uint32_t> half_edges_by_vertex(const Topology& topology) {
 Adjacency build_adjacency(const Topology& topology) {
   CompressedRows<std::uint32_t> all = half_edges_by_vertex(topology);
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  // If a neighbour occurs only once in the list of a vertex, the edge between them has one polygon.
+  // If a neighbour occurs only once in the list of a vertex, the edge between the neighbour and the
+  // vertex has one polygon.
   std::vector<std::uint8_t> on_boundary(vertices, 0);
   std::vector<std::size_t> kept(vertices, 0);
   parallel_for_each(vertices, kBlock, [&](std::size_t i) {

@@ -17,18 +17,19 @@ struct Adjacency : CompressedRows<std::uint32_t> {
   Index vertex_count() const { return static_cast<Index>(group_count()); }
 };
 
-/// Finds the edge-neighbours of every vertex. An edge with three or more polygons counts as an
-/// edge, but not as a boundary edge. A polygon that names a vertex twice adds no edge from the
-/// vertex to itself.
+/// Finds the edge-neighbours of every vertex. Ends of an edge with three or more polygons are
+/// neighbours, but the edge is not on the boundary. A polygon that names a vertex twice adds no
+/// edge from the vertex to itself.
 Adjacency build_adjacency(const Topology& topology);
 
-/// The connected component of each vertex; edges connect vertices. Components are numbered in the
-/// order of their first vertices. An isolated vertex is its own component.
+/// The connected components of a mesh. Two vertices with a common edge are in the same component.
+/// Components are numbered in the order of their first vertices. An isolated vertex is its own
+/// component.
 struct Components {
   std::vector<std::uint32_t> component_of_vertex;  ///< #V: the component of each vertex
   std::vector<std::uint32_t> sizes;                ///< number of vertices in each component
   Index count() const { return static_cast<Index>(sizes.size()); }
-  /// The component with the most vertices: the skin.
+  /// Number of the component with the most vertices. On a head, this component is the skin.
   std::uint32_t largest() const;
 };
 Components find_components(const Adjacency& adjacency);

@@ -31,8 +31,8 @@ Turn turn_from(const Eigen::Matrix3d& covariance) {
 }  // namespace
 
 double Similarity::angle_degrees() const {
-  // Uses the skew-symmetric part and the trace: acos of the trace alone is inaccurate for small
-  // angles.
+  // Compute the angle from the skew-symmetric part (sine) and the trace (cosine), because acos of
+  // the trace alone is inaccurate for small angles.
   const double sine = 0.5 * std::sqrt(std::pow(rotation(2, 1) - rotation(1, 2), 2) +
                                       std::pow(rotation(0, 2) - rotation(2, 0), 2) +
                                       std::pow(rotation(1, 0) - rotation(0, 1), 2));

@@ -18,9 +18,8 @@ struct Similarity {
   Positions apply(const Eigen::Ref<const Positions>& positions) const;
 };
 
-/// Returns the rotation R that maximises trace(Rᵀ M). For M = Σ a_i b_iᵀ, no other rotation brings
-/// the points b_i closer to the points a_i in the least-squares sense. R is never a reflection.
-/// Source: Kabsch 1976.
+/// Returns the rotation R that maximises trace(Rᵀ M) for M = `covariance`. For M = Σ a_i b_iᵀ, R is
+/// the rotation that minimises Σ |a_i − R b_i|². R is never a reflection. Source: Kabsch 1976.
 Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance);
 
 enum class ScaleFit { kRigid, kUniform };

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// Disjoint sets of numbered items (union-find). At first each set holds one item.
+/// Disjoint sets of numbered items (union-find). At first, every item is in a separate set.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) {
@@ -28,8 +28,8 @@ class DisjointSets {
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  /// Makes `item` a set of its own again. Must be called for every item of a set, because items
-  /// that are left out would keep a wrong root.
+  /// Makes `item` a set of its own again. If it is called for one item of a set, it must be called
+  /// for all items of the set. Otherwise the remaining items may keep a wrong root.
   void release(std::uint32_t item) { parent_[item] = item; }
 
  private:

@@ -82,8 +82,8 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
                                double limit) {
   begin(std::span(&source, 1));
   if (goals.empty()) return;
-  // Compute a ball that contains all goals. A vertex whose distance from the ball exceeds the
-  // remaining length cannot reach any goal.
+  // Compute a ball that contains all goals. No path can reach a goal through a vertex whose
+  // distance from the ball exceeds the length that remains of `limit`.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const std::uint32_t goal : goals) middle += row3(positions_, goal);
   middle /= static_cast<double>(goals.size());

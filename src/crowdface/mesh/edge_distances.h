@@ -13,18 +13,19 @@
 namespace crowdface {
 
 /// Shortest distances from source vertices along the edges of a mesh (Dijkstra 1959). One object
-/// serves many searches; the cost of a search depends on the number of vertices that it reaches.
+/// can run many searches. The time of a search depends on the number of vertices that the search
+/// reaches.
 class EdgeDistances {
  public:
   /// The adjacency and the positions must outlive this object.
   EdgeDistances(const Adjacency& adjacency, const Positions& positions);
 
-  /// Finds all vertices within the distance `limit` of a source. Discards the results of the
-  /// previous search.
+  /// Finds all vertices whose distance from the nearest source is at most `limit`. Discards the
+  /// results of the previous search.
   void search(std::span<const std::uint32_t> sources,
               double limit = std::numeric_limits<double>::infinity());
 
-  /// Finds the distances from one source to the goals only. Skips each vertex through which no path
+  /// Finds only the distances from one source to the goals. Skips each vertex through which no path
   /// of length `limit` or less can lead to a goal. Stops when all goals are reached.
   void search_for(std::uint32_t source, std::span<const std::uint32_t> goals, double limit);
 
@@ -33,7 +34,7 @@ class EdgeDistances {
     return settled_[vertex] ? distances_[vertex] : std::numeric_limits<double>::infinity();
   }
   /// Index of the nearest source in the list of sources. If several sources are equally near, the
-  /// first of them. kNoIndex if the search did not reach the vertex.
+  /// first of these sources. kNoIndex if the search did not reach the vertex.
   std::uint32_t nearest_source(std::uint32_t vertex) const {
     return settled_[vertex] ? sources_[vertex] : kNoIndex;
   }
@@ -44,8 +45,8 @@ class EdgeDistances {
   using QueueEntry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
 
   void begin(std::span<const std::uint32_t> sources);
-  /// Settles vertices in the order of their distances until the queue is empty or `settled` returns
-  /// true.
+  /// Main loop of the search: makes the distances of vertices final, nearest vertex first, until
+  /// the queue is empty or `settled` returns true.
   /// \param may_lead  called with a distance and a vertex; returns whether the search continues
   ///                  from this vertex.
   template <class MayLead, class Settled>
@@ -53,16 +54,17 @@ class EdgeDistances {
 
   const Adjacency& adjacency_;
   const Positions& positions_;
-  std::vector<double> distances_;  ///< smallest distance found so far; final once settled
+  std::vector<double> distances_;  ///< smallest distance found so far; final when the vertex is
+                                   ///< settled
   std::vector<std::uint32_t> sources_, reached_, touched_;
   std::vector<bool> settled_;
   std::vector<QueueEntry> queue_;  ///< a heap; the nearest vertex comes first
 };
 
 /// Index in `sources` of the nearest source of each vertex along the edges, #V; kNoIndex if no
-/// source is connected to the vertex. If several sources are equally near, the path that the search
-/// finds first counts; the result is deterministic. Surfaces that almost touch, such as the lips,
-/// are far apart along the edges.
+/// source is connected to the vertex. If several sources are equally near, the result is the source
+/// whose path the search finds first, which is deterministic. Surfaces that almost touch, such as
+/// the lips, are far apart along the edges.
 std::vector<std::uint32_t> nearest_along_edges(const Adjacency& adjacency,
                                                const Positions& positions,
                                                std::span<const std::uint32_t> sources);

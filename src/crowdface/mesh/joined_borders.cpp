@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// #V: whether each vertex lies on an edge that has a polygon on one side only. A vertex without a
-/// polygon counts as a border vertex.
+/// Returns for each vertex whether it lies on an edge that has a polygon on one side only. A vertex
+/// without a polygon counts as a border vertex.
 std::vector<bool> border_vertices(const Topology& topology) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::vector<bool> is_border(static_cast<std::size_t>(topology.vertex_count), true);

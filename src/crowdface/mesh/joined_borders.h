@@ -8,12 +8,12 @@
 
 namespace crowdface {
 
-/// The vertices of a mesh after its seams are closed: copies of a vertex become one joined vertex.
+/// The vertices of a mesh after its seams are closed. All copies of a vertex become one joined
+/// vertex.
 struct JoinedBorders {
   std::vector<std::uint32_t>
       joined_vertex;  ///< #V: index of the joined vertex that each vertex becomes
-  std::vector<std::uint32_t>
-      first_copies;  ///< #joined: the first copy of each joined vertex, ascending
+  std::vector<std::uint32_t> first_copies;  ///< for each joined vertex, its first copy; ascending
 };
 
 /// Joins vertices that have the same position and lie on border edges. Exporters make such copies

@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-/// The axis along which the points extend farthest; the first such axis if there are several.
+/// The axis along which the points extend farthest; the first axis if several extents are equal.
 Index widest_axis(const MedianSplitTree::Points& points, std::span<const std::uint32_t> rows) {
   Index widest = 0;
   double width = -1;

@@ -9,10 +9,9 @@
 namespace crowdface {
 
 /// The tree of a bounding volume hierarchy, without the boxes. Each inner node splits its points at
-/// the median of the axis along which they extend farthest. The users of the tree store the boxes
-/// of its nodes. All hierarchies of crowdface use this tree, except that rendering uses Embree. The
-/// last bits of Embree's results depend on the processor; plans and meshes must not depend on the
-/// processor.
+/// the median of the axis along which they extend farthest. The code that uses the tree stores the
+/// boxes of the nodes. Only rendering uses Embree instead of this tree: the last bits of Embree's
+/// results depend on the processor, which is not allowed for plans and meshes.
 struct MedianSplitTree {
   struct Node {
     std::uint32_t begin, end;  ///< range in `order`; begin is a multiple of the leaf size

@@ -26,19 +26,20 @@ struct MirrorMap {
   MirrorPlane plane;
   std::vector<Triangle> corners;  ///< #V: the triangle that holds the mirror point of each vertex
   std::vector<std::array<double, 3>>
-      shares;  ///< #V: barycentric coordinates of the mirror point; {1, 0, 0} if it is a vertex
+      shares;  ///< #V: barycentric coordinates of the mirror point; {1, 0, 0} if the mirror point
+               ///< is a vertex
   std::vector<std::uint32_t> unpaired;  ///< vertices without a mirror point, ascending
   /// #unpaired by 3: offsets that are added to the mirror images of the unpaired vertices, so that
-  /// the mean head keeps its shape there.
+  /// mirroring moves these vertices of the mean head only a little.
   Positions unpaired_offsets;
 
   /// Whether the mirror point of vertex v is a vertex.
   bool is_vertex(std::uint32_t v) const { return shares[v][0] == 1; }
 };
 
-/// M(A), #V by 3: the mirrored head. Each vertex moves to the mirror image of its mirror point in
-/// A. If all mirror points are vertices and the plane is a coordinate plane, M(M(A)) is bitwise
-/// equal to A.
+/// Returns the mirrored head M(A), #V by 3, for a head A = `positions`. Each vertex moves to the
+/// mirror image of the place that its mirror point has in A. If all mirror points are vertices and
+/// the plane is a coordinate plane, M(M(A)) is bitwise equal to A.
 Positions mirrored(const MirrorMap& map, const Positions& positions);
 
 /// Returns (1 − w)·A + w·M(A) for given A and M(A). The result is bitwise equal to A for w = 0, to
@@ -46,8 +47,8 @@ Positions mirrored(const MirrorMap& map, const Positions& positions);
 Positions blend_with_mirrored(const Positions& positions, const Positions& image, double w);
 
 /// Weight of the mirror image in a head whose differences between left and right are scaled by the
-/// factor a = `asymmetry`: A' = (1 + a)/2·A + (1 − a)/2·M(A). If `mirrored` is true, A and M(A) are
-/// exchanged.
+/// factor a = `asymmetry`: A' = (1 + a)/2·A + (1 − a)/2·M(A). If `mirrored` is true, A and M(A)
+/// swap their weights.
 double mirrored_weight(double asymmetry, bool mirrored);
 
 }  // namespace crowdface

@@ -8,25 +8,25 @@
 
 namespace crowdface {
 
-/// For each normal (of a vertex, or a `vn` of a file), the polygons whose normals it sums; computed
-/// once for all meshes of a topology. With this list, threads sum the normals independently, and
-/// each sum always has the same order.
+/// For each normal (of a vertex, or of a `vn` line), the list of the polygons whose normals are
+/// added to get it. The lists are computed once for all meshes of a topology. With them, threads
+/// can compute normals independently, and each sum always has the same order.
 class NormalFans {
  public:
-  /// One normal for each vertex.
+  /// Makes the lists for one normal per vertex.
   explicit NormalFans(const Topology& topology);
   /// \param corner_rows  #C: the row of the normal that each corner uses, or kNoIndex.
   /// \param rows         number of normals.
   NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows, Index rows);
 
-  /// Unit normals, #rows by 3. Each is the normalised sum of the normals of the polygons that meet
-  /// at this row, in ascending order and weighted by area (Newell's method, so quads need not be
-  /// flat).
+  /// Unit normals, #rows by 3. Each is the normalised, area-weighted sum of the normals of its
+  /// polygons, added in ascending order of polygon number. Polygons need not be flat (Newell's
+  /// method).
   /// \param topology  the topology from which the fans were made.
   /// \param fallback  the normal of a row whose sum vanishes.
   Positions normals(const Topology& topology, const Positions& positions,
                     const Eigen::RowVector3d& fallback) const;
-  /// Computes the same normals from the result of face_area_vectors.
+  /// Computes the same normals; `areas` is the result of face_area_vectors.
   Positions normals(const Positions& areas, const Eigen::RowVector3d& fallback) const;
 
   Index rows() const { return static_cast<Index>(faces_.group_count()); }
@@ -41,7 +41,8 @@ class NormalFans {
 };
 
 /// Unit normals of the vertices, #V by 3, as NormalFans computes them; (0, 0, 1) where the sum
-/// vanishes. For many meshes of one topology, make the NormalFans once and use the second function.
+/// vanishes. For many meshes of one topology, it is faster to make one NormalFans and call its
+/// function `normals`.
 Positions vertex_normals(const Topology& topology, const Positions& positions);
 Positions vertex_normals(const NormalFans& fans, const Topology& topology,
                          const Positions& positions);

@@ -13,8 +13,8 @@ struct PolygonSample {
   double s = 0, t = 0;  ///< not negative; s + t is at most 1
 };
 
-/// Point number `number` of a low-discrepancy sequence in the plane (Roberts 2018), folded into one
-/// triangle of a polygon.
+/// A sample point in a polygon: point `number` of a low-discrepancy sequence in the unit square
+/// (Roberts 2018), mapped into one triangle of the polygon's fan.
 /// \param corners  number of corners of the polygon, at least three
 inline PolygonSample polygon_sample(std::size_t number, std::size_t corners) {
   const auto n = static_cast<double>(number);

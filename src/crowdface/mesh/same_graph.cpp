@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRounds = 12;                  ///< rounds of colour refinement
 constexpr std::size_t kMaxCandidates = 256;  ///< start corners that are tried for each component
-/// Limit of the total number of traversal steps, as a multiple of the number of corners.
+/// Limit of the number of all traversal steps together, as a multiple of the number of corners.
 constexpr std::size_t kMaxSteps = 64;
 
 std::uint64_t mixed(std::uint64_t x) {
@@ -25,7 +25,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ x >> 31U;
 }
 
-/// A mesh with the neighbour of each corner, for the traversal from polygon to polygon.
+/// A mesh and, for each corner, the opposite half-edge, for the traversal from polygon to polygon.
 class Graph {
  public:
   explicit Graph(const Topology& topology)
@@ -54,7 +54,8 @@ class Graph {
     const auto [begin, end] = topology_.corners(face_of_[corner]);
     return corner + 1 == end ? begin : corner + 1;
   }
-  /// The corner at which the opposite half-edge of the half-edge from `corner` starts, or kNoIndex.
+  /// Each corner starts a half-edge. Returns the corner that starts the opposite half-edge, or
+  /// kNoIndex.
   std::uint32_t twin(std::uint32_t corner) const { return twins_[corner]; }
   std::uint32_t face_size(std::uint32_t corner) const {
     const auto [begin, end] = topology_.corners(face_of_[corner]);
@@ -68,14 +69,14 @@ class Graph {
     return std::uint64_t{a} << 32U | b;
   }
 
-  /// Refines the colour of each vertex from the polygons around it. The result does not depend on
-  /// the order of the polygons.
+  /// Computes a finer colour of each vertex from the colours in the polygons around the vertex. The
+  /// result does not depend on the order of the polygons.
   void refine() {
     colours_.assign(static_cast<std::size_t>(topology_.vertex_count), 0);
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::uint64_t> sums(colours_.size(), mixed(static_cast<std::uint64_t>(round)));
       for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
-        // Hash the colours around the polygon, starting at this corner.
+        // Hash the colours of the polygon's vertices in order, starting at this corner.
         std::uint64_t seen = face_size(c) + (twins_[c] == kNoIndex ? 1000U : 0U);
         std::uint32_t at = c;
         for (std::uint32_t k = face_size(c); k > 1; --k) {
@@ -127,8 +128,8 @@ class Matcher {
   /// Matched vertices of a and b.
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-  /// One start corner for each edge-connected set of polygons. The corner's vertex has the rarest
-  /// colour of the set. Larger sets come first.
+  /// One start corner for each edge-connected set of polygons. The start corner's vertex has the
+  /// colour that is rarest in the set. Larger sets come first.
   std::vector<std::uint32_t> seeds() const {
     const Topology& topology = a_.topology();
     DisjointSets groups(static_cast<std::size_t>(topology.face_count()));
@@ -153,11 +154,13 @@ class Matcher {
     return seeds;
   }
 
-  /// Matches the component of a seed with a component of b. Tries all corners of b whose vertices
-  /// have the same colour as the seed's vertex, and keeps the match with the smallest distance.
+  /// Matches the component of a seed with a component of b. Starts from every corner of b whose
+  /// vertex has the same colour as the seed's vertex, and keeps the match with the smallest
+  /// distances between matched vertices.
   /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
-    // The match of this vertex in b, if a matched component shares the vertex; otherwise kNoIndex.
+    // If an earlier matched component contains the seed's vertex too, its match in b; otherwise
+    // kNoIndex.
     const std::uint32_t known = to_b_[a_.vertex(seed)];
     double best = std::numeric_limits<double>::infinity();
     std::optional<Pairs> nearest;
@@ -200,7 +203,8 @@ class Matcher {
       pairs.emplace_back(v, w);
       return true;
     };
-    // Traverse corresponding polygons of a and b and cross their edges to the next polygons.
+    // Walk over a and b at the same time: from each pair of corresponding polygons, cross
+    // corresponding edges to the next pair.
     while (fits && !open.empty()) {
       auto [c, d] = open.back();
       open.pop_back();
@@ -216,7 +220,8 @@ class Matcher {
         if (fits && e != kNoIndex) open.emplace_back(e, g);
       }
     }
-    // Undo all marks, because match_from compares the results of several traversals.
+    // Undo all marks of this traversal, because match_from tries further traversals and compares
+    // their results.
     for (const std::uint32_t f : faces) seen_[f] = false;
     for (const auto& [v, w] : pairs) {
       to_b_[v] = kNoIndex;
@@ -243,7 +248,7 @@ class Matcher {
     placed_ = fit_similarity(from, to, ScaleFit::kRigid).apply(at_b_);
   }
 
-  /// Matches the vertices without a polygon, in the order of their numbers.
+  /// Matches the vertices without a polygon in a with those in b, in the order of their numbers.
   bool match_loose() {
     std::uint32_t w = 0;
     for (std::uint32_t& in_b : to_b_) {
@@ -257,9 +262,9 @@ class Matcher {
 
   const Graph &a_, &b_;
   const Positions &at_a_, &at_b_;
-  Positions placed_;  ///< vertices of b in the coordinate frame of a
-  /// Whether placed_ is aligned by the first component. Otherwise only the centres of the two
-  /// meshes coincide.
+  Positions placed_;  ///< vertices of b, moved into the coordinate frame of a
+  /// Whether placed_ is already aligned by the matches of the first component. Before this, only
+  /// the centres of the two meshes coincide.
   bool is_aligned_ = false;
   std::size_t steps_left_;
   std::vector<std::uint32_t> to_b_, to_a_;

@@ -13,7 +13,8 @@ namespace crowdface {
 /// match is a graph isomorphism that preserves polygons and their orientation. The function refines
 /// vertex colours from the colours of the neighbours (Weisfeiler and Leman 1968), then traverses
 /// each component polygon by polygon from a vertex of the rarest colour. If a component matches in
-/// several ways, as a sphere does, the match with the smallest distances between positions counts.
+/// several ways, as a symmetric sphere does, the function takes the match with the smallest
+/// distances between positions.
 /// \return #V, for each vertex of `expected` the matching vertex of `found`. Nothing if the graphs
 ///         differ or if an edge has more than two polygons.
 std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,

@@ -8,7 +8,7 @@
 namespace crowdface {
 namespace {
 
-/// The edges of all polygons, each edge once, sorted by their ends.
+/// The edges of all polygons. Each edge occurs once; edges are sorted by their end vertices.
 struct Edges {
   std::vector<std::pair<std::uint32_t, std::uint32_t>>
       ends;  ///< #E: ends of each edge, first < second
@@ -47,7 +47,9 @@ Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& ind
   return edges;
 }
 
-/// The corners of the new quads, in the order: old index, edge point, face point, edge point.
+/// The corners of the new quads. A quad lists the old corner, the new point on the edge to the next
+/// corner, the face point (the new point of the polygon), and the new point on the edge from the
+/// previous corner.
 std::vector<std::uint32_t> split_corners(const Topology& topology,
                                          const std::vector<std::uint32_t>& indices,
                                          const Edges& edges, std::size_t index_count) {
@@ -80,8 +82,8 @@ Rows face_means(const Topology& topology, const std::vector<std::uint32_t>& indi
   return means;
 }
 
-/// New positions of the old vertices. First sums over the polygons and edges of each vertex, then
-/// applies one formula per vertex.
+/// New positions of the old vertices. Adds up the polygons and edges at each vertex, then applies
+/// one formula per vertex.
 Positions move_vertices(const Mesh& mesh, const Edges& edges, const Positions& faces) {
   const Index n = mesh.topology.vertex_count;
   Positions face_sum = Positions::Zero(n, 3), edge_sum = face_sum, rim_sum = face_sum;
@@ -131,7 +133,8 @@ Positions edge_points(const Mesh& mesh, const Edges& edges, const Positions& fac
   for (Index e = 0; e < count; ++e) {
     const auto [a, b] = edges.ends[static_cast<std::size_t>(e)];
     const Eigen::RowVector3d ends = mesh.positions.row(a) + mesh.positions.row(b);
-    // Interior edge: mean of both ends and both face points. Boundary edge: midpoint.
+    // The new vertex of an interior edge is the mean of the edge's two ends and the two adjacent
+    // face points. The new vertex of a boundary edge is the midpoint.
     const bool inside = edges.faces[static_cast<std::size_t>(e)] == 2;
     points.row(e) =
         inside ? Eigen::RowVector3d((ends + of_faces.row(e)) / 4) : Eigen::RowVector3d(ends / 2);

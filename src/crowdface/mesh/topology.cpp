@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// Lists indices counted from 1, such as "1 2 3 4"; a corner without an index appears as "none".
+/// Writes indices as text, counted from 1, such as "1 2 3 4". kNoIndex appears as "none".
 std::string list_from_one(std::span<const std::uint32_t> indices) {
   std::string out;
   for (const std::uint32_t index : indices) {

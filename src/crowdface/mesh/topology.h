@@ -23,7 +23,7 @@ using SingleRows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// Texture coordinates, #T by 2.
 using TextureCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-/// Marks a corner without a texture coordinate.
+/// Stands for a missing index, such as the texture coordinate of a corner that has none.
 inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 
 /// The polygons of a mesh: triangles, quads and larger polygons, stored as corners and offsets.
@@ -31,7 +31,8 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 struct Topology {
   Index vertex_count = 0;
   std::vector<std::uint32_t> corner_vertices;     ///< #C, each < vertex_count
-  std::vector<std::uint32_t> corner_uvs;          ///< #C rows of the UVs, or kNoIndex; may be empty
+  std::vector<std::uint32_t> corner_uvs;          ///< #C: rows of the texture coordinates, or
+                                                  ///< kNoIndex; may be empty
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1, ascending
 
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }
@@ -42,7 +43,8 @@ struct Topology {
     const auto [begin, end] = corners(f);
     return {corner_vertices.data() + begin, end - begin};
   }
-  /// The rows of the texture coordinates of polygon f; empty if the mesh has none.
+  /// For each corner of polygon f, the row of its texture coordinate; empty if the mesh has no
+  /// texture coordinates.
   std::span<const std::uint32_t> face_uvs(Index f) const {
     const auto [begin, end] = corners(f);
     if (corner_uvs.empty()) return {};
@@ -60,7 +62,7 @@ struct VertexFaces : CompressedRows<std::uint32_t> {
   explicit VertexFaces(const Topology& topology);
 };
 
-/// A complete mesh: generators produce it and writers write it.
+/// A complete mesh: topology, positions and texture coordinates.
 struct Mesh {
   Topology topology;
   Positions positions;     ///< #V by 3
@@ -72,14 +74,15 @@ struct Head {
   Positions positions;  ///< #V by 3
 };
 
-/// Heads that share one topology and its texture coordinates.
+/// Heads that share one topology and the same texture coordinates.
 struct HeadSet {
   Topology topology;
   TextureCoordinates uvs;
   std::vector<Head> heads;
 };
 
-/// Renumbers the used indices: consecutively from 0, in the same order.
+/// Gives the index values that occur new, consecutive numbers from 0. The order of the values
+/// stays.
 /// \param indices  each < count; replaced by the new numbers.
 /// \return the old number of each new number.
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr Index kFacesPerBlock = 4096;
 
-/// Flux of (position − middle) through the surface, divided by its largest possible value: 1 if all
-/// polygons face away from the middle, −1 if all face towards it.
+/// Flux of (position − middle) through the surface, as a fraction of the largest possible flux: 1
+/// if all polygons face away from the middle, −1 if all polygons face towards it.
 double outward_share(const Topology& topology, const Positions& positions, const Positions& areas,
                      const Eigen::RowVector3d& middle) {
   const auto sum = [&](auto&& term) {
@@ -43,7 +43,8 @@ float winding(const Topology& topology, const Positions& positions) {
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  // the magnitude of outward_share is 1 for a sphere, and about 0.3 for an open mask of a face
+  // the magnitude of outward_share is 1 for a sphere, and about 0.3 for an open surface such as the
+  // front of a head
   constexpr double kMinInwardShare = 0.2;
   constexpr double kFlat = 0.8;  // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
   const Positions areas = face_area_vectors(topology, positions);

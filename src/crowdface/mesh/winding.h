@@ -9,12 +9,13 @@ namespace crowdface {
 /// surface. Returns +1 otherwise.
 float winding(const Topology& topology, const Positions& positions);
 
-/// Reverses the orientation of all polygons: each keeps its first corner, and its other corners
+/// Reverses the orientation of all polygons: each polygon keeps its first corner; its other corners
 /// change to reverse order.
 void reverse_faces(Topology& topology);
 
 /// Whether the polygons of a mesh clearly face inwards. Directions are relative to the
-/// area-weighted centre, so that small parts next to a large open surface have little effect.
+/// area-weighted centre, so that small parts beside a large open surface have little effect on the
+/// result.
 bool is_inside_out(const Topology& topology, const Positions& positions);
 
 }  // namespace crowdface

@@ -21,14 +21,14 @@ using Eigen::Vector2d;
 
 constexpr int kBleed = 6;       // width in texels of the paint beyond a chart's border
 constexpr int kMaxRounds = 60;  // largest number of correction rounds
-/// Largest error of a sampled weight at which corrections stop: a fifth of an 8-bit step.
+/// Corrections stop when no sampled weight has a larger error than this: a fifth of an 8-bit step.
 constexpr double kGoodEnough = 0.2 / 255;
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The four texels, and their weights, from which sample_bilinear interpolates.
+/// The four texels from which sample_bilinear interpolates, and the weights of these texels.
 struct Texels {
   std::array<std::size_t, 4> at;
   std::array<double, 4> share;
@@ -43,7 +43,7 @@ class Canvas {
         painted_(count(), 0),
         value_(count() * regions_, 0) {}
 
-  /// Paints a triangle over unpainted texels.
+  /// Paints those texels of a triangle that are not painted yet.
   /// \param at  the corners of the triangle, in texels.
   void paint(const std::array<Vector2d, 3>& at, const std::array<const double*, 3>& weights) {
     const Vector2d low = at[0].cwiseMin(at[1]).cwiseMin(at[2]);
@@ -66,7 +66,8 @@ class Canvas {
     }
   }
 
-  /// Extends the paint by one texel: an unpainted texel gets the mean of its painted neighbours.
+  /// Extends the painted area by one texel: each unpainted texel beside it gets the mean of its
+  /// painted neighbours.
   void bleed() {
     const std::vector<std::uint8_t> before = painted_;
     for (int y = 0; y < size_; ++y) {
@@ -88,8 +89,8 @@ class Canvas {
     }
   }
 
-  /// Adjusts texels iteratively until the samples at given texture coordinates match given weights.
-  /// Each round distributes the error of every sample over the four texels of the sample.
+  /// Adjusts texels iteratively until samples at the given places match the given weights. Each
+  /// round distributes the error of every sample over the four texels of the sample.
   /// \param weights  #places: the weights that each sample should have.
   void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
     std::vector<float> sum(value_.size()), share(count());
@@ -133,7 +134,7 @@ class Canvas {
             {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t}};
   }
 
-  /// Converts weights to bytes. The rounding error goes to the largest byte, so that the bytes of a
+  /// Converts weights to bytes. The largest byte of a texel is adjusted, so that the bytes of the
   /// texel add up to 255.
   std::vector<std::vector<std::uint8_t>> images() const {
     const std::size_t images = (regions_ + kRegionsPerImage - 1) / kRegionsPerImage;
@@ -176,7 +177,7 @@ class Canvas {
   std::vector<float> value_;
 };
 
-/// The faces that have a corner in each tile.
+/// For each UDIM tile, the polygons that have a corner in the tile.
 std::map<int, std::vector<Index>> faces_by_tile(const Topology& topology,
                                                 const TextureCoordinates& uvs) {
   std::map<int, std::vector<Index>> tiles;
@@ -217,7 +218,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;
-    // Paint faces with priority first.
+    // Paint polygons with priority first.
     for (const bool turn : {true, false}) {
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);

@@ -26,24 +26,26 @@ struct PaintedMasks {
   std::size_t image_count() const { return tiles.empty() ? 0 : tiles.begin()->second.size(); }
 };
 
-/// Paints vertex weights into images in the texture's layout, such that region_weights reads the
-/// weights back. Paints each triangle with interpolated weights of its corners, extends the paint a
-/// few texels beyond the borders of the UV charts, and then adjusts texels until the sampled
-/// weights match the vertex weights as closely as the resolution allows.
+/// Paints vertex weights into mask images with the mesh's texture coordinates, such that
+/// `region_weights` reads the same weights from the images. Paints each triangle with interpolated
+/// weights of its corners, extends the paint a few texels beyond the borders of the UV charts, and
+/// then adjusts texels until the sampled weights match the vertex weights as closely as the
+/// resolution allows.
 /// \param alpha  #V by #R, not negative, rows summing to one.
-/// \param has_priority  #V, or empty for all: whether the vertex has priority, as the skin has over
-///                      eyes and lashes. Where polygons overlap in the texture, polygons whose
-///                      first corner has priority win; otherwise the polygon with the lower index
-///                      wins. Only the weights of vertices with priority are matched.
+/// \param has_priority  #V, or empty for all: whether the vertex has priority over other vertices;
+///                      for example, skin has priority over eyes and lashes. Where polygons overlap
+///                      in the texture, polygons whose first corner has priority win; otherwise the
+///                      polygon with the lower index wins. Only the weights of vertices with
+///                      priority are matched.
 /// \param size   texels per side, at least 1.
-/// \throws InvalidInput if there are no texture coordinates, a face lacks them, or a texture
-///         coordinate lies outside all UDIM tiles.
+/// \throws InvalidInput if there are no texture coordinates, a polygon lacks texture coordinates,
+///         or a texture coordinate lies outside all UDIM tiles.
 PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs,
                          const RegionWeights::Alpha& alpha, const std::vector<bool>& has_priority,
                          int size);
 
 struct MaskFiles {
-  /// #images: paths for the config, with <UDIM> if tiled.
+  /// #images: path of each mask image for the config; has <UDIM> if there are several tiles.
   std::vector<std::filesystem::path> masks;
   /// Path and content of each PNG file.
   std::vector<std::pair<std::filesystem::path, std::string>> files;
@@ -51,8 +53,8 @@ struct MaskFiles {
 
 /// Encodes mask images as PNG.
 /// \param path  path of the first image; may contain <UDIM>. If there are several tiles and the
-///              path has no <UDIM>, the function adds <UDIM> before the extension. The numbers _2,
-///              _3, … of further images go before <UDIM>.
+///              path has no <UDIM>, the function adds <UDIM> before the extension. The names of
+///              further images have the numbers _2, _3, …, which stand before <UDIM>.
 MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -9,8 +9,9 @@
 
 namespace crowdface {
 
-/// The source of a mask's pixels: one image, or a set of UDIM tiles if the path contains <UDIM>.
-/// Reads an image only on request, so tiles that no texture coordinate uses may be missing.
+/// The source of a mask's pixels. It is one image or, if the path contains <UDIM>, a set of UDIM
+/// tiles. Reads an image only on request, so tiles in which no texture coordinate lies may be
+/// missing.
 class MaskSource {
  public:
   /// \param path  may contain <UDIM> (one or more times), which stands for a tile's number.

@@ -27,7 +27,7 @@ constexpr Index kBlock = 4096;
 
 struct LoadedTile {
   Image image;
-  std::vector<int> channels;  ///< channels that hold masks
+  std::vector<int> channels;  ///< indices of the image's channels that hold masks
 };
 
 /// A mask in memory: its tiles, or vertex weights.
@@ -35,7 +35,8 @@ struct LoadedMask {
   bool tiled = false;
   /// tiles by UDIM number; a single image has number kFirstTile
   std::map<int, LoadedTile> tiles;
-  std::optional<VertexWeights> weights;  ///< vertex weights, instead of tiles
+  std::optional<VertexWeights> weights;  ///< set if the mask is a file of vertex weights; then
+                                         ///< there are no tiles
   std::vector<std::string> names;        ///< #channels, if the file has channel names
 
   std::size_t channels() const {
@@ -52,7 +53,7 @@ struct LoadedMask {
     return sample_bilinear(tile.image, sample.u - column, sample.v - row, tile.channels[channel]);
   }
   /// The value of one channel at a vertex: the mean of the samples at the vertex's texture
-  /// coordinates; nothing if the vertex has none.
+  /// coordinates; nothing if the vertex has no texture coordinates.
   std::optional<double> at_vertex(Index vertex, std::span<const UvSample> samples,
                                   std::size_t channel) const {
     if (weights) {
@@ -65,8 +66,8 @@ struct LoadedMask {
   }
 };
 
-/// Returns the index of the channel to examine in a tile, which may differ between tiles of one
-/// mask.
+/// A function that returns which channel of a tile to examine. The index may differ between the
+/// tiles of one mask.
 using ChannelOf = std::function<int(const LoadedTile&)>;
 
 ChannelOf colour(std::size_t number) {
@@ -127,8 +128,8 @@ void use_alpha_of_constant_colours(LoadedMask& mask) {
   take_one_channel(mask, alpha());
 }
 
-/// Makes an image the mask of one region. Uses the grey value if all channels are equal, otherwise
-/// alpha.
+/// Reduces an image to the mask of one region. The mask is the grey value if all colour channels
+/// are equal, otherwise alpha.
 /// \throws InvalidInput if the image is coloured and alpha does not vary.
 void use_grey_or_alpha(LoadedMask& mask, const std::string& path) {
   if (mask.channels() < 2 || mask.tiles.empty()) return;
@@ -141,8 +142,8 @@ void use_grey_or_alpha(LoadedMask& mask, const std::string& path) {
 }
 
 /// Loads a mask's tiles or vertex weights; adds errors to `problems`.
-/// \param used    tiles that texture coordinates use.
-/// \param needed  the used tiles that must exist.
+/// \param used    UDIM numbers of the tiles in which texture coordinates lie.
+/// \param needed  those of the used tiles that must exist.
 LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::set<int>& needed,
                 Index vertices, Problems& problems) {
   LoadedMask mask;
@@ -209,7 +210,8 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
     }
     channels += static_cast<Index>(masks[i].channels());
   }
-  // A single channel suffices for two regions: the second gets 1 minus the first.
+  // A single channel suffices for two regions: the second region gets 1 minus the weight of the
+  // first.
   const bool second_gets_remainder = channels == 1 && regions == 2;
   if (channels < regions && !second_gets_remainder) {
     throw InvalidInput(concat("expected a mask channel for each of ", regions, " regions, found ",
@@ -217,7 +219,7 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
   }
 }
 
-/// The mask and channel that hold a region's weights.
+/// Indices of the mask and of the channel in it that hold a region's weights.
 struct RegionChannel {
   std::size_t mask = 0, channel = 0;
 };
@@ -237,7 +239,7 @@ bool is_colour_name(const std::string& name) {
 
 /// Finds the channels that have the names of regions, in the order of the regions. Returns nothing
 /// if no channel has such a name.
-/// \throws InvalidInput if a mask's channels have names and none of the names is a region.
+/// \throws InvalidInput if a mask's channels have names and no name is the name of a region.
 std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
     const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
     const std::vector<std::string>& regions) {
@@ -277,8 +279,8 @@ bool has_word(const std::string& file, const std::string& word) {
   return false;
 }
 
-/// The index of the image of each region, where there is one image per region. File names determine
-/// the order if all of them match regions.
+/// For each region, the index of its image, if there are as many images as regions. If all file
+/// names match regions, the file names decide; otherwise the order does.
 std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& sources,
                                            const std::vector<std::string>& regions) {
   std::vector<std::size_t> by_order(sources.size());
@@ -366,7 +368,7 @@ bool all_hold_vertex_weights(const std::vector<MaskSource>& masks) {
   });
 }
 
-/// The texture coordinates of all vertices; no coordinates if all masks are vertex weights.
+/// The texture coordinates of all vertices; empty if all masks are files of vertex weights.
 UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
                       const std::vector<MaskSource>& masks, const std::vector<bool>& needed) {
   if (all_hold_vertex_weights(masks)) {

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// The masks α_k of Eq. 7: the weight of each region at every vertex.
+/// The weight of each region at every vertex: the masks α_k of Eq. 7.
 struct RegionWeights {
   using Alpha = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Alpha alpha;  ///< #V by #R, not negative, rows sum to one
@@ -35,13 +35,13 @@ RegionWeights whole_head(const Topology& topology);
 ///   or its alpha if it is not grey. File names that match all regions determine the order.
 /// - If all colour channels are constant and alpha is not, alpha is the mask.
 /// - If there is one channel for two regions, the second region gets the remainder.
-///
-/// Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at v
-/// = 1. A UDIM sample comes from the tile that contains the coordinate; on a tile border, the mean
-/// coordinate of the corner's polygon decides. A single picture covers u and v in [0, 1];
-/// coordinates beyond are clamped. A vertex with several distinct texture coordinates gets the mean
-/// of the samples at these coordinates. The weights of a vertex are scaled to sum to one; if the
-/// sum is zero, or no face uses the vertex, the vertex belongs to the last region.
+///Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at v
+/// = 1. With UDIM tiles, a sample comes from the tile that contains the texture coordinate. If the
+/// coordinate lies on a tile border, the mean coordinate of the corner's polygon selects the tile.
+/// A single image covers u and v in [0, 1]; coordinates outside this range are clamped. A vertex
+/// with several distinct texture coordinates gets the mean of the samples at these coordinates. The
+/// weights of a vertex are scaled to sum to one; if the sum is zero, or no polygon uses the vertex,
+/// the vertex belongs to the last region.
 ///
 /// \param masks   may be empty if there is one region.
 /// \param needed  #V, or empty for all vertices. Tiles that none of these vertices use may be
@@ -57,8 +57,8 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
                              const std::vector<bool>& needed = {},
                              const std::vector<std::string>& names = {});
 
-/// Samples the first channel of a mask at every vertex, as in region_weights but without scaling.
-/// Returns zero for vertices that no face uses. Throws the errors of region_weights.
+/// Samples the first channel of a mask at every vertex, like region_weights, but does not scale the
+/// values. Returns zero for vertices that no polygon uses. Throws the errors of region_weights.
 /// \param needed  #V, or empty for all: vertices that must have texture coordinates.
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
                                 const MaskSource& mask, const std::vector<bool>& needed = {});

@@ -16,7 +16,7 @@
 namespace crowdface {
 namespace {
 
-/// The mean of a face's texture coordinates, over the corners that have one.
+/// The mean texture coordinate of a polygon. Corners without a texture coordinate do not count.
 Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const TextureCoordinates& uvs) {
   Eigen::RowVector2d sum(0, 0);
   double count = 0;
@@ -81,7 +81,7 @@ UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& 
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {
     const std::span<UvSample> places = corners.items_of(i);
     // Sort the samples, so that the last bits of their mean do not depend on the order of the
-    // faces.
+    // polygons.
     std::sort(places.begin(), places.end());
     kept[static_cast<std::size_t>(i)] =
         static_cast<std::size_t>(std::unique(places.begin(), places.end()) - places.begin());

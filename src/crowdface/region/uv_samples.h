@@ -13,28 +13,29 @@ namespace crowdface {
 /// A texture coordinate at which a mask is sampled for a vertex.
 struct UvSample {
   int tile = 0;  ///< UDIM number
-  double u = 0;  ///< coordinate as in the mesh file, not relative to the tile
+  double u = 0;  ///< texture coordinate as in the mesh file, not relative to the tile
   double v = 0;
   auto operator<=>(const UvSample&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The distinct texture coordinates of each vertex, collected from its corners. A coordinate on the
-/// border of two tiles occurs once for each tile that contains a polygon of the vertex.
+/// The distinct texture coordinates of each vertex, collected from its corners. If the coordinate
+/// lies on the border of tiles, it occurs once for each tile that holds a polygon of the vertex.
 using UvSamples = CompressedRows<UvSample>;
 
 /// The column (for u) or row (for v) of the tile that contains a corner's coordinate: the integer
-/// part of the coordinate. An integer coordinate lies on a tile border, where the mean coordinate
-/// of the corner's polygon decides.
+/// part of the coordinate. An integer coordinate lies on the border of two tiles; the mean
+/// coordinate of the corner's polygon selects one of these tiles.
 double tile_index(double coordinate, double polygon_mean);
 
-/// How a mask covers the texture coordinates. kOne: with one image; every sample's tile is
-/// kFirstTile. kUdim: with UDIM tiles.
+/// How a mask covers the texture coordinates. kOne means a single image; the tile of every sample
+/// is kFirstTile. kUdim means UDIM tiles.
 enum class Tiles { kOne, kUdim };
 
-/// Collects the texture coordinates of every vertex; a vertex that no face uses has none.
+/// Collects the texture coordinates of every vertex. The list of a vertex that no polygon uses is
+/// empty.
 /// \param needed  #V, or empty for all: vertices that must have a texture coordinate.
-/// \throws InvalidInput if a needed vertex of a face has no texture coordinate at any corner, or if
-///         a coordinate lies outside all UDIM tiles (for Tiles::kUdim).
+/// \throws InvalidInput if a needed vertex that some polygon uses has no texture coordinate at any
+///         corner, or if a coordinate lies outside all UDIM tiles (for Tiles::kUdim).
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles,
                             const std::vector<bool>& needed = {});
 

@@ -21,7 +21,8 @@ VertexWeights read_rows(const std::filesystem::path& path) {
   for (const std::string_view line : split_lines(bytes)) {
     ++line_number;
     std::string text(line.substr(0, line.find('#')));
-    // Spreadsheets that write decimal commas separate columns by semicolons.
+    // If there are semicolons, read commas as decimal points: spreadsheets that write decimal
+    // commas separate columns by semicolons.
     if (text.find(';') != text.npos) std::ranges::replace(text, ',', '.');
     std::ranges::replace_if(
         text, [](char c) { return c == ',' || c == ';'; }, ' ');

@@ -9,9 +9,10 @@
 
 namespace crowdface {
 
-/// Vertex weights in columns, for example painted in another program.
+/// A table of weights with one row per vertex and named or unnamed columns, for example painted in
+/// another program.
 struct VertexWeights {
-  NpyArray rows;                   ///< #V by columns
+  NpyArray rows;                   ///< one row of weights per vertex
   std::vector<std::string> names;  ///< names of the columns, if the file has a header line
 };
 

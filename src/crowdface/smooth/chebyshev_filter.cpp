@@ -11,17 +11,18 @@
 namespace crowdface {
 namespace {
 
-/// kTileRows: rows per tile. kStepsPerTurn: recurrence steps per round, after which tiles exchange
-/// their boundary rows. Measurements determined both values: a tile's two vectors and its part of
-/// the sums stay in a core's own cache (docs/benchmarks.md).
+/// kTileRows is the number of rows per tile. kStepsPerTurn is the number of recurrence steps per
+/// round; after each round, tiles exchange the rows at their borders. Measurements determined both
+/// values: a tile's two vectors and its part of the sums stay in a core's own cache
+/// (docs/benchmarks.md).
 constexpr Index kTileRows = 6144;
 constexpr int kStepsPerTurn = 8;
 
 template <class T>
 using RowVector = std::vector<Row<T>>;
 
-/// Number of the tile's own rows whose vertices are fixed. Fixed vertices have valence 0 and rows
-/// are sorted by valence, so these rows come first.
+/// Number of the tile's own rows whose vertices are fixed. These rows come first, because fixed
+/// vertices have valence 0 and rows are sorted by valence.
 std::uint32_t fixed_rows(const Tile& tile) {
   return tile.run_counts[0] == 0 ? tile.count : tile.runs[0].first;
 }
@@ -30,7 +31,8 @@ double coefficient(const ChebyshevSeries& series, Index k) {
   return k < static_cast<Index>(series.size()) ? series[static_cast<std::size_t>(k)] : 0;
 }
 
-/// The state of the recurrence for one input: T_k(W) x, T_{k−1}(W) x and the sums of its series.
+/// The state of the recurrence for one input x: T_k(W) x, T_{k−1}(W) x, and for each requested
+/// series the sum of its terms so far.
 template <class T>
 class Recurrence {
  public:
@@ -49,7 +51,7 @@ class Recurrence {
 
   Index terms() const { return terms_; }
 
-  /// Starts the sums of one tile with the term T_0.
+  /// Initialises the sums of one tile with the term k = 0 of each series.
   void begin(const Tile& tile) {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T a = static_cast<T>(input_.series[s][0]);
@@ -59,8 +61,8 @@ class Recurrence {
     }
   }
 
-  /// Runs up to kStepsPerTurn steps of the recurrence on one tile, starting at T_k, and adds the
-  /// new terms to the sums in the order of k.
+  /// Runs up to kStepsPerTurn steps of the recurrence on one tile, starting at T_k. Adds the new
+  /// terms to the sums, in ascending order of k.
   /// \param visit  called with each k and the tile's own rows of T_k(W) x.
   template <class Visit>
   void round(const Tile& tile, Index k, const Visit& visit) {
@@ -87,8 +89,8 @@ class Recurrence {
     previous_.swap(next_previous_);
   }
 
-  /// Moves the sums out. Fixed rows are recomputed as x times the sum of the coefficients, which is
-  /// exact.
+  /// Returns the sums and leaves this object without them. Recomputes fixed rows as x times the sum
+  /// of the coefficients, which is exact.
   std::vector<RowArray<T>> take_sums() {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T sum = static_cast<T>(coefficient_sum(input_.series[s]));
@@ -111,8 +113,8 @@ class Recurrence {
   void add_term(const Tile& tile, Index k, const Row<T>* term) {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const double a = coefficient(input_.series[s], k);
-      // Coefficients are zero at every second term of an umbrella series, and beyond the end of a
-      // short series.
+      // Skip zero coefficients. Every second coefficient of an umbrella series is zero, and so are
+      // all coefficients beyond the end of a short series.
       if (a == 0) continue;
       add_scaled<T>(static_cast<T>(a), term, tile.count, sums_[s].data() + tile.first);
     }
@@ -125,7 +127,8 @@ class Recurrence {
   Index terms_ = 1;
 };
 
-/// Finds the probes in each tile and copies the terms T_k(W) x at the probes.
+/// Knows which probes (vertices to record) lie in each tile, and copies the terms T_k(W) x at the
+/// probes.
 class ProbeRows {
  public:
   ProbeRows(const Tiling& tiling, Probes& probes) : probes_(probes), of_tile_(tiling.tiles.size()) {
@@ -159,7 +162,7 @@ class ProbeRows {
   std::vector<std::vector<Place>> of_tile_;
 };
 
-/// Columns 3·group to 3·group + 2 of x; row r of the result is row order[r] of x.
+/// Returns columns 3·group to 3·group + 2 of x. Row r of the result is row order[r] of x.
 template <class T, class Values>
 std::vector<Row<T>> rows_in_order(std::span<const std::uint32_t> order, const Values& x,
                                   Index group) {

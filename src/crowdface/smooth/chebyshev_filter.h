@@ -18,24 +18,25 @@ namespace crowdface {
 template <class T>
 struct FilterInput {
   std::vector<Row<T>> values;           ///< x, #V rows
-  std::vector<ChebyshevSeries> series;  ///< polynomials Σ_k a_k T_k(W) x to compute
+  std::vector<ChebyshevSeries> series;  ///< coefficients of the polynomials Σ_k a_k T_k(W) x to
+                                        ///< compute
 };
 
 /// The Chebyshev terms T_k(W) x at a few vertices, for every k. Any level at these vertices is a
 /// linear combination of the terms and needs no further filter pass.
 struct Probes {
   std::vector<std::uint32_t> vertices;
-  Columns values;  ///< #terms by 3·#vertices; written by the filter
+  Columns values;  ///< #terms by 3·#vertices: T_k(W) x at the vertices; the filter writes them
 };
 
-/// Evaluates polynomials of the one-ring mean W of one topology by the Chebyshev recurrence
-/// T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x. One pass evaluates all requested polynomials. One
-/// filter serves all heads of a topology. Results are bit-identical for any thread count, any
-/// instruction set and any positions passed to the constructor.
+/// Evaluates polynomials of the matrix W (the mean over a vertex's edge-neighbours) of one topology
+/// by the Chebyshev recurrence T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x. One pass evaluates all
+/// requested polynomials. One filter serves all heads of a topology. Results are bit-identical for
+/// any thread count, any instruction set, and any head whose positions the constructor gets.
 class ChebyshevFilter {
  public:
-  /// \param positions  #V by 3, any head of the topology. The filter uses them to group nearby
-  ///                   vertices into tiles; they affect only its speed.
+  /// \param positions  #V by 3, any head of the topology. The filter uses the positions to group
+  ///                   nearby vertices into tiles; the positions affect only the filter's speed.
   ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions);
 
   Index vertex_count() const { return static_cast<Index>(tiling_.vertex_of_row.size()); }
@@ -45,12 +46,13 @@ class ChebyshevFilter {
   /// #V: the row of each vertex.
   std::span<const std::uint32_t> row_of_vertex() const { return tiling_.row_of_vertex; }
 
-  /// Columns 3·group to 3·group + 2 of x, as rows in the filter's row order.
+  /// Returns columns 3·group to 3·group + 2 of x, with rows in the filter's row order.
   template <class T>
   std::vector<Row<T>> rows_of(const Columns& x, Index group = 0) const;
 
   /// Evaluates every series of every input.
-  /// \param probes  optional: receives T_k(W) x of the first input at `probes->vertices`.
+  /// \param probes  may be null; receives T_k(W) x of the first input at `probes->vertices`, for
+  ///                all k.
   /// \return        for each input, for each of its series: #V rows. Rows of fixed vertices are
   ///                exactly x times the sum of the series' coefficients.
   template <class T>
@@ -69,8 +71,8 @@ class ChebyshevFilter {
 std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
                                    std::vector<ChebyshevSeries> series);
 
-/// S_L x: positions after `level` smoothing iterations (Eq. 1), in O(√level) products with W. The
-/// result differs from `iterate` by less than 10⁻⁸ of the head's size.
+/// Computes S_L x, the positions after L = `level` smoothing iterations (Eq. 1), in O(√level)
+/// products with W. Results differ from those of `iterate` by less than 10⁻⁸ of the head's size.
 Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level);
 
 /// Computes S_L x for several levels L in one filter pass.

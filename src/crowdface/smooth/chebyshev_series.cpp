@@ -19,9 +19,9 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level, double tole
   if (level == 0) return {1.0};
   const bool lazy = kind == OperatorKind::kLazy;
   const double l = static_cast<double>(level);
-  // Umbrella: a_k = 2^{1−L} C(L, (L−k)/2) for k ≡ L (mod 2), so a_{k+2}/a_k = (L−k)/(L+k+2).
-  // Lazy: a_k = 2^{1−2L} C(2L, L−k), so a_{k+1}/a_k = (L−k)/(L+k+1).
-  // In both series a_0 is halved.
+  // For the umbrella operator: a_k = 2^{1−L} C(L, (L−k)/2) for k ≡ L (mod 2), so a_{k+2}/a_k =
+  // (L−k)/(L+k+2). For the lazy operator: a_k = 2^{1−2L} C(2L, L−k), so a_{k+1}/a_k =
+  // (L−k)/(L+k+1). In both series a_0 is halved.
   const std::uint64_t stride = lazy ? 1 : 2;
   const std::uint64_t start = lazy ? 0 : level % 2;
   ChebyshevSeries series(start, 0.0);
@@ -33,7 +33,8 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level, double tole
     const double kd = static_cast<double>(k);
     const double ratio = (l - kd) / (l + kd + static_cast<double>(stride));
     term *= ratio;
-    // The ratios decrease, so a geometric series bounds the remaining terms.
+    // The ratios of successive terms decrease, so a geometric series bounds the sum of the
+    // remaining terms.
     if (term <= tolerance * sum * (1 - ratio)) break;
   }
   const double total = accurate_sum(series);

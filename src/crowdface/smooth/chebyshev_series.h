@@ -8,29 +8,31 @@
 
 namespace crowdface {
 
-/// Coefficients a_0 … a_K of the polynomial Σ_k a_k T_k(W) in the one-ring mean W.
+/// Coefficients a_0 … a_K of the polynomial Σ_k a_k T_k(W), where W takes the mean over the
+/// edge-neighbours.
 using ChebyshevSeries = std::vector<double>;
 
 /// Truncation tolerance: the sum of the discarded coefficients, as a fraction of the sum of all
 /// coefficients.
 inline constexpr double kSeriesTolerance = 1e-10;
 
-/// The Chebyshev series of L = `level` smoothing iterations. It represents x^L for the umbrella
-/// operator and ((1 + x)/2)^L for the lazy operator. The umbrella series has about √(2 L
-/// ln(2/tolerance)) terms, the lazy series 1/√2 of that. The coefficients are not negative and sum
-/// to one, so constant fields and fixed boundaries stay unchanged. Level 0 gives exactly {1}.
-/// Source: Sachdeva & Vishnoi 2014, "Faster algorithms via approximation theory", thm 3.3. Each
-/// coefficient is computed from the ratio to the previous one, so that no level overflows
+/// The Chebyshev series of L = `level` smoothing iterations. The series represents x^L for the
+/// umbrella operator and ((1 + x)/2)^L for the lazy operator. The umbrella series has about √(2 L
+/// ln(2/tolerance)) terms, and the lazy series has 1/√2 as many terms. The coefficients are not
+/// negative and sum to one, so constant fields and fixed boundaries stay unchanged. Level 0 gives
+/// exactly {1}. Source: Sachdeva & Vishnoi 2014, "Faster algorithms via approximation theory", thm
+/// 3.3. Each coefficient is computed from the ratio to the previous one, so that no level overflows
 /// (docs/method.md).
 ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level,
                              double tolerance = kSeriesTolerance);
 
-/// The Chebyshev series of S_L − 1, which gives the displacement after L = `level` iterations.
+/// The Chebyshev series of S_L − 1. Applied to positions, it gives the displacements after L =
+/// `level` iterations.
 ChebyshevSeries displacement_series(OperatorKind kind, std::uint64_t level,
                                     double tolerance = kSeriesTolerance);
 
-/// The sum of the coefficients: the factor by which the series scales the value of a fixed vertex.
-/// Sums within rounding of 0 or 1 are returned as exactly 0 or 1.
+/// The sum of the coefficients. The series multiplies the value of a fixed vertex by this sum. Sums
+/// within rounding of 0 or 1 are returned as exactly 0 or 1.
 double coefficient_sum(const ChebyshevSeries& series);
 
 }  // namespace crowdface

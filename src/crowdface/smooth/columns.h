@@ -5,7 +5,8 @@
 
 namespace crowdface {
 
-/// #V by C values, one row per vertex: the coordinates of one or more heads side by side.
+/// A matrix with one row per vertex and C columns, for example the coordinates of one or more heads
+/// side by side.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Number of rows in each parallel task. The number is constant, so that results do not depend on

@@ -25,8 +25,8 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
   }
   // Least squares is linear in the data: c_p = Σ_l P_pl (S_{L_l} x − x), where P is the
   // pseudo-inverse of the design matrix. With fewer than four levels, P gives the smallest
-  // coefficients that interpolate the levels. Linearity makes it possible to combine the series of
-  // all levels into one series per field.
+  // coefficients that interpolate the levels. Because the fit is linear, the Chebyshev series of
+  // all levels can be combined into one series per field.
   const Eigen::MatrixXd fit =
       design.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(count, count));
   std::vector<ChebyshevSeries> combined(CubicFit::kRank);

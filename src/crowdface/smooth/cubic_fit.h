@@ -19,7 +19,8 @@ struct CubicFit {
   LevelFields fields;  ///< c_0 … c_3
 };
 
-/// Number of steps: the fit uses levels_dense_at_start(max_level, kCubicFitSteps), as in the paper.
+/// The fit uses the levels that levels_dense_at_start returns for this number of steps, as in the
+/// paper.
 inline constexpr int kCubicFitSteps = 40;
 
 /// Fits the cubic functions to one head. The recurrence accumulates the fields c_0 … c_3 directly,

@@ -35,7 +35,8 @@ void round_to_int16(const float* from, std::size_t count, float scale, std::int1
 
 /// Multiplies and adds with separate rounding (no FMA), so that the number of fields kept does not
 /// depend on the instruction set. For each level, adds up the fields from the last to the first
-/// until their sum exceeds the limit; the field added last and all fields before it must be kept.
+/// until the sum exceeds the limit. The tile must keep the field at which this happens and all
+/// fields before it.
 TruncationError choose_fewest_fields(const float* fields, std::size_t count, const float* functions,
                                      std::size_t stride, std::size_t levels, float most) {
   const Lanes lanes;

@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t kPatchesPerTask = 16;
 
-/// Weights w_p such that |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each of the levels and any error
-/// vectors e_p. w_p is the largest |φ_p| over the levels, times the factor from the Cauchy–Schwarz
-/// inequality.
+/// Returns weights w_p that bound the error of a sum: |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each
+/// of the levels L and any error vectors e_p. w_p is the largest |φ_p| over the levels, times the
+/// factor from the Cauchy–Schwarz inequality.
 std::vector<double> error_weights(const HeadLevels& head, std::span<const std::uint64_t> levels) {
   std::vector<std::vector<double>> functions;
   functions.reserve(levels.size());
@@ -41,18 +41,19 @@ std::vector<double> error_weights(const HeadLevels& head, std::span<const std::u
   return weights;
 }
 
-/// The data of a sequence of patches under construction; see PatchLists.
+/// The lists of a sequence of patches while the patches are made; see PatchLists.
 struct MadePatches {
   std::vector<std::uint32_t> skeletons, counts;
   std::vector<float> steps, weights;
   std::vector<std::int16_t> numbers;
 };
 
-/// Chooses the skeletons of patches. Each thread needs its own instance.
+/// Chooses the skeleton of each patch (the vertices from which all others are interpolated) and
+/// computes the patch's data. Each thread needs its own instance.
 class PatchMaker {
  public:
   /// \param heads, weights  must outlive this object.
-  /// \param weights         result of error_weights for each head.
+  /// \param weights         for each head, the result of error_weights.
   PatchMaker(std::span<const HeadLevels> heads, const std::vector<std::vector<double>>& weights,
              double tolerance)
       : heads_(heads), error_weights_(weights), tolerance_(tolerance) {}
@@ -102,14 +103,15 @@ class PatchMaker {
     }
   }
 
-  /// Chooses the skeleton, from which all rows are interpolated, by a pivoted Cholesky factorization of the Gram matrix of the vertices.
-  /// The pivot is the vertex with the largest error; the remaining diagonal holds the squared error
-  /// of each vertex. Stops when all errors are within the tolerance.
+  /// Chooses the skeleton (the vertices from whose rows all rows are interpolated) by a pivoted
+  /// Cholesky factorization of the vertices' Gram matrix. In each step, the vertex with the largest
+  /// error becomes the pivot. The diagonal that remains holds the squared error of each vertex.
+  /// Stops when all errors are within the tolerance.
   void choose_skeleton(std::span<const std::uint32_t> vertices, std::size_t fields) {
     skeleton_.clear();
     factor_.clear();
-    // A larger skeleton of s vertices would cost more than storing all vertices:
-    // s·#fields + s·kPatchVertices > kPatchVertices·#fields.
+    // The largest useful skeleton. With more vertices s, it would take more memory than storing all
+    // vertices: s·#fields + s·kPatchVertices > kPatchVertices·#fields.
     const std::size_t most = kPatchVertices * fields / (fields + kPatchVertices);
     fill_columns(vertices, fields);
     PatchColumn left{};
@@ -123,8 +125,8 @@ class PatchMaker {
       const auto pivot = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
       if (left[pivot] <= tolerance_ * tolerance_) return;
       if (skeleton_.size() >= std::min(most, vertices.size() - 1)) break;
-      // Next column of the factor: the Gram matrix's column minus its projection onto earlier
-      // columns.
+      // The next column of the factor is the column of the Gram matrix minus its projection onto
+      // the earlier columns.
       PatchColumn& next = factor_.emplace_back();
       row_products(columns_.data(), 3 * fields, pivot, next.data());
       for (std::size_t j = 0; j + 1 < factor_.size(); ++j) {
@@ -145,8 +147,9 @@ class PatchMaker {
     for (std::size_t i = 0; i < vertices.size(); ++i) skeleton_[i] = i;
   }
 
-  /// Appends the interpolation weights, #skeleton by kPatchVertices. Back substitution finds, for
-  /// each vertex, the combination of the skeleton's rows of the factor that gives the vertex's row.
+  /// Appends the interpolation weights, #skeleton by kPatchVertices. For each vertex, back
+  /// substitution finds the linear combination of the factor's rows at the skeleton vertices that
+  /// equals the factor's row at this vertex.
   void add_weights(std::vector<float>& to) const {
     const std::size_t size = skeleton_.size();
     std::vector<PatchColumn> weights(size);
@@ -166,7 +169,7 @@ class PatchMaker {
     }
   }
 
-  /// Quantizes the fields at the skeleton.
+  /// Quantizes the fields at the vertices of the skeleton, and appends them.
   void add_numbers(std::span<const std::uint32_t> vertices, MadePatches& made) {
     const std::size_t size = skeleton_.size(), values = FieldPatch::values_of(size);
     for (std::size_t h = 0; h < heads_.size(); ++h) {
@@ -199,13 +202,13 @@ class PatchMaker {
   std::vector<std::size_t> skeleton_;
 };
 
-/// The memory behind the spans of PatchLists.
+/// Owns the memory that the spans of PatchLists refer to.
 struct OwnedPatches {
   std::vector<std::uint32_t> vertices;
   MadePatches made;
 };
 
-/// Concatenates the member `list` of all parts, and clears it in each part.
+/// Concatenates the member `list` of all parts, and empties `list` in each part.
 template <class T>
 std::vector<T> join(std::vector<MadePatches>& parts, std::vector<T> MadePatches::*list) {
   std::size_t count = 0;
@@ -292,7 +295,7 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
 std::vector<std::uint32_t> patch_order(const Positions& positions, double max_distance) {
   constexpr std::uint32_t kLongest = 32;
   const auto vertices = static_cast<std::uint32_t>(positions.rows());
-  // The first vertex of each run, followed by the number of vertices.
+  // The first vertex of each run. At the end, the number of all vertices is appended.
   std::vector<std::uint32_t> firsts;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     const bool goes_on = !firsts.empty() && v - firsts.back() < kLongest &&

@@ -15,25 +15,28 @@
 namespace crowdface {
 
 /// The fitted levels of one head: S̃_L x = x + Σ_p φ_p(L)·c_p, with vector fields c_p and level
-/// functions φ_p, from a LevelBasis or the paper's CubicFit.
+/// functions φ_p, which come from a LevelBasis or the paper's CubicFit.
 struct HeadLevels {
   LevelFields fields;                                                 ///< c_p
   std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
 };
 
-/// The fields of all heads at one patch, which is a group of nearby vertices.
+/// The fields of all heads at the vertices of one patch. A patch is a group of nearby vertices.
 struct FieldPatch {
-  std::span<const std::uint32_t> vertices;  ///< vertices of the mesh, ascending
-  /// #heads: number of leading fields that the patch stores of each head.
+  std::span<const std::uint32_t> vertices;  ///< the vertices of the patch, as ascending vertex
+                                            ///< numbers of the mesh
+  /// #heads: for each head, how many of its leading fields the patch stores.
   std::span<const std::uint32_t> counts;
-  std::size_t fields = 0;        ///< number of fields of all heads, the sum of `counts`
+  std::size_t fields = 0;        ///< number of stored fields of all heads together, the sum of
+                                 ///< `counts`
   std::size_t skeleton = 0;      ///< number of skeleton vertices, at which fields are stored
   const float* steps = nullptr;  ///< #fields quantization steps: powers of two, or zero
-  /// #fields by values(), in quantization steps: x of all skeleton vertices, then all y, then all
-  /// z, then zero padding.
+  /// #fields by values(), in multiples of the quantization step. For each field: x of all skeleton
+  /// vertices, then all y, then all z, then zeros as padding.
   const std::int16_t* numbers = nullptr;
   /// #skeleton by kPatchVertices: the value of a field at vertex v is Σ_s weights[s][v]·(value at
-  /// skeleton vertex s). Null if the skeleton is all vertices, in their order.
+  /// skeleton vertex s). Null if the skeleton consists of all vertices of the patch, in the order
+  /// of `vertices`.
   const float* weights = nullptr;
 
   /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
@@ -72,8 +75,8 @@ class FieldPatches {
   FieldPatches() = default;
   /// Makes the patches from stored lists, if the lists are valid.
   /// \param ranks  #heads: number of fields of each head.
-  /// \return       nothing if `interpolate_fields` could not have made these lists for heads with
-  ///               these numbers of fields.
+  /// \return       nothing if the lists are not valid: `interpolate_fields` never makes such lists
+  ///               for heads with these numbers of fields.
   static std::optional<FieldPatches> from_lists(PatchLists lists, Index vertex_count,
                                                 std::span<const Index> ranks);
 
@@ -92,9 +95,9 @@ class FieldPatches {
   std::vector<Patch> patches_;
 };
 
-/// All vertices in the order in which they are cut into patches: along a space-filling curve
-/// (hilbert_order). Runs of up to 32 vertices with consecutive numbers and small distances stay
-/// together, so that blended faces are written in longer contiguous pieces.
+/// All vertices along a space-filling curve (hilbert_order). Patches are consecutive ranges of this
+/// order. Runs of up to 32 vertices with consecutive numbers and small distances stay together, so
+/// that blending writes the vertices of a face in longer contiguous pieces.
 /// \param positions  #V by 3, any head of the topology.
 /// \param max_distance  largest distance between consecutive vertices of a run, in the unit of the
 ///                   positions.
@@ -102,12 +105,12 @@ std::vector<std::uint32_t> patch_order(const Positions& positions, double max_di
 
 /// Compresses the fields of all heads patch by patch.
 /// \param heads      at least one head; all of the same mesh.
-/// \param levels     levels at which the error is bounded.
+/// \param levels     levels at which the error must not exceed `tolerance`.
 /// \param order      #V: all vertices, consecutive vertices close to each other (patch_order).
-/// \param tolerance  largest compression error of any vertex of any head at any of the levels, in
-///                   the unit of the positions. Rounding to quantization steps adds to this error;
-///                   no step of a patch exceeds the largest step of the tiles that contain the
-///                   patch's vertices.
+/// \param tolerance  largest allowed compression error of any vertex of any head at any of the
+///                   levels, in the unit of the positions. Rounding to quantization steps adds to
+///                   this error; no step of a patch exceeds the largest step of the tiles that
+///                   contain the patch's vertices.
 /// \param progress   any thread calls this function with the number of patches that the thread has
 ///                   just finished. If the function throws an exception, the work stops.
 FieldPatches interpolate_fields(

@@ -12,8 +12,8 @@ inline constexpr std::size_t kTileValues = 3 * kTileVertices;
 
 /// Vertices per patch (FieldPatches); the last patch may have fewer.
 inline constexpr std::size_t kPatchVertices = 128;
-/// Each field's row of values is padded to a multiple of this number, so that rows consist of whole
-/// vectors on any instruction set.
+/// The number of values of each field in a patch is padded to a multiple of this number, so that
+/// the values fill whole SIMD vectors on any instruction set.
 inline constexpr std::size_t kPatchPadding = 16;
 
 }  // namespace crowdface

@@ -9,7 +9,7 @@ namespace crowdface {
 Columns iterate(const SmoothingOperator& smoothing, const Columns& values, std::uint64_t level) {
   require(values.rows() == smoothing.vertex_count(), "smooth: ", values.rows(), " rows for ",
           smoothing.vertex_count(), " vertices");
-  // Deliberately simple code: the reference for tests of the fast filter.
+  // This code is deliberately simple, because tests of the fast filter use it as the reference.
   Columns now = values, next(values.rows(), values.cols());
   for (std::uint64_t l = 0; l < level; ++l) {
     parallel_for_each(values.rows(), kRowsPerTask, [&](Index i) {

@@ -15,8 +15,8 @@ namespace {
 
 using FieldRows = RowArray<float>;
 
-/// Truncation tolerance of the Chebyshev series of each node, relative to the head's size: about
-/// 10⁻⁴ mm.
+/// Truncation tolerance of the Chebyshev series of each node, as a fraction of the head's size. On
+/// a head it is about 10⁻⁴ mm.
 constexpr double kFieldSeriesTolerance = 1e-6;
 /// Number of vertices at which the exact filter is recorded, to measure the error of the basis.
 constexpr std::size_t kProbes = 1024;
@@ -24,7 +24,8 @@ constexpr std::size_t kProbes = 1024;
 constexpr std::size_t kSampleRows = 4096;
 constexpr Index kTilesPerTask = 64;
 
-/// Every n-th of `count` rows, with the smallest n that gives at most `most` rows.
+/// Returns every n-th row of `count` rows, where n is the smallest number that leaves at most
+/// `most` rows.
 std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
   const std::size_t stride = (count + most - 1) / most;
   std::vector<std::uint32_t> rows;
@@ -32,9 +33,9 @@ std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
   return rows;
 }
 
-/// Samples the rows from which the directions are computed. Half of the rows are evenly spaced. The
-/// other half takes from each block the row that moves most in the first iteration, because a few
-/// fields fit such rows worst.
+/// Chooses the rows (vertices) from which the principal directions are computed. Half of them are
+/// evenly spaced. For the other half, each block of rows gives the row that moves most at the first
+/// node (level 1), because a small number of fields fits such rows worst.
 NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacements) {
   const FieldRows& first = displacements.front();
   const auto moved = [&](std::size_t r) {
@@ -60,10 +61,10 @@ NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacemen
   return sample;
 }
 
-/// Chooses the number of fields that each tile of vertices keeps, and quantizes them.
+/// Chooses how many fields each tile of vertices keeps, and quantizes these fields.
 class TileFitter {
  public:
-  /// \param tolerance  bound of the sum of truncation error and rounding error.
+  /// \param tolerance  largest allowed sum of truncation error and rounding error.
   TileFitter(const ChebyshevFilter& filter, const std::vector<FieldRows>& displacements,
              const Directions& directions, double tolerance)
       : filter_(filter),
@@ -92,7 +93,7 @@ class TileFitter {
   struct FittedTiles {
     FieldTiles fields;
     double max_error = 0;
-    std::size_t level = 0;  ///< index among the tested levels
+    std::size_t level = 0;  ///< index of the worst level in the list of tested levels
   };
   FittedTiles fit(Index first_tile, Index end_tile) const {
     FittedTiles fitted;
@@ -102,8 +103,8 @@ class TileFitter {
       const auto of_field = [&](std::size_t p) {
         return std::span(std::as_const(by_vertex)).subspan(p * kTileValues, kTileValues);
       };
-      // Skip trailing fields whose error bounds have a negligible sum, without computing their
-      // error at each level.
+      // Omit trailing fields as long as the sum of their error bounds is negligible. This avoids
+      // computing their error at each level.
       std::size_t looked_at = count_;
       double skipped = 0;
       for (; looked_at > 0; --looked_at) {
@@ -117,7 +118,7 @@ class TileFitter {
         const double half_a_step = 0.5 * static_cast<double>(quantization_step(of_field(p)));
         rounded.push_back(rounded.back() + peaks_[p] * std::sqrt(3.0) * half_a_step);
       }
-      // Keep the fewest of the remaining fields that meet the tolerance.
+      // Of the other fields, keep the smallest number that meets the tolerance.
       const double most =
           std::min(tolerance_ - rounded.back(), kTruncationShare * tolerance_) - skipped;
       const TruncationError left_out =
@@ -136,11 +137,12 @@ class TileFitter {
   }
 
  private:
-  /// The truncation error may use this share of the tolerance. Adjacent tiles keep different
-  /// fields, and a larger share would show a crease between them. With 1/8, normals are as close to
-  /// the exact normals as when all tiles keep the same fields (docs/method.md).
+  /// The truncation error may use this fraction of the tolerance. Adjacent tiles keep different
+  /// numbers of fields; with a larger fraction, a crease would be visible between the tiles. With
+  /// 1/8, normals are as close to the exact normals as when all tiles keep the same fields
+  /// (docs/method.md).
   static constexpr double kTruncationShare = 0.125;
-  /// The share of the tolerance for trailing fields that are skipped without evaluation.
+  /// The fraction of the tolerance that trailing fields omitted without evaluation may use.
   static constexpr double kSkippedShare = 0.01;
 
   static double longest(std::span<const float> vectors) {
@@ -152,7 +154,8 @@ class TileFitter {
     return std::sqrt(static_cast<double>(most));
   }
 
-  /// Computes c_p at the tile's vertices for all p; zero beyond the last vertex.
+  /// Computes the fields c_p at the tile's vertices for all p. Entries beyond the mesh's last
+  /// vertex are zero.
   /// \param by_coordinate  receives #fields by 3 by kTileVertices.
   /// \param by_vertex      receives #fields by kTileVertices by 3.
   void combine(Index tile, std::vector<float>& by_coordinate, std::vector<float>& by_vertex) const {
@@ -253,7 +256,8 @@ std::vector<double> basis_values(const LevelNodes& nodes, const Eigen::MatrixXd&
 NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions) {
   FilterInput<float> input;
-  // Displacements are translation invariant, but single-precision rounding is not: centre the head.
+  // Centre the head, because single-precision rounding depends on the position, whereas
+  // displacements do not.
   const Eigen::RowVector3d middle =
       0.5 * (positions.colwise().minCoeff() + positions.colwise().maxCoeff());
   input.values = filter.rows_of<float>(positions.rowwise() - middle);
@@ -274,7 +278,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   const Probes& probes = node_fields.probes;
   const TestedLevels tested = make_tested_levels(nodes);
   const Columns exact = exact_displacements(probes, filter.kind(), tested.levels);
-  // Interpolation between nodes has an error; the fields may use the remaining tolerance.
+  // Measure the error of interpolation between nodes. The fields may use the rest of the tolerance.
   const ProbeError of_nodes =
       probe_error(exact, tested.weights, [&](Index v, Index n, Index c) -> double {
         const std::uint32_t vertex = probes.vertices[static_cast<std::size_t>(v)];

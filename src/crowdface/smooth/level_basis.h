@@ -12,13 +12,13 @@ namespace crowdface {
 
 /// Distances between a basis and the exact filter, in the unit of the positions.
 struct BasisError {
-  double max = 0;           ///< bound over all vertices and tested levels
-  double rms = 0;           ///< root mean square over the probes and tested levels
-  std::uint64_t level = 0;  ///< level of the maximum
+  double max = 0;           ///< upper bound of the distance at any vertex and tested level
+  double rms = 0;           ///< root mean square of the distances at the probes and tested levels
+  std::uint64_t level = 0;  ///< the level at which `max` occurs
 };
 
-/// All levels of one head as a few vector fields: S_L x ≈ x + Σ_p φ_p(L) c_p(x). Level 0 is the
-/// head itself.
+/// Represents all levels of one head by a few vector fields c_p: S_L x ≈ x + Σ_p φ_p(L) c_p(x).
+/// Level L is the head after L smoothing iterations; level 0 is the head itself.
 struct LevelBasis {
   std::uint64_t max_level = 1;
   Eigen::MatrixXd mixing;  ///< #nodes by rank: φ_p(L) = Σ_n w_n(L) mixing(n, p)
@@ -28,7 +28,7 @@ struct LevelBasis {
   Index rank() const { return mixing.cols(); }
 };
 
-/// φ_p(L) for all p, of a basis with this `mixing` matrix.
+/// Returns φ_p(L) for all p, for a basis with this `mixing` matrix.
 std::vector<double> basis_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
                                  std::uint64_t level);
 
@@ -36,7 +36,7 @@ std::vector<double> basis_values(const LevelNodes& nodes, const Eigen::MatrixXd&
 struct NodeFields {
   /// S_{N_n} x − x for each node, in the filter's row order.
   std::vector<RowArray<float>> displacements;
-  Probes probes;  ///< exact Chebyshev terms at some vertices
+  Probes probes;  ///< exact Chebyshev terms at some vertices, to measure errors
 };
 
 /// Filters one head to the levels of all nodes in one pass, in single precision.
@@ -46,13 +46,13 @@ NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
 /// Fits a basis to one head. The fields are the principal directions of the head's own
 /// displacements (principal_directions). Each tile of vertices keeps the fewest leading fields
 /// whose truncation error is below tolerance/8 and whose total error is below the tolerance. The
-/// reported error is measured, not estimated: the sum of the truncation error at every vertex and
-/// every tested level, the error of the nodes against the exact filter at the probes, and the
-/// largest rounding error of the 16-bit values.
+/// reported error is measured, not estimated: the sum of the largest truncation error at any vertex
+/// and any tested level, the error of the interpolation between nodes (measured against the exact
+/// filter at the probes), and the largest rounding error of the 16-bit values.
 /// \param fields     result of filter_nodes for this head.
 /// \param tolerance  in the unit of the positions, > 0.
 /// \throws InvalidInput if no number of fields reaches the tolerance; the message states the error
-///     reached.
+///     that was reached.
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
                            const NodeFields& fields, double tolerance);
 

@@ -29,16 +29,17 @@ struct LevelFields {
   Index rank = 0;  ///< R
   /// #tiles + 1: index of each tile's first field in the concatenated fields of all tiles.
   std::span<const std::uint32_t> first;
-  /// #stored fields: quantization steps, in the unit of the positions
+  /// for each stored field of a tile, its quantization step in the unit of the positions
   std::span<const float> steps;
-  /// kTileVertices by 3 per stored field; zero beyond the last vertex.
+  /// For each stored field of a tile, kTileVertices by 3 integers. Entries beyond the mesh's last
+  /// vertex are zero.
   std::span<const std::int16_t> numbers;
   std::shared_ptr<const void> owner;  ///< keeps the three lists alive
 
   static std::size_t tile_count(std::size_t vertices) {
     return (vertices + kTileVertices - 1) / kTileVertices;
   }
-  /// The fields of the tile that contains a vertex.
+  /// Returns the fields of the tile that contains the vertex.
   TileFields at(std::size_t vertex) const {
     const std::size_t tile = vertex / kTileVertices, begin = first[tile];
     return {first[tile + 1] - begin, steps.data() + begin, numbers.data() + begin * kTileValues};
@@ -53,12 +54,12 @@ struct FieldTiles {
   std::vector<std::int16_t> numbers;
 
   /// Quantizes and appends the fields of one tile.
-  /// \param values  the first `count` fields by kTileValues, finite; more values are ignored.
+  /// \param values  `count` fields by kTileValues, finite; further values are ignored.
   void add(std::span<const float> values, std::size_t count);
 };
 
-/// The smallest power of two that, as quantization step, makes the values fit into 16 bits. Zero if
-/// all values are below 10⁻³⁰ in magnitude.
+/// The smallest power of two that can be the quantization step, so that the quantized values fit
+/// into 16 bits. Zero if all values are below 10⁻³⁰ in magnitude.
 float quantization_step(std::span<const float> values);
 
 /// Quantizes values to 16 bits.

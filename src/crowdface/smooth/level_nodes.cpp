@@ -13,7 +13,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxNodes = 48;
-/// Weight of negative eigenvalues: the amplitude of checkerboard modes in a face's shape.
+/// Weight of negative eigenvalues, which belong to checkerboard modes. It is the typical relative
+/// amplitude of these modes in the shape of a head.
 constexpr double kNegativeWeight = 1e-2;
 
 /// Exponentiation by squaring, because std::pow differs between C libraries.
@@ -25,8 +26,9 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// Levels that may become nodes. For small max_level, all levels; otherwise levels that are dense
-/// near 0, each with its successor, so that both parities occur.
+/// The levels that may become nodes. For a small max_level these are all levels. Otherwise they are
+/// levels that are dense near 0, together with the successor of each level, so that even and odd
+/// levels occur.
 std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
   constexpr std::uint64_t kAll = 1024;
   constexpr int kSteps = 768;
@@ -54,8 +56,8 @@ LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_re
     : max_level_(max_level) {
   require(max_level > 0, "nodes of levels need a largest level of at least 1");
   // Build the grid: s = 1 − |λ| falls geometrically from 1 until s is too small to matter at any
-  // level up to L_max. The amplitude of a face's shape grows with the wavelength, which is
-  // proportional to 1/√s.
+  // level up to L_max. In the shape of a head, the amplitude of a mode grows with the mode's
+  // wavelength, which is proportional to 1/√s.
   constexpr double kRatio = 1.1;
   const double least = 0.3 / static_cast<double>(max_level);
   for (double s = 1; s > least; s /= kRatio) {
@@ -81,7 +83,7 @@ LevelNodes::Spectrum LevelNodes::displacement(std::uint64_t level) const {
 }
 
 void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual) {
-  // Residual of each candidate after projection onto the nodes chosen so far.
+  // For each candidate, the residual after subtracting the projection onto the nodes chosen so far.
   std::vector<Spectrum> left;
   left.reserve(candidates.size());
   for (const std::uint64_t level : candidates) left.push_back(displacement(level));
@@ -128,8 +130,8 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
     result[static_cast<std::size_t>(node - levels_.begin())] = 1;
     return result;
   }
-  // Least squares over the grid: project the level onto the directions, then solve the triangular
-  // system for the weights of the nodes.
+  // Find the weights by least squares over the grid: project the level onto the orthonormal
+  // directions, then solve the triangular system for the weights of the nodes.
   const Spectrum wanted = displacement(level);
   std::vector<double> share;
   share.reserve(directions_.size());

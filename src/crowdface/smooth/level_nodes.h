@@ -10,29 +10,31 @@ namespace crowdface {
 
 /// A few levels, the nodes N_p, from which all other levels are interpolated: S_L x − x ≈ Σ_p
 /// w_p(L) (S_{N_p} x − x) for every x. The nodes and weights depend only on the operator kind and
-/// L_max, not on the mesh: an eigenvector of the operator with eigenvalue λ is displaced by
-/// λ^L − 1. The nodes are chosen greedily and the weights by least squares over a grid of λ in the
-/// operator's spectrum. The spectrum is [−1, 1] for the umbrella operator (eigenvalues near −1, the
-/// checkerboard modes, make even and odd levels differ) and [0, 1] for the lazy operator. The grid
-/// is dense towards ±1, and each λ is weighted by the typical amplitude of that mode in a face
-/// (docs/method.md).
+/// L_max, not on the mesh: L iterations displace an eigenvector v of the operator, with eigenvalue
+/// λ, by (λ^L − 1)·v. The nodes are chosen greedily and the weights by least squares over a grid of
+/// λ in the operator's spectrum. The spectrum is [−1, 1] for the umbrella operator (eigenvalues
+/// near −1, the checkerboard modes, make even and odd levels differ) and [0, 1] for the lazy
+/// operator. The grid is dense towards ±1, and the weight of each λ is the typical amplitude, in a
+/// head, of the modes with this eigenvalue (docs/method.md).
 class LevelNodes {
  public:
   /// \param max_level  L_max, at least 1.
-  /// \param max_residual  largest residual of any level, as a fraction of the displacement at
-  ///                      L_max. Nodes are added until no residual is larger.
+  /// \param max_residual  largest allowed residual of any level, as a fraction of the displacement
+  ///                      at L_max. The constructor adds nodes until no residual exceeds this
+  ///                      limit.
   LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_residual = 2e-4);
 
   std::uint64_t max_level() const { return max_level_; }
-  /// N_p, ascending, from 1 to L_max.
+  /// The levels N_p of the nodes, ascending; all are in 1 … L_max.
   const std::vector<std::uint64_t>& levels() const { return levels_; }
 
-  /// w_p(L) for all p: exactly a unit vector if L is a node, exactly zero if L = 0.
+  /// Returns the weights w_p(L) for all p. If L is a node, its weight is exactly 1 and all other
+  /// weights are exactly 0. If L = 0, all weights are exactly 0.
   /// \throws BrokenPrecondition if level > max_level().
   std::vector<double> weights(std::uint64_t level) const;
 
  private:
-  using Spectrum = std::vector<double>;  ///< a function of λ on the grid
+  using Spectrum = std::vector<double>;  ///< values of a function of λ at the grid points
   Spectrum displacement(std::uint64_t level) const;
   void choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual);
 
@@ -41,7 +43,7 @@ class LevelNodes {
   std::vector<std::uint64_t> levels_;
   std::vector<Spectrum> directions_;  ///< orthonormal; one for each node, in the order of choice
   std::vector<std::size_t> choice_order_;  ///< indices into levels_ in the order of choice
-  /// Node p in the order of choice is Σ_q triangular_factor_[p][q] directions_[q].
+  /// The displacement at the node chosen p-th is Σ_q triangular_factor_[p][q] directions_[q].
   std::vector<std::vector<double>> triangular_factor_;
 };
 

@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// Variance σ² that one iteration adds, in squared edge lengths.
+/// The variance σ² that one iteration adds to the equivalent Gaussian, in squared edge lengths.
 double variance_per_iteration(OperatorKind kind) {
   return kind == OperatorKind::kLazy ? 0.25 : 0.5;
 }

@@ -52,8 +52,8 @@ Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd 
   return b;
 }
 
-/// The second moments of the nodes' displacements: dot products of two nodes, summed over the
-/// sample's vertices, #nodes by #nodes.
+/// The matrix, #nodes by #nodes, of the second moments of the nodes' displacements. An element is
+/// the dot product of the displacements at two nodes, summed over the sampled vertices.
 Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
   Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(sample.node_count, sample.node_count);
   const double* vertex = sample.values.data();
@@ -72,12 +72,12 @@ Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
   return moments;
 }
 
-/// The principal directions with errors at level l weighted by `importance(l)`.
+/// The principal directions that result if the error at level l has the weight `importance(l)`.
 Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd& importance,
                                const Eigen::MatrixXd& moments) {
-  // Let Q·T be the weighted functions and C the displacements at the nodes. With Z = T·C the
-  // trajectories are Q·Z. Their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ,
-  // and Q·Z = (Q·U)·(Uᵀ·T·C).
+  // Let Q·T be the QR factorization of the weighted functions, and C the displacements at the
+  // nodes. With Z = T·C the trajectories are Q·Z. Their principal directions are the eigenvectors U
+  // of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and Q·Z = (Q·U)·(Uᵀ·T·C).
   const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.weights);
   const Eigen::MatrixXd u = symmetric_eigen(product(product(t, moments), t.transpose())).vectors;
   Directions directions;
@@ -87,11 +87,12 @@ Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd
   return directions;
 }
 
-/// Vertices that are processed together, so that the compiler vectorizes the loops over them.
+/// Number of vertices that one loop processes together, so that the compiler can vectorize the
+/// loop.
 constexpr Index kLanes = 16;
 using Lanes = std::array<float, kLanes>;
 
-/// Computes c_p for all p at up to kLanes vertices from `begin` on; zero from `end` on.
+/// Computes c_p for all p at the kLanes vertices from `begin`. Vertices from `end` on get zeros.
 /// \param fields  receives 3·#nodes by kLanes.
 void combine_fields(const Directions& directions, const NodeDisplacements& sample, Index begin,
                     Index end, std::vector<Lanes>& fields) {
@@ -158,7 +159,8 @@ Eigen::MatrixXd max_errors(const Directions& directions, const NodeDisplacements
   return most.cast<double>().cwiseSqrt().transpose();
 }
 
-/// The lowest rank whose largest error is at most the tolerance.
+/// The smallest number of directions for which the largest error over all levels is at most the
+/// tolerance.
 Index min_rank(const Eigen::MatrixXd& max_errors, double tolerance) {
   Index rank = 0;
   while (rank + 1 < max_errors.cols() && max_errors.col(rank).maxCoeff() > tolerance) ++rank;
@@ -202,7 +204,8 @@ Directions principal_directions(const TestedLevels& tested, const NodeDisplaceme
     const Eigen::MatrixXd distances = directions.max_errors;
     if (round == 0 || directions.rank < best.rank) best = std::move(directions);
     if (best.rank <= 1) break;
-    // Raise the importance of the levels at which the errors are largest.
+    // Raise the importance of the levels at which the errors are largest, relative to the other
+    // levels.
     const auto wanted = distances.col(best.rank - 1);  // errors with one direction fewer
     for (Index l = 0; l < importance.size(); ++l) {
       importance(l) *= std::sqrt(wanted(l) / wanted.maxCoeff() + kFloor);

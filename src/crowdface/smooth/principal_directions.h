@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// The levels at which a basis is tested, and the weights of the nodes at these levels. There are
-/// 129 levels evenly spaced in √L, the successor of each of them (so that both parities occur), and
-/// the nodes.
+/// The levels at which a basis is tested, and the weights of the nodes at these levels. The levels
+/// are: 129 levels evenly spaced in √L, the successor of each of these levels (so that even and odd
+/// levels occur), and the nodes.
 struct TestedLevels {
   std::vector<std::uint64_t> levels;
   Eigen::MatrixXd weights;  ///< #levels by #nodes
@@ -25,9 +25,9 @@ struct NodeDisplacements {
   Index vertex_count() const { return static_cast<Index>(values.size()) / (3 * node_count); }
 };
 
-/// Orthogonal directions in the space of vertex trajectories (displacement over levels), most
-/// important first. All directions together reproduce the displacements at the nodes; the first few
-/// reproduce most of them.
+/// Orthogonal directions in the space of vertex trajectories, most important first. A trajectory is
+/// the displacement of a vertex as a function of the level. All directions together reproduce the
+/// displacements at the nodes exactly; the first few directions reproduce them approximately.
 struct Directions {
   Eigen::MatrixXd mixing;       ///< #nodes by #nodes: φ_p(L) = Σ_n w_n(L) mixing(n, p)
   Eigen::MatrixXd combination;  ///< #nodes by #nodes: c_p = Σ_n combination(n, p) (S_{N_n} x − x)
@@ -41,8 +41,9 @@ struct Directions {
 /// Principal components of the sample's trajectories over the tested levels (proper orthogonal
 /// decomposition; Berkooz, Holmes & Lumley 1993). A few rounds reweight the levels by their largest
 /// error (after Lawson 1961), which reduces the maximum error instead of the mean error.
-/// \param tolerance  largest allowed error at the sample: the result has the lowest rank found that
-///                   meets it, or rank #nodes.
+/// \param tolerance  largest allowed error at the sampled vertices. The result has the lowest rank
+///                   found whose error is within the tolerance; if there is none, the rank is
+///                   #nodes.
 Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
                                 double tolerance);
 

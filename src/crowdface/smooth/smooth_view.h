@@ -13,8 +13,7 @@ namespace crowdface {
 
 class ChebyshevFilter;
 
-/// Like `smooth` (chebyshev_filter.h), but reads the positions in the caller's memory without a
-/// copy.
+/// Like `smooth` (chebyshev_filter.h), but without copying the caller's positions.
 std::vector<Positions> smooth_view(const ChebyshevFilter& filter,
                                    const Eigen::Ref<const Positions>& positions,
                                    std::span<const std::uint64_t> levels);

@@ -7,14 +7,15 @@
 
 namespace crowdface {
 
-/// How smoothing treats vertices on an open boundary (an edge with one polygon).
+/// How smoothing treats vertices on an open boundary, which consists of edges with only one
+/// polygon.
 enum class Boundary {
-  kFixed,  ///< boundary vertices do not move, so that rims keep their shape
-  kFree,   ///< boundary vertices are averaged like all others
+  kFixed,  ///< boundary vertices do not move, so that the borders of openings keep their shape
+  kFree,   ///< boundary vertices are averaged like all other vertices
 };
 
 enum class OperatorKind {
-  kUmbrella,  ///< W, the mean of the edge neighbours (Eq. 1)
+  kUmbrella,  ///< W replaces each vertex by the mean of its edge-neighbours (Eq. 1)
   kLazy,      ///< (x + W x)/2, which removes checkerboard modes on quad meshes
 };
 

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One recurrence step on one run.
+/// One step of the Chebyshev recurrence on one run of rows with equal valence.
 /// \param kValence  number of neighbours of each row, known at compile time; 0: use run.valence.
 template <std::uint32_t kValence, class T>
 void step_run(const ValenceRun& run, const std::uint32_t* ring, T scale, const Row<T>* now,
@@ -77,7 +77,7 @@ void add_scaled_rows(T factor, const Row<T>* values, std::size_t count, Row<T>* 
   }
 }
 
-/// The values of consecutive rows as one array, four values per row.
+/// Returns consecutive rows as one array of numbers, four per row.
 inline const float* values_of(const Row<float>* rows) {
   return reinterpret_cast<const float*>(rows);
 }
@@ -85,8 +85,8 @@ inline float* values_of(Row<float>* rows) {
   return reinterpret_cast<float*>(rows);
 }
 
-/// Computes values [begin, begin + #lanes) of outputs first, …, first + kOutputs − 1. Several
-/// outputs at a time hide the latency of additions.
+/// Computes the values [begin, begin + #lanes) of the outputs with the indices first, …, first +
+/// kOutputs − 1. Several outputs at a time hide the latency of additions.
 template <std::size_t kOutputs, class Lanes>
 void combine_some(Lanes lanes, const Row<float>* const* inputs, std::size_t input_count,
                   const float* factors, std::size_t output_count, std::size_t first,
@@ -131,7 +131,7 @@ void combine(const Row<float>* const* inputs, std::size_t input_count, const flo
   }
 }
 
-// Highway's dispatch table needs non-template functions.
+// These functions are not templates because Highway's dispatch table does not support templates.
 void step_float(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
                 float scale, const Row<float>* now, Row<float>* previous) {
   step(runs, run_count, rings, scale, now, previous);

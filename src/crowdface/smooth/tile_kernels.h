@@ -15,8 +15,8 @@ struct alignas(4 * sizeof(T)) Row {
   T value[4];
 };
 
-/// An array of rows with uninitialised memory, so that each page is first touched by the thread
-/// that computes its rows.
+/// An array of rows with uninitialised memory. As a result, the thread that computes a row is the
+/// first to touch the row's memory page.
 template <class T>
 class RowArray {
  public:
@@ -37,17 +37,18 @@ class RowArray {
 /// One step of the Chebyshev recurrence, in place, on the rows that the runs cover: previous ←
 /// scale·(mean of the neighbours in `now`) − previous. With scale 2 this is T_{k+1}(W) x = 2 W
 /// T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0 it is the first step, W x. Neighbours are
-/// added in list order, so that the result's bits depend only on the values.
+/// added in list order, so that the bits of the result do not depend on the order of computation of
+/// the rows.
 template <class T>
 void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
                      T scale, const Row<T>* now, Row<T>* previous);
 
-/// sums[i] += factor·values[i] by fused multiply-add.
+/// Computes sums[i] += factor·values[i] by fused multiply-add.
 template <class T>
 void add_scaled(T factor, const Row<T>* values, std::size_t count, Row<T>* sums);
 
-/// Linear combinations of rows: outputs[o][i] = Σ_n factors[n·output_count + o]·inputs[n][i], added
-/// in the order of n by fused multiply-add.
+/// Computes linear combinations of rows: outputs[o][i] = Σ_n factors[n·output_count +
+/// o]·inputs[n][i], added in the order of n by fused multiply-add.
 /// \param count  number of rows of each input and output.
 void combine_rows(const Row<float>* const* inputs, std::size_t input_count, const float* factors,
                   std::size_t output_count, std::size_t count, Row<float>* const* outputs);

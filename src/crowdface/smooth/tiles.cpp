@@ -11,9 +11,9 @@
 namespace crowdface {
 namespace {
 
-/// The position of a grid cell along the Hilbert curve. The grid has 2²¹ cells per axis. Cells that
-/// are close along the curve are close in space. Source: Skilling 2004, "Programming the Hilbert
-/// curve".
+/// The index of a grid cell along the Hilbert curve. The grid has 2²¹ cells per axis. Cells that
+/// are close along the curve are also close in space. Source: Skilling 2004, "Programming the
+/// Hilbert curve".
 std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
   constexpr int kBits = 21;
   for (std::uint32_t bit = 1U << (kBits - 1); bit > 1; bit >>= 1) {  // undo excess work
@@ -41,8 +41,9 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
   return index;
 }
 
-/// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), then stably by valence. With
-/// this order, the neighbours of consecutive rows lie in few short ranges of rows.
+/// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), then sorts them by valence
+/// with a stable sort. With this order, the neighbours of consecutive rows lie in few short ranges
+/// of rows.
 void order_within(const Tile& tile, const SmoothingOperator& smoothing,
                   const std::vector<std::uint32_t>& tile_of, std::uint32_t tile_index,
                   std::vector<bool>& seen, std::vector<std::uint32_t>& order) {
@@ -66,7 +67,8 @@ void order_within(const Tile& tile, const SmoothingOperator& smoothing,
   std::ranges::copy(queue, order.begin() + tile.first);
 }
 
-/// Collects a tile's halo ring by ring and writes its neighbour lists as local rows.
+/// Collects the halo of a tile ring by ring, and writes the tile's neighbour lists as local row
+/// numbers.
 class TileBuilder {
  public:
   TileBuilder(const SmoothingOperator& smoothing, Tiling& tiling)
@@ -137,8 +139,9 @@ class TileBuilder {
 
   const SmoothingOperator& smoothing_;
   Tiling& tiling_;
-  std::vector<std::uint32_t> local_;     ///< #V: a vertex's local row in the tile being built
-  std::vector<std::uint32_t> vertices_;  ///< the tile's local rows
+  std::vector<std::uint32_t> local_;     ///< #V: each vertex's local row in the tile that is being
+                                         ///< built
+  std::vector<std::uint32_t> vertices_;  ///< the vertices of the tile's local rows
 };
 
 }  // namespace

@@ -17,26 +17,27 @@ struct ValenceRun {
   std::uint32_t first_neighbour = 0;  ///< index of the first neighbour in `Tile::rings`
 };
 
-/// A part of the mesh on which several steps of the recurrence run without data from other tiles,
-/// and so within one core's cache. A tile holds its own rows and a halo of neighbour rings. Local
-/// rows are numbered in this order: the tile's own rows, ring 1 (the outside neighbours of own
-/// rows), ring 2, … Each step invalidates the outermost valid ring, so with n rings the tile's own
-/// rows are correct after n steps.
+/// A part of the mesh. Several steps of the recurrence can run on a tile without data from other
+/// tiles, so that the data stays in one core's cache. A tile holds its own rows, and around them a
+/// halo of several rings of neighbours. Local rows are numbered in this order: the tile's own rows,
+/// ring 1 (the outside neighbours of own rows), ring 2, … Each step invalidates the outermost valid
+/// ring, so with n rings the tile's own rows are correct after n steps.
 struct Tile {
   std::uint32_t first = 0;          ///< first own row, in the tiling's order
   std::uint32_t count = 0;          ///< number of own rows
   std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of the local rows count, count + 1, …
-  /// runs of the rows that are not fixed: own rows, ring 1, ring 2, …
+  /// runs of rows whose vertices are not fixed: first runs of own rows, then of ring 1, ring 2, …
   std::vector<ValenceRun> runs;
-  /// run_counts[r]: number of leading runs that cover own rows and rings 1 to r.
+  /// run_counts[r] is the number of runs, counted from the first, that cover the own rows and rings
+  /// 1 to r.
   std::vector<std::uint32_t> run_counts;
   std::vector<std::uint32_t> rings;  ///< neighbour lists (local rows), each in the operator's order
 
   std::uint32_t local_count() const { return count + static_cast<std::uint32_t>(halo.size()); }
 };
 
-/// A mesh cut into tiles. Rows are ordered tile by tile. The cut affects the speed of computations,
-/// not their results.
+/// A mesh cut into tiles. Rows are ordered tile by tile. The division into tiles affects the speed
+/// of computations, not the results.
 struct Tiling {
   std::vector<std::uint32_t> vertex_of_row;  ///< #V
   std::vector<std::uint32_t> row_of_vertex;  ///< #V
@@ -44,14 +45,15 @@ struct Tiling {
   int ring_count = 0;  ///< number of neighbour rings in each tile's halo
 };
 
-/// All vertices ordered along a space-filling curve (Hilbert 1891), so that neighbours in the order
-/// are mostly neighbours in space. Vertices in the same grid cell are ordered by index.
+/// All vertices ordered along a space-filling curve (Hilbert 1891), so that vertices that are
+/// adjacent in the order are mostly close in space. Vertices in the same grid cell are ordered by
+/// index.
 std::vector<std::uint32_t> hilbert_order(const Positions& positions);
 
-/// Cuts the mesh into tiles of equal size along the order of hilbert_order, which makes compact
-/// patches of a surface.
+/// Cuts the mesh into tiles of equal size along the order of hilbert_order. This makes each tile a
+/// compact piece of the surface.
 /// \param positions   #V by 3, any head of the topology.
-/// \param tile_rows   largest number of own rows of a tile.
+/// \param tile_rows   largest number of own rows in each tile.
 /// \param ring_count  number of recurrence steps that a tile can run on its own.
 Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& positions,
                       Index tile_rows, int ring_count);
