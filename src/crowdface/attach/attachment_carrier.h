@@ -19,7 +19,7 @@ class AttachmentCarrier {
   /// \param topology  Topology of the attachment.
   /// \param points    #P by 3. Vertices of the attachment on the fitted mesh; must outlive this
   ///                  object.
-  /// \param move      How the attachment follows the skin.
+  /// \param move      How the attachment follows the skin: rigidly or by bending.
   AttachmentCarrier(const FittedSkin& skin, const Topology& topology, const Positions& points,
                     AttachmentMove move);
 

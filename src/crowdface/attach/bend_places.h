@@ -13,12 +13,12 @@ namespace crowdface {
 /// node; each point blends the motions of nearby nodes.
 struct BendNodes {
   /// Minimum distance between two nodes, as a fraction of the reach of a node's patch. Every point
-  /// is within this distance of a node.
+  /// of the attachment has a node within this distance.
   static constexpr double kNodeSpacing = 0.3;
   /// Radius within which a node influences points, in multiples of kNodeSpacing.
   static constexpr double kInfluence = 2;
 
-  /// The weight of one node at one point.
+  /// The weight of one node's motion in the motion of one point.
   struct Share {
     std::uint32_t node;
     float weight;  ///< weights of a point do not sum to one

@@ -25,8 +25,8 @@ constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
 /// kMinReach.
 constexpr std::size_t kMinVertices = 12;
 constexpr double kMinReach = 1.4;
-/// Up to a reach of kSpacings spacings of a level, the patch uses only this level. From there to
-/// twice that reach, the patch blends into the next coarser level.
+/// A patch with a reach of up to kSpacings vertex spacings of a level uses only this level. With a
+/// reach from there to twice as much, the patch is a mix of this level and the next coarser level.
 constexpr double kSpacings = 3;
 constexpr std::size_t kCoarsest = 150;
 

@@ -41,7 +41,8 @@ class FittedSkin {
   const PointGrid& grid() const { return levels_.front().grid; }
   const std::vector<double>& areas() const { return areas_; }
   double mm() const { return mm_; }
-  /// Mean spacing of the skin's vertices: the square root of the area per vertex.
+  /// Mean spacing of the skin's vertices: the square root of the skin's area divided by the number
+  /// of vertices.
   double spacing() const { return levels_.front().spacing; }
 
   /// A weighted sample of the skin around a point.
@@ -50,10 +51,10 @@ class FittedSkin {
     std::vector<double> weights;  ///< #vertices: area times a weight that decreases with distance
     double reach = 0;             ///< distance from the point at which weights become zero
   };
-  /// Returns the skin around a point, with weights that decrease with distance to zero at `reach`.
-  /// For a point on the skin, the reach is a few millimetres; it grows with the point's distance
-  /// from the skin. Weights and reach are continuous in the point, so neighbouring points get
-  /// almost the same patch.
+  /// Returns the skin vertices around a point, with weights that decrease with distance and are
+  /// zero from the distance `reach` on. For a point on the skin, the reach is a few millimetres; it
+  /// grows with the point's distance from the skin. Weights and reach are continuous in the point,
+  /// so neighbouring points get almost the same patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
   /// Like patch_around(point), but the reach is at least `min_reach`.
   Patch patch_around(const Eigen::Vector3d& point, double min_reach) const;

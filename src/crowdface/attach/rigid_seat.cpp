@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// The supporting skin is the skin within this distance of the attachment.
+/// The skin within this distance of the attachment determines the attachment's motion.
 constexpr double kSeatReachMm = 15;
 constexpr std::size_t kMinOfSocket = 12;
 constexpr int kSeatRounds = 8;

@@ -20,7 +20,7 @@ namespace {
 
 /// Reach of a patch around a root, if the skin's vertices are dense enough.
 constexpr double kPatchReachMm = 3;
-/// Distance from the skin, in millimetres, beyond which a point uses a larger patch.
+/// A point that is farther than this from the skin, in millimetres, uses a larger patch.
 constexpr double kOffMm = 10;
 /// Limit for distances along the surface, in multiples of a patch's reach.
 constexpr double kAlong = 1.5;
@@ -30,8 +30,8 @@ constexpr std::size_t kMinNear = 6;
 
 /// A point's nearest skin is ambiguous if different parts of the skin are about equally near. The
 /// test uses a sphere around the point. Its radius is the distance to the nearest skin plus
-/// kAmbiguousMm. The nearest skin is ambiguous if the sphere also contains skin that is farther than
-/// kFarther radii away from the nearest skin along the surface.
+/// kAmbiguousMm. The nearest skin is ambiguous if the sphere also contains skin that is farther
+/// than kFarther radii away from the nearest skin along the surface.
 constexpr double kAmbiguousMm = 2, kFarther = 4;
 
 /// Finds the root of each point of an attachment on the skin, starting the search at the root of a

@@ -14,9 +14,9 @@ namespace crowdface {
 /// only skin that is near along the surface. So a moustache does not follow the lower lip, and a
 /// lash follows its own lid.
 ///
-/// Each point has a root on the skin. The search for roots begins where the attachment's mesh is
-/// nearest to the skin. It finds each further root near the root of a neighbouring point of the
-/// mesh.
+/// Each point of the attachment has a root: the point of the skin that it follows. The search for
+/// roots begins where the attachment's mesh is nearest to the skin. The search for each further
+/// root starts at the root of a neighbouring point of the mesh.
 class ShapeBend {
  public:
   /// \param skin       Must outlive this object.

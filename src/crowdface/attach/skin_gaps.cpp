@@ -11,10 +11,10 @@
 namespace crowdface {
 namespace {
 
-/// Vertices farther from the skin than this are not constrained.
+/// The gaps of vertices farther from the skin than this are not corrected.
 constexpr double kFarMm = 25;
-/// Vertices up to kCloseMm from the skin get exactly their original gap. The correction decreases
-/// linearly to zero at kLooseMm.
+/// Vertices up to kCloseMm from the skin get exactly their original gap. For vertices farther away,
+/// the correction decreases linearly and is zero at kLooseMm.
 constexpr double kCloseMm = 2, kLooseMm = 6;
 /// Minimum distance of vertices that are not close to the skin.
 constexpr double kMinMm = 2;

@@ -44,7 +44,8 @@ double radius(const Positions& points) {
   return std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
 }
 
-/// Mean squared distance between a head and a reference after alignment.
+/// Mean squared distance between the vertices of a head and of a reference, after the head is
+/// aligned with the reference.
 double misfit(const Positions& head, const Positions& reference) {
   const Similarity fit = fit_similarity(head, reference, ScaleFit::kUniform);
   return (fit.apply(head) - reference).rowwise().squaredNorm().mean();

@@ -16,8 +16,8 @@ struct HeadPose {
   /// distance between the heads' centroids, as a fraction of the head's size
   double relative_shift = 0;
   double scale = 1;  ///< size of the head relative to the reference
-  /// Whether left and right are swapped: reflected, the head fits the reference several times
-  /// better.
+  /// Whether left and right are swapped: the head fits the reference several times better after a
+  /// reflection than without one.
   bool is_mirrored = false;
 };
 
@@ -25,17 +25,17 @@ struct HeadPose {
 /// vertices count.
 std::vector<HeadPose> head_poses(const HeadSet& heads, const Components& components);
 
-/// A message that says why `align_heads` refuses a head even with `rigid`: the head is mirrored or
-/// in another unit. Empty if `align_heads` accepts the head.
+/// A message that says why `align_heads` refuses a head even with `rigid`: the head is mirrored, or
+/// its coordinates are in another unit. Empty if `align_heads` accepts the head.
 std::string objection_to_pose(const HeadPose& pose, const std::string& head);
 
 /// Whether `rigid` alignment would help: all heads have the same size, but at least one head is
 /// rotated or shifted so far that `align_heads` would warn.
 bool needs_rigid_alignment(const HeadSet& heads, const Components& components);
 
-/// Warns about heads that are rotated, shifted or scaled relative to the other heads, because
-/// blending would treat the difference in pose as detail. With `check`, heads stay as they are;
-/// with `rigid`, each head is first aligned with the first head.
+/// Warns about heads that are rotated, shifted or scaled relative to the other heads. Blending
+/// would treat such a difference in pose as detail. With `check`, heads stay as they are; with
+/// `rigid`, each head is first aligned with the first head.
 /// \throws InvalidInput if a head is mirrored or has another unit, and with `check` also if a head
 ///         is rotated by more than 45 degrees.
 std::vector<std::string> align_heads(HeadSet& heads, const Components& components, Align align);

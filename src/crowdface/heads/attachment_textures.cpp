@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 using TilePlace = std::array<std::int32_t, 2>;
 
-/// A warning if textures are not shown because no polygon uses the materials that name them.
+/// A warning if no polygon uses a material that names a texture: the texture is then not shown.
 std::optional<std::string> unused_materials(const NamedTextures& named, const ObjFile& file,
                                             Index face_count) {
   const auto colours = named.paths_by_kind.find(TextureKind::kColour);
@@ -41,9 +41,9 @@ std::optional<std::string> unused_materials(const NamedTextures& named, const Ob
       join(textured), used.empty() ? " (usemtl)" : "; its materials are ", join(used));
 }
 
-/// Returns the UDIM tile of a polygon. The polygon's centroid determines it, so that corners may
-/// lie on a tile's border. Returns the first tile if the polygon has no texture coordinates or lies
-/// outside all tiles.
+/// Returns the UDIM tile of a polygon. The polygon's centroid determines the tile, so that corners
+/// may lie on a tile's border. Returns the first tile if the polygon has no texture coordinates or
+/// lies outside all tiles.
 TilePlace tile_of(const HeadSet& heads, Index face) {
   Eigen::RowVector2d sum(0, 0);
   double corners = 0;
@@ -81,7 +81,8 @@ HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_materi
       row->second = static_cast<std::uint32_t>(placed.files.size());
       placed.files.push_back({path, found->second});
     } else if (is_new && !find_tiles(found->second).empty()) {
-      // other missing files were reported by the reader of the material file
+      // a missing UDIM tile; the reader of the material file has already reported all other missing
+      // files
       missing.push_back(path);
     }
     placed.of_face[f] = row->second;

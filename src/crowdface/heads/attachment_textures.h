@@ -44,8 +44,8 @@ void remove_files(FoundTextureFiles& textures, const std::set<std::filesystem::p
 /// Removes the files that are not readable images. \return a warning for each removed file.
 std::vector<std::string> remove_unreadable_files(FoundTextureFiles& textures);
 
-/// Reads material files and checks which textures exist, without reading the textures. Problems in
-/// material files are listed with the colour textures.
+/// Reads material files and checks which textures exist, without reading the textures. Warnings
+/// about material files are in the item of the colour textures.
 /// \param heads  topology and texture coordinates that all heads share
 /// \param files  #heads
 /// \return one item per kind of texture: always the colours, then each kind that any head has.

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr int kLargestUnasked = 4096;
 
-/// For each image, the files of a head from which the image is composed; empty if the head has no
-/// texture for some polygon of the image.
+/// For each image of the layout, the texture files of one head that are merged into this image;
+/// empty if the head has no texture for some polygon of the image.
 std::vector<std::vector<std::uint32_t>> rows_in_pictures(const HeadTextureFiles& placed,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
@@ -102,7 +102,7 @@ std::uint64_t map_bytes(const NeededMap& needed) {
          static_cast<std::uint64_t>(needed.height) * static_cast<std::uint64_t>(needed.channels);
 }
 
-/// \param scratch  folder for the map; empty: the map lies in memory
+/// \param scratch  folder for the file of the map; empty: the map stays in memory
 std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::path& scratch) {
   struct Kept {
     ImageMemory memory;
@@ -184,8 +184,9 @@ void choose_sizes(const FoundTextureFiles& found, const std::map<fs::path, Image
   }
 }
 
-/// The content and channels of an image's maps, by its kind and its first file.
-/// \param channels  largest number of channels of its files
+/// The content and the number of channels of an image's maps, from the kind of texture and the
+/// image's first file.
+/// \param channels  largest number of channels of the image's files
 NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
   switch (kind) {
     case TextureKind::kColour:

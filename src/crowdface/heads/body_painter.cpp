@@ -61,7 +61,7 @@ std::shared_ptr<const TextureMap> read_texture_map(const std::filesystem::path& 
       make_texture_map(image.width, image.height, light_of(image)));
 }
 
-/// All polygons that have texture coordinates, in one image.
+/// A layout with one image, which holds all polygons that have texture coordinates.
 TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
   TextureLayout layout;
   layout.pictures = {{map.width, map.height}};

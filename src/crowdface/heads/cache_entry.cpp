@@ -37,8 +37,8 @@ std::string_view as_bytes(const void* data, std::size_t size) {
 }
 
 /// Absolute values of floats have the same order as their bit patterns; infinity and NaN come last.
-/// The values are therefore compared as integers, which vectorizes: a value that is too large makes
-/// its difference negative.
+/// The values are therefore compared as integers, which vectorizes. The limit minus a value that is
+/// too large is negative.
 template <class Integer, class T>
 bool all_coordinates(std::span<const T> values) {
   constexpr auto kMagnitude = std::numeric_limits<Integer>::max();

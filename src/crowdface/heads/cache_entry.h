@@ -53,7 +53,7 @@ struct Element<Digest> {
   static constexpr std::uint32_t kNumbersPerElement = 2;
 };
 
-/// The number type as written in the file: "f4", "u8", "i2".
+/// The name of a number type in the file: "f4", "u8" or "i2", for example.
 template <class T>
 constexpr std::array<char, 4> number_type() {
   static_assert(std::is_arithmetic_v<T>);
@@ -69,17 +69,19 @@ constexpr std::array<char, 4> number_type() {
 struct EntryArray {
   std::string name;  ///< at most 23 bytes
   std::array<char, 4> type;
-  /// Number of contiguous numbers per element, or per row of a row-major matrix.
+  /// How many numbers one element, or one row of a row-major matrix, has; they are contiguous.
   std::uint32_t columns;
   std::uint64_t rows;
   const void* data;
   std::uint64_t bytes;
-  /// Keeps the numbers alive until the entry is written; null if the caller keeps them.
+  /// Keeps the numbers alive until the entry is written; null if the caller keeps the numbers
+  /// alive.
   std::shared_ptr<const void> owner;
 };
 
 /// Collects arrays to write. `arrays("name", value)` accepts a number, a std::array of numbers, a
-/// vector or span of these, or a matrix. The values must live until the entry is written.
+/// vector or span of numbers or of such arrays, or a matrix. The values must live until the entry
+/// is written.
 class ArrayWriter {
  public:
   template <class T>
@@ -125,8 +127,8 @@ class ArrayWriter {
 void write_entry(const std::filesystem::path& cache, const CacheKey& key,
                  const std::vector<EntryArray>& arrays);
 
-/// Whether all numbers are finite and within the limit for mesh coordinates, with a margin for the
-/// displacements that smoothing adds.
+/// Whether all numbers are finite and at most as large as mesh coordinates may be, plus a margin
+/// for the displacements that smoothing adds.
 bool are_coordinates(std::span<const float> values);
 bool are_coordinates(std::span<const double> values);
 /// `all_below`: whether all numbers are below `end`. `are_indices` also accepts kNoIndex.
@@ -167,8 +169,9 @@ class CacheEntry {
     return {reinterpret_cast<const Number*>(at(row)), rows, columns};
   }
 
-  /// The checksum only proves that the file has not changed since it was written; its numbers may
-  /// still be wrong. Readers must validate every number that they use as an index or a size.
+  /// Validates a number of the entry. Readers must validate every number that they use as an index
+  /// or a size: the checksum only proves that the file has not changed since it was written, not
+  /// that the numbers were right.
   /// \throws InvalidInput unless `holds`.
   void require(bool holds) const;
   /// \throws InvalidInput if the file was truncated after it was opened. Arrays in the missing part
@@ -206,7 +209,8 @@ class CacheEntry {
 };
 
 /// Reads values from an entry: `arrays("name", value)` accepts the same types as ArrayWriter. A
-/// span will point into the mapped file. \throws InvalidInput like CacheEntry::get.
+/// `value` that is a span is set to point into the mapped file.
+/// \throws InvalidInput like CacheEntry::get.
 class ArrayReader {
  public:
   explicit ArrayReader(const CacheEntry& entry) : entry_(entry) {}

@@ -13,7 +13,8 @@ namespace crowdface {
 /// ~/.cache/crowdface, else a folder for temporary files.
 std::filesystem::path cache_directory();
 
-/// A cache folder, and whether files that were read before count as unchanged.
+/// A cache folder, and whether a file that was read before may be accepted without hashing it
+/// again.
 struct CacheFolder {
   std::filesystem::path path;  ///< empty: no cache
   /// Whether a head file or cache entry that was read completely before, and has not been written
@@ -25,7 +26,8 @@ struct CacheFolder {
   operator const std::filesystem::path&() const { return path; }          // NOLINT(*-explicit-*)
 };
 
-/// The kinds of entries that `list_cache` counts (see CacheKey).
+/// The kinds of cache entries (see CacheKey) that `list_cache` counts: prepared heads and read
+/// heads.
 inline constexpr std::string_view kPreparedKind = "prepared", kReadKind = "read";
 
 /// The entries of a cache, their number and their total size.

@@ -27,8 +27,9 @@ std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& k
 void warn_of_unusable_entry(const RecoverableError& error);
 
 /// Reads a value from the cache.
-/// \param is_sound  called with the value and its entry: returns whether the value is valid.
-///                  `is_sound` may also fill in members that the entry does not store.
+/// \param is_sound  called with the value and the cache entry of the value: returns whether the
+///                  value is valid. `is_sound` may also fill in members that the entry does not
+///                  store.
 /// \param value     initial value, into which the arrays are read
 /// \return nothing if the entry does not exist or, with a warning, cannot be used.
 template <class Value, class Visit, class IsSound>
@@ -56,8 +57,8 @@ std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
   return std::move(arrays.arrays);
 }
 
-/// Writes an entry, if there is a cache. \param what  the subject of the warning "WHAT cannot be
-/// kept".
+/// Writes an entry, if there is a cache.
+/// \param what  replaces WHAT in the warning "WHAT cannot be kept".
 /// \return whether the entry was written.
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,
            std::string_view what = "what was found of the heads");

@@ -8,7 +8,8 @@
 
 namespace crowdface {
 
-/// Makes a FaceSpace (see its constructor). Takes its tables from the cache if the cache has them.
+/// Makes a FaceSpace (see the constructor of FaceSpace). Reads the tables of the FaceSpace from the
+/// cache if they are there.
 FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
                             const std::vector<double>& weights, std::size_t bands);
 

@@ -12,7 +12,8 @@
 
 namespace crowdface {
 
-/// Patches that may lie in a memory-mapped cache file, so that they use no memory of the process.
+/// Patches of the heads' fields. They may lie in a memory-mapped cache file, where they use no
+/// memory of the process.
 struct CachedPatches {
   FieldPatches patches;
   /// the file that holds the patches; null if they lie in memory
@@ -21,7 +22,7 @@ struct CachedPatches {
 
 /// Returns the patches from the cache; if they are not there, calls `make()` and stores the result.
 /// \param key    hash of everything that the patches depend on
-/// \param ranks  #heads, number of fields of each head
+/// \param ranks  #heads: the number of fields of each head
 CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index vertex_count,
                              std::span<const Index> ranks,
                              const std::function<FieldPatches()>& make);

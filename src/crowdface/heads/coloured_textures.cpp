@@ -29,7 +29,8 @@ std::vector<AttachmentFile> files_of(const AttachmentLook& look) {
 std::string coloured_texture(const std::filesystem::path& neutral, const HairColour& colour) {
   const Image image = read_image(neutral, {.jpeg = true});
   const std::array<float, 3> factors = tint_factors(colour);
-  // The coloured sRGB value of each channel, indexed by the sRGB value in the neutral texture.
+  // For each channel, a table: the sRGB value in the neutral texture is the index, the sRGB value
+  // after colouring is the entry.
   std::array<std::array<std::uint8_t, 256>, 3> dyed{};
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t v = 0; v < 256; ++v) {

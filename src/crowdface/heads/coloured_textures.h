@@ -8,12 +8,13 @@
 
 namespace crowdface {
 
-/// A material file or texture of an attachment in a colour.
+/// A material file or a texture of an attachment, and whether it gets the attachment's colour.
 struct AttachmentFile {
   MaterialFile file;
   bool is_coloured = false;  ///< a colour texture, whose content is coloured_texture
 };
-/// The material files and textures of an attachment. Textures keep their names.
+/// Lists the material files and textures of an attachment. A coloured texture has the same file
+/// name as the neutral texture.
 std::vector<AttachmentFile> files_of(const AttachmentLook& look);
 
 /// Colours a neutral texture, and returns it as a PNG file with 8 bits per channel.

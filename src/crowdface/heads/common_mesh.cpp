@@ -82,14 +82,14 @@ bool has_same_corner_uvs(const HeadMesh& first, const HeadMesh& found) {
   return true;
 }
 
-/// A vertex of a head for each vertex of another head's mesh.
+/// For each vertex of another head's mesh, the matching vertex of a head.
 struct VertexMatch {
   Vertices vertices;
   bool has_own_uvs = false;  ///< whether the head has other texture coordinates
 };
 
-/// Matches the vertices by the graph of the polygons, which may be triangulated, after vertices at
-/// seams are joined.
+/// Matches the vertices by the graph of the edges, after vertices at seams are joined. The polygons
+/// of either mesh may be triangulated.
 std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& head) {
   const Topology& expected = first.mesh->topology;
   Topology found = head.mesh->topology;
@@ -115,8 +115,8 @@ std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& h
   return VertexMatch{std::move(*vertices)};
 }
 
-/// Matches the vertices of a head with another head's mesh if the meshes differ and the difference
-/// is one that an export makes.
+/// Matches the vertices of a head with another head's mesh. Returns nothing if the head can keep
+/// its mesh, or if the meshes differ by more than an export can change.
 std::optional<VertexMatch> match_vertices(const HeadFile& first, const HeadFile& head) {
   const Topology &expected = first.mesh->topology, &found = head.mesh->topology;
   if (first_difference(expected, found).empty()) {
@@ -148,7 +148,7 @@ void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& hea
   head.mesh = std::make_shared<HeadMesh>(std::move(mesh));
 }
 
-/// Whether the corners within each set have the same position on a head.
+/// Whether, on a head, all polygon corners of the same set have the same position.
 bool has_one_position(DisjointSets& sets, const HeadFile& head) {
   const Topology& topology = head.mesh->topology;
   const double near = same_place(head.file.positions);
@@ -229,7 +229,7 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
 /// Finds the mesh of heads whose vertices reading has joined by position: corners share a vertex in
 /// the result if in each head they have the same position.
 /// \param heads  their polygons are the same
-/// \param made   receives the mesh if vertices touch in some heads only
+/// \param made   receives the mesh if some vertices have one position in some heads but not in all
 /// \return a head with the mesh
 const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
   constexpr double kMaxTouching = 0.02;  // fraction of vertices; different meshes exceed it
@@ -255,8 +255,8 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
   return made;
 }
 
-/// The largest set of heads whose polygons have the same numbers of corners in the same order; of
-/// equally large sets, the set whose first head comes first.
+/// The largest set of heads that agree in the sequence of corner counts of their polygons. If
+/// several sets are equally large: the set whose first head comes first.
 std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads) {
   std::vector<std::vector<const HeadFile*>> kinds;
   for (const HeadFile& head : heads) {
@@ -306,8 +306,8 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours)
   FileMesh mesh;
   mesh.topology = other.mesh->topology;
   mesh.uvs = other.mesh->uvs;
-  // If the head has several materials, their assignment to the new polygons is only known from the
-  // other file.
+  // If the head has several materials, only the other file tells which of the new polygons has
+  // which material.
   mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
   mesh.positions = head.file.positions;
   mesh.colours = colour_fractions(colours);
@@ -341,7 +341,8 @@ std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(const Topolo
       return std::nullopt;
     }
   }
-  // Vertices without a polygon keep their order.
+  // Vertices without a polygon cannot be matched by polygons; the two meshes' vertices of this kind
+  // are matched in their order.
   std::uint32_t loose = 0;
   for (std::uint32_t& vertex : vertices) {
     if (vertex != kNoIndex) continue;

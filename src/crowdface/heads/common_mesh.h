@@ -15,7 +15,8 @@ namespace crowdface {
 void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours = {});
 
 /// Matches the vertices of two meshes that have the same polygons in the same order, although an
-/// export may have numbered the vertices anew, split them at seams or joined them where they touch.
+/// export may have numbered the vertices anew, split vertices at seams or joined vertices that have
+/// the same position.
 /// \param there  positions of `found`
 /// \return #V, a vertex of `found` for each vertex of `expected`; nothing if the corners of an
 ///         expected vertex have several positions, or if the meshes differ otherwise.
@@ -24,9 +25,9 @@ std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(const Topolo
                                                                     const Positions& there);
 
 /// Gives heads a common mesh if their meshes differ only by their export: in the order of vertices
-/// and polygons, by triangulation, or by vertices that are split at seams or joined where they
-/// touch. The common mesh is the mesh of most heads; its vertices at seams are joined if any head
-/// joins them. Logs each change.
+/// and polygons, by triangulation, by vertices that are split at seams, or by vertices that are
+/// joined because they have the same position. The common mesh is the mesh of most heads; its
+/// vertices at seams are joined if any head joins them. Logs each change.
 void give_common_mesh(std::vector<HeadFile>& heads);
 
 }  // namespace crowdface

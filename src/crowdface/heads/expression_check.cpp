@@ -21,7 +21,7 @@ constexpr std::size_t kMinHeads = 4, kMinVertices = 50;
 constexpr double kMinMm = 2, kMaxOfOthers = 3.2;
 constexpr double kShare = 0.9;  ///< the compared deviation is this quantile over the vertices
 
-/// A box around a facial feature. Unit: distance from mouth to eyes.
+/// A box around a facial feature. Lengths are multiples of the distance from mouth to eyes.
 struct Box {
   const char* name;
   double height;      ///< height of the centre above the mouth
@@ -55,7 +55,7 @@ double median(std::vector<double> values) {
   return nth_smallest(std::move(values), rank);
 }
 
-/// The vertex-wise median of all heads, which one odd head does not change.
+/// The vertex-wise median of all heads. A single odd head hardly changes this median.
 Positions middle_head(const HeadSet& head_set) {
   Positions middle(head_set.heads[0].positions.rows(), 3);
   parallel_for_each(static_cast<std::size_t>(middle.rows()), [&](std::size_t v) {

@@ -90,7 +90,7 @@ std::size_t FaceAttachments::memory_bytes() const {
   return bytes;
 }
 
-/// A face wears at most one attachment of each kind.
+/// The sum over the kinds of attachments: a face wears at most one attachment of each kind.
 std::size_t FaceAttachments::placed_bytes() const {
   // copies in memory at once: the bent mesh, and the mesh before and after the push off the skin
   constexpr std::size_t kCopies = 3;

@@ -21,7 +21,7 @@ struct PlacedAttachment {
   const Attachment* item;
   std::optional<HairColour> colour;  ///< see AttachmentLook
   Positions positions;               ///< the attachment's vertices on the face
-  /// one per shape (expression) of the face: displacements of the attachment's vertices
+  /// displacements of the attachment's vertices, one item for each shape (expression) of the face
   std::vector<Displacements> moves = {};
   /// For a body with a separate texture for each face: the face's id, and the content of a PNG
   /// file. Otherwise empty.
@@ -42,8 +42,8 @@ class FaceAttachments {
 
   /// The attachments of a face, in the order of its recipe. The result refers to the inputs.
   /// \param positions  the face's vertices, #V by 3
-  /// \param moves      displacements of the face, one per shape of the inputs; empty: the face at
-  ///                   rest
+  /// \param moves      displacements of the face's vertices, one item for each shape (expression)
+  ///                   of the inputs; empty: the face at rest
   std::vector<PlacedAttachment> attachments_of(const FacePlan& face, const Positions& positions,
                                                std::span<const Displacements> moves = {}) const;
 
@@ -55,7 +55,7 @@ class FaceAttachments {
   /// An attachment mesh bound to the fitted head.
   struct BoundMesh {
     std::unique_ptr<const AttachmentCarrier> carrier;
-    /// null unless the attachment bends and there are shapes
+    /// null unless the attachment bends with the skin and there are shapes (expressions)
     std::unique_ptr<const ShapeBend> bend;
   };
   void bind(const Config& config, const std::vector<bool>& wanted);

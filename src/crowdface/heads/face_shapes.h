@@ -12,15 +12,16 @@
 
 namespace crowdface {
 
-/// Computes the shapes (expressions) of a crowd's faces. What all faces share is computed once.
+/// Computes the shapes (expressions) of a crowd's faces. The constructor computes once the data
+/// that does not depend on the face.
 class FaceShapes {
  public:
   /// \param inputs  must outlive this object.
   FaceShapes(const Config& config, const Inputs& inputs);
 
-  /// The shapes of a face built from a recipe: one per shape of the inputs, or none if there are no
-  /// shapes. If the heads have shapes of their own, each region blends the shapes of the recipe's
-  /// source heads with the recipe's weights.
+  /// The shapes (expressions) of a face built from a recipe: one for each shape of the inputs, or
+  /// none if the inputs have no shapes. If the heads have shapes of their own, each region blends
+  /// the shapes of the recipe's source heads with the recipe's weights.
   /// \param crossing  optional output, see ShapeTransfer::carry
   std::vector<Displacements> shapes_of_face(const Recipe& recipe, const Positions& face,
                                             std::vector<Index>* crossing = nullptr) const;

@@ -18,7 +18,7 @@ namespace {
 /// Colour variation with a longer wavelength is blended as a weighted mean. Variation with a
 /// shorter wavelength keeps its contrast: brows, lip borders, freckles, stubble, pores.
 constexpr double kDetailMm = 24;
-/// Distance over which the strength of detail is averaged.
+/// Distance on the skin over which the strength (contrast) of detail is averaged.
 constexpr double kStrengthMm = 48;
 
 }  // namespace

@@ -20,7 +20,7 @@ inline bool has_own_textures(const Inputs& inputs) {
   return inputs.textures.blend() || !inputs.maps.empty();
 }
 
-/// A recipe with the colours of an unchanged head.
+/// A recipe that gives a face exactly the colours of one input head.
 Recipe recipe_of_head(Index head);
 
 class FaceTextures {
@@ -30,12 +30,12 @@ class FaceTextures {
   bool has_textures() const { return !pictures_.empty(); }
   /// Number of images in face_picture_names.
   std::size_t picture_count() const { return pictures_.size(); }
-  /// Blends a single image of a face, so that callers need not hold all its images in memory.
-  /// Thread-safe.
+  /// Blends a single image of a face, so that callers need not hold all images of the face in
+  /// memory. Thread-safe.
   /// \param picture  index into face_picture_names
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// Vertex colours of a face; no rows if the heads have none. Thread-safe.
+  /// Vertex colours of a face; no rows if the heads have no vertex colours. Thread-safe.
   ColourRows vertex_colours(const Recipe& recipe) const;
 
   /// Mean colour of the skin in a band above the neck's ring, in linear light; nothing without
@@ -53,7 +53,7 @@ class FaceTextures {
 
  private:
   void blend_textures(const Config& config);
-  /// Weights of the heads in the colour of the whole face.
+  /// #heads: the weight of each head in the mean colour of the whole face.
   std::vector<double> colour_fractions(const Recipe& recipe) const;
 
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
@@ -71,7 +71,8 @@ class FaceTextures {
   std::unique_ptr<const BodyPainter> body_;
 };
 
-/// Memory of the heads' texture maps that lie in memory, in bytes.
+/// Size, in bytes, of the heads' texture maps and vertex colours; maps that lie in files do not
+/// count.
 std::uint64_t texture_bytes(const Inputs& inputs);
 
 }  // namespace crowdface

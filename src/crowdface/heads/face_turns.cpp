@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// The columns of the samples that the bend does not move, or of all samples if the bend moves
-/// most.
+/// The columns of the samples that the bend of the neck does not move; the columns of all samples
+/// if the bend moves most samples.
 std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
   constexpr std::size_t kPoints = 500, kFewest = 100;
   std::vector<Index> all(samples.size()), above;
@@ -47,7 +47,8 @@ SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
   return heads;
 }
 
-/// Turns heads about the middle of the ring into the common pose. Smoothing commutes with rotations.
+/// Rotates each head about the middle of the neck's ring into the common pose of all heads.
+/// Smoothing commutes with rotations.
 void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
   for (std::size_t h = 0; h < heads.heads.size(); ++h) {
     if (neck.heads[h].pose_rotation.isZero(0)) continue;
@@ -126,8 +127,8 @@ std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
   if (is_turned)
     motion = head_motion(sample_face(placed_heads_, plain), sample_face(turned_heads_, plain));
   if (is_unmirrored(recipe)) return motion;
-  // `plane` mirrors the mean head as placed. A face has to be mirrored in the plane of the common
-  // pose, which is the image of `plane` under `mean_motion_`.
+  // `plane` is the symmetry plane of the mean of the placed heads. A face must be mirrored in the
+  // symmetry plane of the common pose, which is the image of `plane` under `mean_motion_`.
   const RigidMotion back = inverse(mean_motion_);
   if (recipe.asymmetry != 1) {
     const RigidMotion of_image =

@@ -11,7 +11,8 @@ namespace crowdface {
 
 /// The poses of faces on a body (config section `neck`), if the poses of the heads differ. The pose
 /// of a blended face lies between the poses of its target and of its sources, because detail keeps
-/// the pose of the head that it comes from. The smoother the target, the less its pose counts.
+/// the pose of the head that it comes from. The more the recipe smooths the target, the smaller is
+/// the weight of the target's pose.
 class FacePoses {
  public:
   /// \param inputs  must outlive this object; its heads are placed on a body
@@ -22,7 +23,8 @@ class FacePoses {
   /// Returns the rigid motion that aligns a blended face, before it is mirrored, with the face that
   /// the same recipe gives for heads in the common pose. Returns nothing if the recipe uses no head
   /// of another pose and no mirror image.
-  /// \param plane  in which faces are mirrored; read only for a mirrored or asymmetric face
+  /// \param plane  the plane in which faces are mirrored; needed only for a mirrored or asymmetric
+  ///               face
   std::optional<RigidMotion> motion_of(const Recipe& recipe, const MirrorPlane* plane) const;
 
  private:

@@ -13,18 +13,20 @@ namespace crowdface {
 
 /// Finds the stored hash of a file that is about to be read, if the cache trusts seen files and the
 /// file has not changed since it was last read. A file counts as unchanged if device, inode, size,
-/// mtime and ctime (which no program can set) are the same. Otherwise the program would hash
-/// gigabytes before it could show anything.
+/// mtime and ctime (which no program can set) are the same. Without stored hashes, the program
+/// would have to hash gigabytes before it could show anything.
 class FileFingerprint {
  public:
   /// \param cache  its folder stores the fingerprints of files that were read before
   FileFingerprint(const CacheFolder& cache, const std::filesystem::path& file);
 
-  /// Hash of the file's bytes, if seen files are trusted and this one has not changed.
+  /// Hash of the file's bytes; empty unless files that were read before are trusted and this file
+  /// has not changed since.
   const std::optional<Digest>& digest() const { return digest_; }
-  /// Stores the hash of the bytes. The caller must have read the bytes since this object was made
-  /// and found them valid. Does nothing if seen files are not trusted, if the file has changed
-  /// meanwhile, or if its last change is so recent that a later change might leave the times equal.
+  /// Stores the hash of the bytes. Before, the caller must have read the bytes (after the
+  /// constructor of this object) and found the bytes valid. Does nothing if seen files are not
+  /// trusted, if the file has changed meanwhile, or if its last change is so recent that a later
+  /// change might leave the times equal.
   void remember(const Digest& digest) const;
 
  private:

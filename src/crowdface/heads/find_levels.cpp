@@ -49,8 +49,8 @@ Positions weighted(const Positions& mean, const PartList& parts) {
   return sizes;
 }
 
-/// The error of a level over all shapes of the template or, if the heads have shapes of their own,
-/// of each head.
+/// The error of a level of detail over all shapes (expressions): over the shapes of the template
+/// or, if the heads have shapes of their own, over the shapes of each head.
 LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const LevelMap& map) {
   const ShapeSet& set = inputs.shapes;
   if (set.shapes.empty()) return {};

@@ -10,8 +10,8 @@
 namespace crowdface {
 namespace {
 
-/// Whether the fields are consistent: each tile uses a prefix of the fields, the tiles together use
-/// all steps, and each step is zero or a power of two.
+/// Whether the fields are consistent: each tile uses the first n fields for some n, the tiles
+/// together use all quantization steps, and each step is zero or a power of two.
 bool are_fields(const LevelFields& fields) {
   const auto& first = fields.first;
   for (std::size_t t = 0; t + 1 < first.size(); ++t) {

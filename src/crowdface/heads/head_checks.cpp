@@ -20,8 +20,9 @@ namespace {
 
 constexpr double kSameUv = 1e-4;
 
-/// Describes the first corner whose texture coordinates differ; empty if there is none. Compares
-/// coordinates instead of indices, because programs renumber them on export.
+/// Describes the first corner whose texture coordinates differ between the meshes; empty if there
+/// is none. Compares the coordinates and not their indices, because programs renumber texture
+/// coordinates on export.
 std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found) {
   const auto text = [](const TextureCoordinates& uvs, std::uint32_t row) {
     return row == kNoIndex ? std::string("none") : concat(uvs(row, 0), ' ', uvs(row, 1));
@@ -144,7 +145,7 @@ void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& pro
 
 std::optional<std::string> check_orientation_and_size(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return std::nullopt;
-  // skin only: eyeballs are not used to find the face
+  // the skin only, without eyeballs: the face is found by the skin's relief alone
   const HeadShape head{inputs.mean, skin_of(inputs), {}};
   const Topology& topology = inputs.faces.topology;
   const Orientation asked{config.faces.up, config.faces.front};
@@ -186,9 +187,9 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
 
 std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
-  // kMaxMm: distance up to which two heads may be the same person. kMaxOfOthers: the same as a
-  // fraction of the median distance between a head and its nearest head. kIdenticalMm: copies of
-  // one head, also if there are no other heads to compare with.
+  // kMaxMm: largest distance of two heads that may be the same person. kMaxOfOthers: this distance
+  // as a fraction of the median distance between a head and its nearest head. kIdenticalMm: largest
+  // distance of two copies of one head; needs no other heads to compare with.
   constexpr double kMaxMm = 1, kMaxOfOthers = 0.4, kIdenticalMm = 0.01;
   const std::vector<Head>& heads = inputs.faces.heads;
   std::vector<Positions> sampled(heads.size());

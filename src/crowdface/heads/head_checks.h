@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// Adds a problem for each head whose mesh differs from the mesh of the first head: the difference,
-/// and the export setting that probably caused the difference.
+/// Adds a problem for each head whose mesh differs from the mesh of the first head. The message
+/// names the difference and the export setting that probably caused it.
 void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& problems);
 
 /// Warns if the heads face the configured direction, but contain too little of a human face for

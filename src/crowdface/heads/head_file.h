@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// A head as read from its file. The topology, texture coordinates and corner normals are in
-/// `mesh`; those of `file` are empty.
+/// `mesh`; the same members of `file` are empty.
 struct HeadFile {
   ObjFile file;
   Digest text_digest;  ///< hash of the file's bytes

@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// Minimum fraction of vertices that must have a mirror partner.
+/// Smallest allowed fraction of vertices with a mirror partner.
 constexpr double kMinShare = 0.9;
 
 std::string key_of(const SamplingOptions& sampling, const std::string& section) {

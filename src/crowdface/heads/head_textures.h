@@ -16,12 +16,13 @@
 
 namespace crowdface {
 
-/// The parts of an image's name besides the face's id.
+/// The parts of an image file's name that do not depend on the face; the face's id is the other
+/// part.
 struct PictureName {
   std::string part;  ///< name of the image's material; empty if there is only one
   int tile = 0;      ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
-  /// Whether all heads' files hold 8-bit channels, and whether any holds floats.
+  /// Whether every texture file has 8-bit channels, and whether any texture file has floats.
   bool has_only_bytes = true, holds_floats = false;
 };
 
@@ -98,9 +99,10 @@ HeadTextures load_render_textures(FoundTextureFiles found, int max_px);
 /// Loads textures of one kind for blending and converts all textures to the layout of the first
 /// head with a texture. For each head, merges the files of an image into one image, whose longer
 /// side has the length `size`.
-/// \param size     texels of the longer side; nothing: as the largest file, at most 4,096
-/// \param scratch  folder for the maps if they would together need more than half of the memory
-///                 left for images
+/// \param size     texels of the longer side; nothing: the longer side of the largest file, but at
+///                 most 4,096
+/// \param scratch  folder for the maps; used if all maps together would need more than half of the
+///                 memory that is still free for images
 /// \throws InvalidInput if a file is damaged, or is not of the kind that its material says, such as
 ///     a grey image as a normal map.
 HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& materials,

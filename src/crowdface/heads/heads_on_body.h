@@ -13,8 +13,8 @@
 namespace crowdface {
 
 /// All heads on one body (config section `neck`). All heads get the same rotation, and each head
-/// its own translation. Each finished face is rotated and its neck is bent, so that the face has
-/// the same shape above the bend as without a body.
+/// its own translation. Each finished face is rotated and its neck is bent, so that above the bend
+/// the face has the same shape as it would have without a body.
 struct HeadsOnBody {
   /// How a head was placed.
   struct Head {
@@ -31,7 +31,8 @@ struct HeadsOnBody {
   Eigen::Vector3d seam_centre;  ///< centre of the seam between heads and body
   Positions unplaced_mean;      ///< mean of the heads before they were placed
   double mm_per_unit = 1;
-  /// The body; null unless renders or mesh files contain the body, or faces get a texture for it.
+  /// The body; null unless renders or mesh files contain the body, or each face gets a texture of
+  /// the body.
   std::shared_ptr<const Attachment> body;
   Rim body_rim;  ///< the body's vertex for each vertex of the ring; empty without `body`
   bool is_body(const Attachment& item) const { return body.get() == &item; }

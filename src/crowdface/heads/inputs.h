@@ -57,7 +57,7 @@ struct AttachmentLook {
 
 /// All attachments of a crowd.
 struct AttachmentSet {
-  /// #V by 3, the head that all attachments are fitted to; no rows if there are none
+  /// #V by 3, the head that all attachments are fitted to; no rows if there are no attachments
   Positions fitted_to;
   std::vector<Attachment> items;
   Digest digest;  ///< hash of the contents of all files and of the fitted head
@@ -66,10 +66,10 @@ struct AttachmentSet {
   /// The attachment with this name, which must exist.
   const Attachment& at(const std::string& name) const { return items[index(name)]; }
   std::size_t index(const std::string& name) const;
-  /// The attachments that a face wears.
+  /// The attachments that a face wears, in their colours.
   std::vector<AttachmentLook> looks(const FacePlan& face) const;
   AttachmentLook look(const std::string& name, const std::optional<HairColour>& hair) const;
-  /// All looks that occur on these faces, without duplicates, sorted by name.
+  /// All attachments in all colours that these faces wear, without duplicates, sorted by name.
   std::vector<AttachmentLook> looks(std::span<const FacePlan> faces) const;
 };
 
@@ -96,7 +96,8 @@ struct Inputs {
   Positions mean;                    ///< the mean head
   std::vector<ObjFile> files;        ///< #heads; topology and positions have moved to `faces`
   std::vector<Digest> text_digests;  ///< #heads, hashes of the files' bytes
-  /// #heads, vertex colours; no rows for heads without colours. Empty if no head has any.
+  /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
+  /// colours.
   std::vector<ColourRows> colours;
   Digest colours_digest;
   FaceMaterials materials;  ///< material of each polygon of the first head
@@ -130,7 +131,7 @@ struct Inputs {
   void warn(std::string text);
 };
 
-/// The numbers of a matrix in their storage order.
+/// The numbers of a matrix, in the order in which they lie in memory.
 template <class Rows>
 auto numbers_of(const Rows& rows) {
   return std::span(rows.data(), static_cast<std::size_t>(rows.size()));

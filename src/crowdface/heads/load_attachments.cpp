@@ -25,8 +25,8 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
   if (!asked.file.empty()) return read(asked.file);
   if (!asked.head) return inputs.neck ? inputs.neck->unplaced_mean : mean_head(inputs.faces);
   const auto head = static_cast<std::size_t>(*asked.head);
-  // Attachments fit the head as stored in its file; alignment or the neck has moved the loaded
-  // head.
+  // Attachments fit the head as its file stores it. Read the file again if rigid alignment or the
+  // neck has moved the loaded head.
   if (config.faces.align == Align::kRigid || inputs.neck) return read(config.faces.files[head]);
   return inputs.faces.heads[head].positions;
 }

@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Places all heads on the body of `neck`. Requires only that the heads are aligned. A neck that
-/// cannot be found or does not fit the body is a problem.
+/// Places all heads on the body that the config section `neck` names. Requires only that the heads
+/// are aligned. A neck that cannot be found or does not fit the body is a problem.
 void load_neck(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the shapes in parallel. Shapes that a head lacks are transferred from the template. A mesh
@@ -21,13 +21,13 @@ void load_neck(const Config& config, Inputs& inputs, Problems& problems);
 void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
                  Problems& problems);
 
-/// Loads the points; requires the shapes. Reports these problems with their line: a value that is
-/// not a position, a missing head, a template with another topology.
+/// Loads the named points; the shapes must be loaded before. Reports these problems with their line
+/// in the file: a value that is not a position, a missing head, a template with another topology.
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
-/// Loads the rig; requires the shapes. Its vertices are matched to the heads' vertices by
-/// `_VERTEX_ID`, or by position on the shapes' template or on a head. A vertex of the heads without
-/// a match, or a joint with non-uniform scale, is a problem.
+/// Loads the rig; the shapes must be loaded before. Its vertices are matched to the heads' vertices
+/// by `_VERTEX_ID`, or by position on the shapes' template or on a head. A vertex of the heads
+/// without a match, or a joint with non-uniform scale, is a problem.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the attachments in parallel. A mesh that cannot be read or lies far from the head, or a

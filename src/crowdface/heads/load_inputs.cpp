@@ -117,7 +117,7 @@ std::vector<Digest> hash_heads(const HeadSet& heads) {
 }
 
 /// Returns a message if some heads have a texture and other heads have none. Applies only if all
-/// textured heads name the same files: their texture is then not blended.
+/// textured heads name the same files. The texture of these heads is then not blended.
 std::optional<std::string> told_of_single(const FoundTextureFiles& textures, const HeadSet& heads) {
   std::vector<std::string> with, without;
   for (std::size_t h = 0; h < textures.heads.size(); ++h) {
@@ -130,7 +130,7 @@ std::optional<std::string> told_of_single(const FoundTextureFiles& textures, con
 }
 
 /// Loads textures. After each damaged image, loads again as if that file were missing.
-/// \param load  called with the textures found; returns them loaded. Throws DamagedImage.
+/// \param load  called with the textures found; returns the loaded textures, or throws DamagedImage
 template <class Load>
 HeadTextures load_sound(FoundTextureFiles& found, Inputs& inputs, const Load& load) {
   // sorted, so that the order of messages is fixed

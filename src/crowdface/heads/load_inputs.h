@@ -10,7 +10,8 @@
 
 namespace crowdface {
 
-/// Reads (in parallel) and checks heads and masks. Adds every problem; logs and keeps warnings.
+/// Reads (in parallel) and checks heads and masks. Adds every problem to the list; logs each
+/// warning and stores it in the result.
 /// \param cache  folder that keeps what was read (see cache_directory); empty: no cache
 /// \return nothing if there is any problem.
 std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache,

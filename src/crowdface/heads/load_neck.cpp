@@ -38,8 +38,8 @@ Vector3d ring_middle(const Positions& rim) {
   return sum / static_cast<double>(rim.rows());
 }
 
-/// Vertices of the skin that the bend does not move, or of the whole skin if the bend moves all of
-/// it.
+/// Vertices of the skin that the bend of the neck does not move; all vertices of the skin if the
+/// bend moves all of them.
 std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mean, const Rim& rim,
                                       double falloff) {
   constexpr std::size_t kPoints = 2000, kFewest = 100;
@@ -55,8 +55,8 @@ std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mea
 }
 
 /// The rotation of all heads onto a body of which only the ring is known. Returns the identity
-/// unless the rotation halves the distance between the rings: necks are cut at different slopes,
-/// and a different slope of the cut alone must not tilt the heads.
+/// unless the rotation at least halves the distance between the rings. Necks are cut at different
+/// slopes, and a different slope of the cut alone must not tilt the heads.
 Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(rim.rows()));
   std::iota(all.begin(), all.end(), 0U);
@@ -149,8 +149,8 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
 /// visible.
 void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& heads,
                   Inputs& inputs) {
-  // For this displacement, the bend's largest slope is one half: the largest slope is 1.5 times the
-  // displacement divided by the falloff.
+  // The displacement at which the bend's largest slope is one half. The largest slope is 1.5 times
+  // the displacement divided by the falloff.
   const double most = config.neck.falloff_mm / 3;
   std::vector<std::string> bent;
   for (std::size_t h = 0; h < heads.size(); ++h) {

@@ -85,7 +85,7 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
   }
 }
 
-/// The mesh that one set of points belongs to.
+/// The positions of the mesh on which one set of points lies.
 Positions template_of(const YamlNode& root, const std::filesystem::path& file,
                       const std::filesystem::path& neutral, const Inputs& inputs,
                       Complaints& complaints) {

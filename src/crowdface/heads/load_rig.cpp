@@ -20,8 +20,8 @@
 namespace crowdface {
 namespace {
 
-/// Maximum distance between a rig's vertex and the template's, as a fraction of the template's
-/// extent: 0.1 mm on a head.
+/// Maximum distance between a vertex of the rig and the same vertex of the template, as a fraction
+/// of the template's extent: 0.1 mm on a head.
 constexpr double kSame = 2e-4;
 constexpr double kMmPerMetre = 1000;
 
@@ -55,7 +55,7 @@ Positions in_frame(const Frame& frame, const Positions& points) {
   return placed;
 }
 
-/// Assigns a vertex of the rig to each vertex of the heads.
+/// For each vertex of the heads, the matching vertex of the rig.
 struct Match {
   std::vector<std::uint32_t> points;
   std::size_t missing = 0;
@@ -153,7 +153,8 @@ void require_near_heads(const Fit& fit, const Config& config, const Inputs& inpu
                                  "matrices and joints define the place of the mesh)"));
 }
 
-/// A joint's axes in the heads' frame. \throws InvalidInput if their lengths differ.
+/// A joint's axes in the heads' frame.
+/// \throws InvalidInput if the axes have different lengths (non-uniform scale).
 Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
   constexpr double kAlike = 1e-3;
   Eigen::Matrix3d axes;

@@ -148,7 +148,8 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
   }
 }
 
-/// Loads the shapes of each head; the shapes of the mean head are their averages.
+/// Loads the shapes of each head. The shapes of the mean head are the averages of the heads'
+/// shapes.
 void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   const Config& config = source.config;
   const Config::Shapes& asked = config.shapes;

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// #components: the name that most polygons of a component have; empty if none has a name.
+/// #components: the name that most polygons of the component have; empty if no polygon has a name.
 std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, const Inputs& inputs) {
   const Topology& topology = inputs.faces.topology;
   std::vector<std::map<std::size_t, Index>> faces(
@@ -38,7 +38,7 @@ std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, cons
   return names;
 }
 
-/// Finds the components that a name in the config refers to.
+/// Finds the components to which a name in the config refers.
 class ComponentNames {
  public:
   ComponentNames(const Config& config, const Inputs& inputs, Problems& problems)
@@ -182,7 +182,8 @@ std::string describe_parts(const Config& config, const Inputs& inputs) {
     if (inputs.parts.classes[c] == PartClass::kSkin) add(lines[0], c);
   }
   for (const Part& part : inputs.parts.parts) {
-    // There may be dozens of eyelash components; components of the same material share a line.
+    // There may be dozens of eyelash components; successive components of the same material share a
+    // line.
     const bool again = part.part_class == PartClass::kBound && lines.back().what == "bound" &&
                        label(lines.back().components[0]) == label(part.components[0]);
     if (!again) lines.push_back({part_name(part), {}, 0});

@@ -21,7 +21,7 @@ std::vector<std::uint32_t> skin_vertices(const Inputs& inputs);
 /// The axes of the heads, as configured.
 HeadAxes head_axes(const Config& config);
 
-/// A readable summary: a line for the skin and one for each group of similar parts.
+/// A readable summary: one line for the skin, and one line for each group of similar parts.
 std::string describe_parts(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

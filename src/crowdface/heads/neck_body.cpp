@@ -43,7 +43,7 @@ Rim read_rim(const std::filesystem::path& file, const Adjacency& adjacency) {
   return rim;
 }
 
-/// The mesh with some polygons only, and with the vertices that they use.
+/// The mesh reduced to some polygons and to the vertices of these polygons.
 /// \param kept  #F
 /// \param rim   renumbered with the vertices
 ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {

@@ -22,11 +22,13 @@ struct NeckBody {
   Positions area_vectors;   ///< area vectors of its polygons around the rim, #rim by 3
   bool is_head = false;
   Positions skin_positions = {};  ///< positions of the whole mesh if it is a head; else empty
-  /// The mesh and its vertices in the order of the rim, if the config needs it; else null.
+  /// The body's mesh and its vertices in the order of the rim; null if the config does not need the
+  /// mesh.
   std::shared_ptr<Attachment> mesh = {};
   Rim mesh_rim = {};
 
-  /// Makes the body's polygons face outward like the heads' polygons, if they face inward.
+  /// If the body's polygons face inward, reverses them, so that they face outward like the heads'
+  /// polygons.
   /// \param head_areas  the area vectors of the heads' polygons around the rim
   void face_outward(const Positions& head_areas);
 };

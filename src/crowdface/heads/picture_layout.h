@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Where an image of the layout is first used.
+/// The first head and polygon that use an image of the layout.
 struct PictureSource {
   std::size_t head = 0;
   std::uint32_t row = 0;  ///< index of the head's file

@@ -35,14 +35,15 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
       .add(static_cast<int>(config.smoothing.operator_kind))
       .add(static_cast<int>(config.smoothing.levels))
       .add(is_basis ? config.smoothing.tolerance_mm / mm_per(config.faces.units) : 0.0)
-      // The filter's row order depends on the first head, and a basis is fitted to every n-th row.
+      // The order of the filter's matrix rows depends on the first head. A basis is fitted to every
+      // n-th row and so depends on this order.
       .add(is_basis ? inputs.head_digests.front() : Digest{})
       .digest();
 }
 
-/// Maximum error of the nodes, as a fraction of the displacement at L_max. The error then uses
-/// about a tenth of the tolerance: 2·10⁻⁴ at the default tolerance of 0.05 mm (measured,
-/// docs/method.md).
+/// Maximum error of the nodes, as a fraction of the displacement at L_max. With this limit, the
+/// nodes use about a tenth of the error tolerance: 2·10⁻⁴ at the default tolerance of 0.05 mm
+/// (measured, docs/method.md).
 double missed_by_nodes(const Config& config) {
   constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
   if (config.smoothing.levels != Levels::kBasis) return 2e-4;
@@ -189,7 +190,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
       ++prepared.cached_head_count;
     } else {
       head = preparation.prepare(inputs.faces.heads[h]);
-      // After one failure, more warnings would not help.
+      // Stop writing after one failure: more warnings would not help the user.
       cache_works =
           cache_works && store(cache, prepared_key(keys[h]), arrays_of(*head), "prepared heads");
       // Use the mapped file from here on, so that only one head's fields are in memory at a time.

@@ -39,7 +39,9 @@ struct TruncatedWhileInUse : IoError {
   using IoError::IoError;
 };
 
-/// Call this after using the fields and before using the results. \throws TruncatedWhileInUse.
+/// Checks that no cache entry was truncated while its fields were in use. Call this after using the
+/// fields and before using the results.
+/// \throws TruncatedWhileInUse.
 void require_whole(const Prepared& prepared);
 
 /// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a

@@ -116,7 +116,7 @@ Digest HeadMesh::digest() const {
 }
 
 CacheKey read_key(const Digest& text_digest) {
-  // The cache may hold a file that exceeds the current limits.
+  // The key contains the limits, because the cache may hold a file that exceeds the current limits.
   const InputLimits& limits = input_limits();
   return {kReadKind,
           Hasher().add(kVersion).add(text_digest).add(limits.vertices).add(limits.faces).digest()};

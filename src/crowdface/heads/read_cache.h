@@ -28,7 +28,8 @@ std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text_dig
 /// \param mesh_digest  hash of the mesh
 std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_digest);
 
-/// Write cache entries. \throws CannotCreate, IoError.
+/// Write the cache entries of a head and of a mesh.
+/// \throws CannotCreate, IoError.
 void cache_head(const std::filesystem::path& cache, const Digest& text_digest,
                 const Digest& mesh_digest, const ObjFile& head);
 void cache_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);

@@ -103,8 +103,9 @@ bool is_worth_keeping(const ObjFile& file) {
   return file.notes.empty() && !file.is_mended && file.file.bytes().size() >= kMinCachedBytes;
 }
 
-/// Undoes the flip of mirrored heads, so that the alignment check reports these heads. A head is
-/// mirrored if its polygons were flipped although they matched another head's polygons before.
+/// Turns the polygons of mirrored heads back to the winding in the file, so that the alignment
+/// check reports these heads. A head is mirrored if its polygons were flipped although they matched
+/// another head's polygons before.
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (!head || !head->mesh || !head->has_reversed_faces) continue;
@@ -185,7 +186,7 @@ void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
   take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.outline), shelf);
 }
 
-/// A folder outside the cache, removed when the program ends.
+/// A temporary folder outside the cache. It is removed when the program ends.
 const fs::path& scratch_folder() {
   static const ScratchFolder scratch;
   return scratch.path();
@@ -268,8 +269,8 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
   return reading;
 }
 
-/// Gives a head the mesh that was read for the first head with the same hash. If that head could
-/// not be read, reads this one.
+/// Gives a head the mesh that was read for the first head with the same hash. If that first head
+/// could not be read, reads the mesh from this head's file.
 void finish_reading(HeadReading& reading, MeshShelf& shelf) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
   shelf.take(reading.outline.mesh, reading.head);

@@ -19,13 +19,14 @@ namespace crowdface {
 /// Smaller files are not cached: reading them takes no longer than reading their cache entry.
 inline constexpr std::uint64_t kMinCachedBytes = 1'000'000;
 
-/// What to do with meshes whose polygons face inward.
+/// What to do with a mesh whose polygons face inward: keep it, or turn the polygons outward.
 enum class Winding { kAsItIs, kOutward };
 
 /// Reads meshes in parallel, from the cache if it has them.
 /// \param what   noun for the meshes, shown in the progress bar
 /// \param cache  cache folder; empty: no cache
-/// \return #paths; empty for files that could not be read, which are added as problems.
+/// \return #paths, one item for each path; an item is empty if the file could not be read. Each
+/// such file is added as a problem.
 std::vector<std::optional<HeadFile>> read_mesh_files(
     const std::vector<std::filesystem::path>& paths, std::string_view what,
     const CacheFolder& cache, Problems& problems, Winding winding = Winding::kOutward);
@@ -36,7 +37,7 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
                                  const CacheFolder& cache, Problems& problems);
 
 /// Reads the vertex positions of a mesh file.
-/// \param others  noun for the meshes with the expected topology, for messages
+/// \param others  noun in messages for the meshes that have the expected topology
 /// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view others);

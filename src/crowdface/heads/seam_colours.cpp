@@ -15,7 +15,7 @@ namespace {
 constexpr double kBandMm = 20;  ///< height of the band, along the skin
 
 /// The optical densities of a head's texture around each vertex, #vertices by 3: the mean of one
-/// sample in each adjacent polygon. No rows if some vertex has no textured polygon.
+/// sample from each polygon at the vertex. No rows if some vertex has no textured polygon.
 Positions sampled(const TextureSet& textures, const HeadSet& heads, const VertexFaces& around,
                   const std::vector<std::uint32_t>& vertices) {
   constexpr float kOwn = 0.75F;  // weight of the vertex in a sample; the centroid has 1 − kOwn

@@ -13,13 +13,15 @@ namespace crowdface {
 class SeamColours {
  public:
   /// \param inputs   must have a neck and outlive this object.
-  /// \param blended  blends the faces' colour textures; null if faces have none of their own.
+  /// \param blended  blends the faces' colour textures; null if faces have no colour textures of
+  ///                 their own.
   SeamColours(const Inputs& inputs, const TextureBlender* blended);
 
   /// Whether any head has colours in the band.
   bool has_colours() const;
   /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
-  /// \param weights  #heads; heads without colours are left out. All zero: equal weights
+  /// \param weights  #heads; heads without colours are left out. If all weights are zero, all heads
+  ///                 get equal weights
   Positions ring_densities(const std::vector<double>& weights) const;
   /// Mean colour of the band, linear light.
   Eigen::Array3d mean_colour(const std::vector<double>& weights) const;

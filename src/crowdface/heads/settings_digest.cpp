@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Adds nothing if all components are skin.
+/// Adds to the hash everything that determines how parts move. Adds nothing if all components are
+/// skin.
 void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
   if (parts.parts.empty()) return;
   hasher.add(kPartsVersion).add(static_cast<int>(config.parts.shape));
@@ -31,8 +32,8 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
   Hasher hasher;
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
   for (std::size_t h = 0; h < inputs.own_digests.size(); ++h) {
-    // Also hash the file: everything in an output mesh except the positions is copied from the
-    // target's file.
+    // Also hash the text of each head's file: an output mesh copies everything except the positions
+    // from the file of its target head.
     hasher.add(config.faces.names[h]).add(inputs.own_digests[h]).add(inputs.text_digests[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// For smaller heads, reading from the cache takes as long as computing.
+/// For heads with fewer vertices, reading from the cache takes as long as computing.
 constexpr Index kMinCachedVertices = 50'000;
 
 CacheFolder cache_of(const Inputs& inputs) {
@@ -39,7 +39,8 @@ Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
   return hasher.add_array(std::span(inputs.skin.component_of_vertex)).add(inputs.skin.largest());
 }
 
-/// Whether each component's size equals its number of vertices.
+/// Whether the stored size of each component equals the number of vertices that are assigned to the
+/// component.
 bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
                const std::vector<std::uint32_t>& sizes) {
   if (!all_below(of_vertex, sizes.size())) return false;

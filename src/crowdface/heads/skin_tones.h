@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// The mean optical density of each head's colour textures, #heads; empty if faces have no blended
-/// colour textures. Samples one texel of each 16 by 16 texels.
+/// #heads: the mean optical density of each head's colour textures; empty if faces have no blended
+/// colour textures. Reads only one texel of each block of 16 by 16 texels.
 std::vector<double> skin_tones(const Inputs& inputs);
 
 /// Computes the weights of the heads in the colours of a face: the mean over the regions, weighted

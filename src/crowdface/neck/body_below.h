@@ -7,8 +7,9 @@
 
 namespace crowdface {
 
-/// Finds the polygons of a body below a closed loop of edges: the polygons connected with the loop
-/// from below, and separate parts whose middle is lower than the middle of the loop.
+/// Finds the polygons of a body below a closed loop of edges: the polygons that are connected with
+/// the lower side of the loop, and the polygons of separate parts whose middle is lower than the
+/// middle of the loop.
 /// \param up  unit vector
 /// \return  #F: whether each polygon is below; all true if the loop is an open rim.
 /// \throws InvalidInput if the loop does not separate the polygons along it.

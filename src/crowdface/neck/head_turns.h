@@ -8,16 +8,16 @@
 
 namespace crowdface {
 
-/// The motion, of scale 1, that brings points of a head closest to the same points of another head.
-/// The motion minimises the sum of the distances, not of their squares, so that a long chin or a
-/// large nose hardly rotates a head (iteratively reweighted least squares).
+/// The rotation and translation that bring points of a head closest to the same points of another
+/// head. The motion minimises the sum of the distances, not of their squares, so that a long chin
+/// or a large nose hardly rotates a head (iteratively reweighted least squares).
 /// \param from, to  #points by 3; at least three points that are not collinear
 RigidMotion head_motion(const Positions& from, const Positions& to);
 
-/// Returns the part of a rotation between two heads that their poses explain. Heads in the same
-/// pose also differ: by up to 6 degrees about the axis through the ears (the inclination of faces
-/// varies) and by up to 2 degrees about other axes (heads are nearly symmetric). This function
-/// removes such differences.
+/// Splits a rotation between two heads, and returns the part of the rotation that is due to
+/// different poses. Heads in the same pose also differ: by up to 6 degrees about the axis through
+/// the ears (the inclination of faces varies) and by up to 2 degrees about other axes (heads are
+/// nearly symmetric). This function removes such differences.
 /// \param across  the axis through the ears, a unit vector
 Eigen::Matrix3d pose_difference(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across);
 

@@ -73,7 +73,7 @@ Rim shifted(const Rim& rim, std::size_t shift, bool forwards) {
   return result;
 }
 
-/// Root mean square of the distances from each of `points` to the nearest of `others`.
+/// Root mean square, over `points`, of the distance from a point to the nearest point of `others`.
 double nearest_rms(const Positions& points, const Positions& others) {
   double sum = 0;
   for (Index i = 0; i < points.rows(); ++i) {
@@ -97,7 +97,8 @@ struct OrderedRim {
   RigidFit fit;
 };
 
-/// Returns why two matched rims do not belong together; empty if they do.
+/// Returns a text that says why two matched rims do not belong together; empty if the rims belong
+/// together.
 /// \param fit  the rigid fit of the rims, in the order of the match
 std::string fault_of(const Positions& head, const Positions& body, const RigidFit& fit,
                      double reach_mm) {
@@ -124,7 +125,7 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
                 " (rms) off those of the heads' rim");
 }
 
-/// The order that fits best after a rotation.
+/// The order whose rim fits best if the rim may be rotated.
 /// \param orders  all orders of one direction, then all orders of the other direction
 const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
   // A rim with equal left and right sides also fits upside down, in the other direction.
@@ -179,8 +180,8 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
 
 RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm,
                     RimOrder order) {
-  // If the head is rotated, the true order fits much better after a rotation than the order with
-  // the smallest distances.
+  // If the head is rotated, the order with the smallest distances may be wrong. If both orders are
+  // fitted with a rotation, the true order then fits much better than this order.
   constexpr double kMuchBetter = 0.85;
   std::vector<OrderedRim> orders;
   const bool is_free = order == RimOrder::kFree;

@@ -30,8 +30,8 @@ struct RimMatch {
 };
 
 /// Matches the vertices of two rims of equal length. Tries every start in both directions, and
-/// takes the order with the smallest sum of squared distances. Takes another order if its sum after
-/// a rotation is much smaller.
+/// takes the order with the smallest sum of squared distances. Takes another order if, after the
+/// best rotation of each order, the other order leaves a much smaller distance.
 /// \param head     the heads' rim, #rim by 3, in mm, in order
 /// \param body     positions of the whole body, in mm
 /// \param reach_mm largest distance between the rims; callers pass the falloff

@@ -12,9 +12,9 @@
 namespace crowdface {
 
 /// Smooth displacements of the skin above a rim. The caller gives the displacements of the rim. At
-/// the distance `falloff` along the surface, the displacements are zero with zero slope. In this
-/// band they minimise the bending energy (the biharmonic equation, discretised with the cotangent
-/// Laplacian). One factorisation serves all displacements.
+/// the distance `falloff` along the surface, the displacements are zero with zero slope. Between
+/// the rim and this distance, the displacements minimise the bending energy (the biharmonic
+/// equation, discretised with the cotangent Laplacian). One factorisation serves all displacements.
 class NeckBend {
  public:
   /// \param falloff  in the unit of the positions, measured along edges of `positions`

@@ -10,7 +10,8 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The edges with exactly one polygon, each in the direction of that polygon.
+/// The edges that belong to exactly one polygon. Each edge has the direction in which this polygon
+/// traverses the edge.
 std::vector<Edge> open_edges(const Topology& topology, const Adjacency& adjacency) {
   // directed polygon edges, grouped by the undirected edge
   std::map<Edge, std::vector<Edge>> edges;

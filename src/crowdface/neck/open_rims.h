@@ -13,13 +13,13 @@ namespace crowdface {
 /// A closed loop of edges: the vertices in the order of the loop, each once.
 using Rim = std::vector<std::uint32_t>;
 
-/// The open rims of a mesh: closed loops of edges that have exactly one polygon, ordered by their
-/// lowest vertices. Rims that touch another rim at a vertex are omitted, because they are not
-/// simple loops.
+/// The open rims of a mesh: closed loops of edges that belong to exactly one polygon. The rims are
+/// ordered by their vertices with the lowest index. Rims that touch another rim at a vertex are
+/// omitted, because they are not simple loops.
 std::vector<Rim> find_open_rims(const Topology& topology, const Adjacency& adjacency);
 
-/// The closed loop that the edges between the given vertices form; empty if the edges do not form
-/// exactly one loop.
+/// The closed loop that all mesh edges between two of the given vertices form; empty if these edges
+/// do not form exactly one loop.
 Rim rim_through(std::span<const std::uint32_t> vertices, const Adjacency& adjacency);
 
 }  // namespace crowdface

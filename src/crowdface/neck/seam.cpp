@@ -31,8 +31,8 @@ void set_rows(const Rim& rim, const Positions& rows, Positions& mesh) {
 /// Bends the neck of a mesh and gives the rim these positions.
 void bend_to(const Seam& seam, const Positions& goal, Positions& mesh) {
   const Positions moves = goal - mesh(seam.rim, kAllColumns);
-  // Distance below which a rim counts as already in place. If all heads end in the same ring, their
-  // blend differs from it only by rounding errors.
+  // Distance below which a rim counts as already in place. If all heads end in the same ring, the
+  // rim of their blend differs from this ring only by rounding errors.
   constexpr double kRounding = 1e-9;
   if (moves.cwiseAbs().maxCoeff() > kRounding * goal.cwiseAbs().maxCoeff()) {
     const std::vector<std::uint32_t>& bent = seam.neck.vertices();

@@ -14,10 +14,10 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the distance from mouth to eyes. The upper border runs under the brows,
-// the lower border between nose and lips. Blending extends by kSoft to either side of a border, so
-// that a transition is about four centimetres wide. Adjacent bands come from different people,
-// whose surfaces are often a centimetre apart, so that a narrower transition would be visible as a
-// ridge.
+// the lower border between nose and lips. The transition between two bands extends by kSoft above
+// and below their border, so that it is about four centimetres wide. Adjacent bands come from
+// different people, whose surfaces are often a centimetre apart. A narrower transition would
+// therefore be visible as a ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
 // How far the ear regions extend beyond the ears (kAroundEar, kBelowEar, kFrontOfEar), how far
 // below the chin the neck begins (kBelowChin), and how wide the soft borders are (kEarSoft,
@@ -25,8 +25,8 @@ constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
 constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSoft = 0.12,
                  kBelowChin = 0.12, kNeckSoft = 0.12;
 
-// Fractions of the distance from eyes to mouth, about 65 mm. Ears are searched at heights up to
-// kAbove above the eyes and down to kBelow below the mouth. kMinEar is the smallest distance by
+// Fractions of the distance from eyes to mouth, about 65 mm. Ears are searched between the height
+// kAbove above the eyes and the height kBelow below the mouth. kMinEar is the smallest distance by
 // which an ear protrudes from the head.
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
 /// The vertical range of an ear: heights at which it protrudes by more than this fraction of its
@@ -34,7 +34,7 @@ constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
-/// Weight of the ear region at a point, 0 … 1.
+/// Weight of the band of the ears at a point, 0 … 1.
 double ear_share(const EarBox& ears, double face, double side, double height, double front) {
   const double around = kAroundEar * face, soft = kEarSoft * face;
   const auto inside = [&](double from, double to, double x) {
@@ -45,7 +45,7 @@ double ear_share(const EarBox& ears, double face, double side, double height, do
          smooth_step(ears.inner - 2 * around, ears.inner, side);
 }
 
-/// The height below which the neck begins. This border rises from below the chin to below the ears.
+/// The border below which the neck begins. Its height rises from below the chin to below the ears.
 struct NeckBorder {
   double chin_front, chin, ear_front, ear;
   double at(double front) const {

@@ -36,7 +36,8 @@ struct EarBox {
   double back = 0, front = 0;  ///< positions along HeadAxes::front
   double inner = 0;            ///< distance from the middle at which the ears begin
 };
-/// Finds the ears: the protrusions at the sides of the skin between mouth and brows.
+/// Finds the ears: the parts that protrude from the skin at both sides, between the heights of
+/// mouth and brows.
 /// \return nothing if nothing protrudes.
 std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
                                 const FaceMarks& marks);

@@ -25,8 +25,9 @@ class DepthMap {
 
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// Compares the depths of the surface with the depths of the mean face.
-  /// \param lateral, height  position of the point between the eyes.
+  /// Compares the depths of the surface with the depths of the mean face, placed at the given
+  /// position with the given scale and stretch.
+  /// \param lateral, height  position on the surface of the point between the eyes.
   /// \param scale, stretch  see ReliefMatch
   ReliefFit fit(double lateral, double height, double scale, double stretch = 1) const;
 

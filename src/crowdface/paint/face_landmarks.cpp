@@ -59,11 +59,11 @@ class HeadRays {
     InHead at;
     bool is_skin = false;
   };
-  /// The first surface seen from the front.
+  /// The first surface point that a ray from the front meets.
   std::optional<Hit> from_front(double across, double up) const {
     return trace(point_at({across, up, 0}), -marks_.axes.front, marks_.axes.front);
   }
-  /// The first surface seen from the left (`left` is 1) or from the right (−1).
+  /// The first surface point that a ray from the left (`left` is 1) or from the right (−1) meets.
   std::optional<Hit> from_side(int left, double up, double front) const {
     const Eigen::Vector3d outwards = left * side_;
     return trace(point_at({0, up, front}), -outwards, outwards);
@@ -150,7 +150,8 @@ class LandmarkSearch {
     return rays_.in_head(place->second.position);
   }
 
-  /// The skin in the symmetry plane between two heights, seen from the front, in descending order.
+  /// Points of the skin that are visible from the front, in the symmetry plane between two heights;
+  /// the highest point comes first.
   std::vector<Hit> skin_between(double low, double high, double step = 0.2) const {
     std::vector<Hit> hits;
     for (double up = high; up >= low; up -= step) {
@@ -167,7 +168,8 @@ class LandmarkSearch {
   }
   static double front_of(const InHead& at) { return at.front; }
   static double back_of(const InHead& at) { return -at.front; }
-  /// Distance by which a point lies behind the line between two points of the profile.
+  /// Returns a function: the distance by which a point lies behind the line through `a` and `b`,
+  /// two points of the profile.
   static auto behind(const InHead& a, const InHead& b) {
     return [=](const InHead& p) {
       const double t = (p.up - a.up) / (b.up - a.up);
@@ -338,7 +340,8 @@ class LandmarkSearch {
     const auto tip = at("nose_tip"), base = at("nose_base");
     if (!tip || !base) return miss({"nose_wing_left", "nose_wing_right"}, reason);
     constexpr double kFrom = 9, kTo = 25, kStep = 0.25, kSpan = 1, kMinSlope = 0.6;
-    // The slope of the cheek beside the wing is at most kFlatter times the slope of the wing.
+    // kBeside to the side of the wing, the slope of the cheek is at most kFlatter times the slope
+    // of the wing.
     constexpr double kBeside = 4, kFlatter = 0.7;
     const auto slope = [&](double x, double up) {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);

@@ -81,8 +81,8 @@ class Outline {
     closed.front_ = extreme(extreme(front_, highest), lowest);
     return closed;
   }
-  /// How far the profile at `height` lies behind the line between its points at `height` + `way`
-  /// and `height` − `way`.
+  /// The distance by which the profile at `height` lies behind the line between the profile's
+  /// points at `height` + `way` and `height` − `way`.
   double hollow(double height, double way) const {
     return (at(height + way) + at(height - way)) / 2 - at(height);
   }
@@ -104,7 +104,7 @@ class Outline {
   static constexpr double kNothing = -std::numeric_limits<double>::infinity();
   static constexpr double kSoftMm = 1.5;
 
-  /// Adds the intersection of the skin with a plane.
+  /// Adds the curve in which a plane cuts the skin.
   void cut(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
            const HeadAxes& axes, double middle) {
     const Eigen::Vector3d side = axes.side();
@@ -135,7 +135,8 @@ class Outline {
       front = std::max(front, lower.y() + t * (upper.y() - lower.y()));
     }
   }
-  /// Interpolates linearly at heights without skin, and repeats the outermost values at the ends.
+  /// Fills heights without skin: interpolates linearly between heights with skin, and repeats the
+  /// first and the last value beyond them.
   void fill_gaps() {
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < front_.size(); ++i) {
@@ -195,7 +196,7 @@ MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, doubl
   constexpr double kStepMm = 0.5;
   constexpr double kRatio = 0.47, kRatioSpread = 0.04;
   constexpr double kMouthBelowTipMm = 38;
-  // Deeper hollows count less, because an open mouth may be arbitrarily deep.
+  // Depth beyond kDeepMm counts only kDeeperShare, because an open mouth may be arbitrarily deep.
   constexpr double kDeepMm = 4, kDeeperShare = 0.25;
   constexpr double kMaxConvexMm = 6;
   MouthAndChin best{tip - kMouthBelowTipMm * stretch * mm, tip - kMouthBelowTipMm / kRatio * mm};
@@ -283,7 +284,8 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   FaceMarks marks;
   marks.axes = match.axes;
   const double mm = match.scale, eyes = match.between_eyes.dot(match.frame.up);
-  // The middle of the skin is more accurate than the relief, but hair or a cap may shift it.
+  // The middle of the skin gives the symmetry plane more accurately than the relief does, but hair
+  // or a cap may shift this middle.
   marks.middle = symmetry_offset(topology, head, marks.axes);
   const double of_relief = match.between_eyes.dot(match.axes.side());
   if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;

@@ -22,7 +22,8 @@ struct FaceMarks {
   double mouth = 0;       ///< height of the line between the lips
   double chin = 0;        ///< height of the most convex point of the profile of the chin
   double chin_front = 0;  ///< how far in front the chin is, along axes.front
-  /// Height of the eyes above the mouth, about 65 mm: the unit for other lengths of the face.
+  /// Height of the eyes above the mouth, about 65 mm. Other lengths of the face are multiples of
+  /// this height.
   double eye_to_mouth() const { return eyes - mouth; }
 };
 
@@ -38,7 +39,7 @@ HeadShape shape_of_mean(const HeadSet& heads);
 /// Offset of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
 double symmetry_offset(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
 
-/// Finds the face on a head by its relief, see match_relief.
+/// Finds the face on a head by the relief of the face, see match_relief.
 /// \param axes  orientation of the head, accurate to about 35°
 /// \return nothing if no part of the skin has the relief of a face
 std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& head,

@@ -47,8 +47,8 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
 
 constexpr double kVoteOfEyes = 0.15;
 
-/// Compares the midpoint of the known eyeballs with the point between the eyes of a match: 1 if
-/// they are near each other, −1 if not, 0 if no eyeballs are known.
+/// Compares the midpoint of the known eyeballs with the point between the eyes of a match: 1 if the
+/// two points are near each other, −1 if they are not, 0 if no eyeballs are known.
 int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                  double height, double scale) {
   constexpr double kNearMm = 20;
@@ -169,7 +169,7 @@ class Refinement {
     }
   }
 
-  /// Replaces the best match by a match at the same position with other axes.
+  /// Replaces the best match by a match that has the same position but other axes.
   void restart(const ReliefMatch& match, const HeadAxes& axes) {
     ReliefMatch next = match;
     next.frame = axes;
@@ -262,7 +262,8 @@ class Refinement {
     search(false);
   }
 
-  /// Tries a step of each parameter in both directions.
+  /// Changes each parameter by one step in both directions, and keeps the changes that improve the
+  /// match.
   void step_all(double step, bool turns) {
     for (const double sign : {1.0, -1.0}) {
       if (!turns) break;
@@ -293,7 +294,8 @@ class Refinement {
     }
   }
 
-  /// Keeps a match if it agrees better than the best match and its stretch is plausible.
+  /// Makes a match the new best match if the match agrees better than the old one and has a
+  /// plausible stretch.
   void try_match(const ReliefMatch& match) {
     if (!map_ || match.frame.front != map_axes_.front || match.frame.up != map_axes_.up) {
       map_.emplace(near_, match.frame, square_).smooth();
@@ -359,7 +361,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
   constexpr std::size_t kRefined = 6;
-  // factor on the step width in the rotated views, because there are many
+  // the steps in the rotated views are wider by this factor, because there are many rotated views
   constexpr double kCoarser = 1.5;
   constexpr double kTurn = 25;  // rotation of the rotated views, in degrees
   // A face within this angle in degrees counts as aligned with the axes.
@@ -390,14 +392,14 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
-    // Of the requested axes, choose the axes nearest to those of the face.
+    // Of the requested axes, choose the axes that are nearest to the axes of the face.
     match.axes_index = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
         all_axes.begin());
     const HeadAxes& asked = all_axes[match.axes_index];
     match.degrees_off = angle_between(match.axes, asked);
-    // Remove a small pitch.
+    // Compensate a small pitch of the match.
     const double pitch =
         std::asin(std::clamp(match.frame.up.dot(asked.front), -1.0, 1.0)) / kRadians;
     if (std::abs(pitch) < kMinPitch) {
@@ -416,7 +418,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     }
   }
   // Most runs have one pair of axes, so this case must be fast. Wide steps almost always find the
-  // face; if wide steps miss the face, the rotated views are searched.
+  // face. If they miss it, the search in the rotated views follows.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.score < kMinScore || match.degrees_off > kTurn) {

@@ -19,16 +19,17 @@ inline constexpr Index kSkinSamples = 150'000;
 Positions sample_skin(const Topology& topology, const Positions& positions,
                       const std::vector<bool>& skin, Index count);
 
-/// Position, size and orientation of a face found on a surface, and how well its relief matches.
+/// Position, size and orientation of a face found on a surface, and how well its relief matches the
+/// mean face.
 struct ReliefMatch {
   /// Partial correlation between the depths of the surface and the depths of the mean face, after
-  /// an offset, slopes and curvatures are removed from both surfaces. 1 for the mean face itself,
-  /// 0.75 to 0.97 for faces, rarely above 0.6 for other surfaces.
+  /// an offset, slopes and curvatures are fitted to both depths and subtracted. 1 for the mean face
+  /// itself, 0.75 to 0.97 for faces, rarely above 0.6 for other surfaces.
   double agreement = -1;
   /// The agreement, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15 if
   /// the eyeballs are elsewhere.
   double score = -1;
-  /// index in the list of requested axes: the axes nearest to the face's axes
+  /// index, in the list of requested axes, of the axes that are nearest to the face's axes
   std::size_t axes_index = 0;
   double degrees_off = 0;  ///< angle between the nearest requested axes and the face's axes
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
@@ -51,7 +52,8 @@ inline constexpr double kMaxDegreesOff = 45;
 /// face matches.
 /// \param samples  see sample_skin
 /// \param eyes     centres of the eyeballs if known; they raise or lower the score of a match
-/// \return the match with the highest score, however low; nothing if there are no samples
+/// \return the match with the highest score, even if this score is low; nothing if there are no
+/// samples
 std::optional<ReliefMatch> match_relief(const Positions& samples, const std::vector<HeadAxes>& axes,
                                         const std::vector<Eigen::Vector3d>& eyes);
 

@@ -14,8 +14,8 @@ namespace {
 
 using Alpha = RegionWeights::Alpha;
 
-// Distances over which smoothing and growing act, as fractions of the radius. They do not depend on
-// the resolution of the mesh.
+// Distances over which smoothing and growing act, as fractions of the brush's radius. These
+// distances do not depend on the resolution of the mesh.
 constexpr double kSmoothReach = 0.25, kGrowReach = 0.125;
 constexpr int kMaxRounds = 400;
 
@@ -35,7 +35,8 @@ void scale_to_one(Alpha& alpha, Index row) {
 }
 
 /// Sets the weight of one region at a vertex. The remaining weight goes to the other regions in
-/// proportion to their weights; if all these weights are zero, it goes to `receiver`.
+/// proportion to their weights. If all their weights are zero, the remaining weight goes to
+/// `receiver`.
 void set_share(Alpha& alpha, Index row, Index region, double share, Index receiver) {
   const double others = 1 - alpha(row, region);
   if (others <= 0) {
@@ -49,8 +50,8 @@ void set_share(Alpha& alpha, Index row, Index region, double share, Index receiv
   scale_to_one(alpha, row);
 }
 
-/// The region other than `region` with the largest total weight at the touched vertices; the first
-/// one if several are equal.
+/// Among all regions except `region`, the region with the largest total weight at the touched
+/// vertices; the first of them if several have the same total.
 Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
   Index receiver = region;
   double most = -1;
@@ -84,7 +85,8 @@ double edge_length(const Positions& positions, const std::vector<Touched>& touch
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
 }
 
-/// Number of steps from vertex to vertex that cover a distance of `edges` edges.
+/// Number of rounds, in each of which weights spread by one edge, that cover a distance of `edges`
+/// edge lengths.
 int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }
@@ -144,7 +146,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
       all.push_back(surface_.nearest(mirror_.mirrored(place.position)));
     }
   }
-  // The strength is constant in the core of the brush and falls off towards its rim.
+  // The strength is constant in the core of the brush and decreases from there to the brush's rim.
   std::vector<Touched> touched;
   std::vector<std::uint32_t> rows;
   const double core = (1 - brush.falloff) * brush.radius;
@@ -204,8 +206,8 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
       unassigned.push_back(static_cast<std::uint32_t>(v));
     }
   }
-  // Give weights to the vertices that belonged only to the removed region, from the border of this
-  // region inwards.
+  // Vertices that belonged only to the removed region have no weights now. Give them weights, from
+  // the border of this region inwards.
   while (!unassigned.empty()) {
     std::vector<std::uint32_t> left;
     std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;

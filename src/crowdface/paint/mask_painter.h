@@ -29,13 +29,13 @@ struct Brush {
 };
 
 /// Regions of a mesh that the user paints by hand. At every vertex the weights are not negative and
-/// sum to one. Undo restores the exact weights of each earlier step.
+/// sum to one. Each undo restores exactly the weights before a step.
 class MaskPainter {
  public:
   using Alpha = RegionWeights::Alpha;
 
-  /// \param positions  #V by 3, of the head to paint on. Topology and positions must outlive this
-  ///                   object.
+  /// \param positions  #V by 3, the head on which the user paints. Topology and positions must
+  ///                   outlive this object.
   /// \param mirror     symmetry plane of the head.
   /// \param alpha      #V by #R.
   MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
@@ -46,8 +46,8 @@ class MaskPainter {
 
   /// Applies the brush at several points of the surface. Where the discs of the brush overlap, the
   /// largest strength applies.
-  /// \param continues_stroke  whether the stroke continues the previous stroke, so that one undo
-  ///                 reverts both.
+  /// \param continues_stroke  whether this call continues the stroke of the previous call, so that
+  ///                          one undo reverts both calls.
   /// \return the vertices that may have changed, ascending.
   /// \throws BrokenPrecondition for numbers outside their ranges.
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& points,

@@ -21,15 +21,16 @@ std::vector<std::string> names_of(const std::vector<Band>& bands);
 int mask_texels(Index vertices);
 
 /// Computes regions from the shape of the mean head: #V by #bands.
-/// \throws InvalidInput as propose_bands does, and if no face is found in the front direction; the
-///     message then names the directions in which a face is found, if there are any.
+/// \throws InvalidInput in the same cases as propose_bands, and if no face is found in the front
+///     direction; the message then names the other directions in which a face is found, if there
+///     are any.
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
                                      const Orientation& orientation,
                                      const std::vector<Band>& bands);
 
 /// Computes the regions of propose_regions as images in the layout of the heads' texture.
 /// \param size  width and height in texels.
-/// \throws InvalidInput as propose_regions and paint_masks do.
+/// \throws InvalidInput in the same cases as propose_regions and paint_masks.
 PaintedMasks propose_masks(const HeadSet& heads, const HeadShape& mean,
                            const Orientation& orientation, const std::vector<Band>& bands,
                            int size);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMiddleMm = kReliefTopMm - kReliefSpacingMm * (kReliefRows - 1) / 2;
 // Mean of 16 synthetic heads: depth in mm relative to the tip of the nose, negative behind the tip.
-// Columns run from the middle to the side.
+// The first column is at the middle of the face, the last at the side.
 constexpr std::array<std::array<double, kHalfReliefColumns>, kReliefRows> kMeanRelief = {{
     {-23, -24, -26, -29, -32, -36},
     {-21, -22, -25, -28, -32, -35},
@@ -40,7 +40,8 @@ using Products = Eigen::Matrix<double, kTerms, kTerms>;
 
 constexpr double kUnitMm = 40;  // unit of x and y in the terms, in mm
 
-/// The terms of the fit in each cell, and the sum of their outer products over all cells.
+/// The values of the fit's terms in each cell, and the sum over all cells of the outer products of
+/// these values.
 struct Terms {
   std::array<Coefficients, kReliefCells> of_cell;
   Products products = Products::Zero();

@@ -9,7 +9,7 @@
 namespace crowdface {
 
 /// The depths of the mean face form a grid. Columns run from side to side, rows from 32 mm above
-/// the eyes to 96 mm below them.
+/// the eyes to 96 mm below the eyes.
 inline constexpr int kReliefRows = 17, kHalfReliefColumns = 6,
                      kReliefColumns = 2 * kHalfReliefColumns - 1,
                      kReliefCells = kReliefRows * kReliefColumns;
@@ -17,11 +17,11 @@ inline constexpr double kReliefSpacingMm = 8, kReliefTopMm = 32;
 /// Index of the cell that lies between the eyes.
 inline constexpr int kCellBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
 
-/// Signed distance of a cell from the symmetry plane of the mean face, to the side.
+/// Signed sideways distance of a cell from the symmetry plane of the mean face, in mm.
 constexpr double lateral_mm(int cell) {
   return kReliefSpacingMm * (cell % kReliefColumns - (kHalfReliefColumns - 1));
 }
-/// Height of a cell above the eyes of the mean face.
+/// Height of a cell above the eyes of the mean face, in mm.
 constexpr double height_mm(int cell) {
   const int row = cell / kReliefColumns;
   return kReliefTopMm - kReliefSpacingMm * row;
@@ -41,7 +41,8 @@ struct ReliefFit {
   double slope_up = 0;    ///< vertical slope of the depths without the relief
 };
 
-/// Fits a sum of an offset, slopes, curvatures and the mean face to depths by least squares.
+/// Fits a model to the depths by least squares. The model is a weighted sum of an offset, slopes,
+/// curvatures and the depths of the mean face.
 /// \param depths  in mm, scaled to a face of average size; kNoDepth in cells without a surface
 ReliefFit fit_relief(ReliefDepths depths);
 

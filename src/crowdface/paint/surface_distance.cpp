@@ -19,7 +19,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Returns the distance of c from the source of a wave that has reached a and b. Unfolds the
 /// triangle into the plane of the wave. If the straight path from the source to c does not cross
-/// the edge ab, the result is the length of the shortest path along the edges.
+/// the edge ab, the result is the length of the shorter path to c through a or b.
 double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                          const Eigen::Vector3d& c, double from_a, double from_b) {
   const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());
@@ -36,7 +36,7 @@ double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return std::sqrt((c_x - x) * (c_x - x) + (c_y + y) * (c_y + y));
 }
 
-/// Links coinciding boundary vertices of different components in cyclic lists.
+/// Links boundary vertices that coincide but belong to different components, in cyclic lists.
 std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Positions& positions) {
   std::vector<std::uint32_t> twins(static_cast<std::size_t>(positions.rows()));
   std::iota(twins.begin(), twins.end(), 0U);
@@ -104,8 +104,8 @@ std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::vertices_within(
     front.emplace(way, vertex);
   };
   for (const SurfacePoint& place : points) {
-    // Start from all corners of the polygon that contains the place's triangle, so that both
-    // triangles of a quad are treated alike.
+    // Start from all corners of the polygon that contains the triangle of the start point, so that
+    // both triangles of a quad are treated alike.
     for (const std::uint32_t f : faces_.items_of(place.corners[0])) {
       const auto face = topology_.face(f);
       if (!contains(face, place.corners[1]) || !contains(face, place.corners[2])) continue;
@@ -133,7 +133,8 @@ std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::vertices_within(
         for (std::size_t j = 0; j < face.size(); ++j) {
           const std::uint32_t other = face[j];
           const bool near = face.size() <= 4 || (i + 1) % face.size() == j ||
-                            // In large polygons, only neighbouring corners are connected.
+                            // In polygons with more than four corners, only neighbouring corners
+                            // are connected.
                             (j + 1) % face.size() == i;
           if (!near || other == vertex || other == to || distance[other] == kFar) continue;
           reached(to,

@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns the vertices of all polygons around the corners, ascending.
+/// Returns the vertices of all polygons that contain one of the corners, ascending.
 std::vector<std::uint32_t> ring_of(const Topology& topology, const VertexFaces& faces,
                                    const std::array<std::uint32_t, 3>& corners) {
   std::vector<std::uint32_t> ring;

@@ -14,10 +14,10 @@
 
 namespace crowdface {
 
-/// Attaches the vertices of bound parts to the skin. Each vertex is anchored to a point on the
-/// nearest triangle of the skin. The vertex keeps its offset from this point in a frame that
-/// rotates with the skin around the triangle. Two axes of the frame are orthonormalised weighted
-/// sums of the surrounding vertices, with fixed weights.
+/// Attaches the vertices of bound parts to the skin. Each bound vertex is anchored to a point on
+/// the nearest triangle of the skin. The vertex keeps its offset from this point in a coordinate
+/// frame that rotates with the skin around the triangle. Two axes of the frame are orthonormalised
+/// weighted sums of the surrounding vertices, with fixed weights.
 class Anchors {
  public:
   Anchors() = default;
@@ -29,7 +29,7 @@ class Anchors {
 
   const std::vector<std::uint32_t>& bound_vertices() const { return bound_; }
 
-  /// Returns the vertices' offsets in their frames on a head, #bound.
+  /// Returns, for each bound vertex, its offset on a head, in the vertex's frame: #bound.
   std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
   /// Moves the bound vertices of `result` to the target's offsets in the frames of `result`.
   /// Where the surrounding skin has not moved, a vertex gets exactly the target's position.

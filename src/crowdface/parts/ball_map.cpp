@@ -9,8 +9,8 @@ namespace crowdface {
 namespace {
 
 /// Returns the distance at which a ray from the centre intersects the surface, by Newton steps on
-/// the tangent planes at the nearest points. In a hole, the tangent plane next to the hole replaces
-/// the surface.
+/// the tangent planes at the nearest points. Where the surface has a hole, the tangent plane beside
+/// the hole replaces the missing surface.
 double radius_along(const Topology& topology, const VertexFaces& faces, const Positions& head,
                     const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, double radius,
                     std::uint32_t& nearest) {

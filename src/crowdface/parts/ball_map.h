@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// The radius of an eyeball, including the cornea, for each direction around its front. A grid over
-/// the stereographic plane stores the radii, so that a table look-up gives the gap to a lid without
-/// a search.
+/// the stereographic plane stores the radii, so that a table look-up, without a search, gives the
+/// gap between eyeball and lid.
 class BallMap {
  public:
   BallMap() = default;

@@ -64,8 +64,8 @@ void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& ve
   shape.radius = std::sqrt(std::max(0.0, x[3] + centre.squaredNorm()));
 }
 
-/// Measures the distances of vertices and polygon centres from the sphere. Vertices alone do not
-/// suffice: the corners of any box lie on a sphere.
+/// Measures `roughness`: the distances of vertices and polygon centres from the fitted sphere.
+/// Vertices alone do not suffice: the corners of any box lie on a sphere.
 void measure_roughness(const Topology& topology, const Components& components,
                        const Positions& positions, std::vector<ComponentShape>& shapes) {
   std::vector<double> sums(shapes.size(), 0.0);
@@ -88,8 +88,8 @@ void measure_roughness(const Topology& topology, const Components& components,
   }
 }
 
-/// Returns the 90th percentile of the distances from the skin over evenly chosen vertices;
-/// distances above `reach` count as `reach`.
+/// Returns the 90th percentile of some vertices' distances from the skin. The vertices are chosen
+/// evenly by index; a distance above `reach` counts as `reach`.
 double distance_to(const PointGrid& skin, const Positions& positions,
                    const std::vector<std::uint32_t>& vertices, double reach) {
   std::vector<double> distances;

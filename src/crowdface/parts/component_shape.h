@@ -47,15 +47,15 @@ std::vector<std::vector<std::uint32_t>> vertices_of_components(const Components&
 /// Returns the index of a vertex in an ascending list, or kNoIndex if it is not in the list.
 std::uint32_t index_in_list(std::span<const std::uint32_t> ascending, std::uint32_t vertex);
 
-/// Returns the bounding box of some vertices, at least one.
+/// Returns the bounding box of the given vertices (at least one).
 Eigen::AlignedBox3d bounding_box(const Positions& positions,
                                  std::span<const std::uint32_t> vertices);
-/// Returns the mean position of some vertices, at least one.
+/// Returns the mean position of the given vertices (at least one).
 Eigen::Vector3d centre_of(const Positions& positions, std::span<const std::uint32_t> vertices);
-/// Returns the root mean square distance of some vertices, at least one, from a point.
+/// Returns the root mean square distance of the given vertices (at least one) from a point.
 double radius_about(const Eigen::Vector3d& point, const Positions& positions,
                     std::span<const std::uint32_t> vertices);
-/// Returns the diagonal of the bounding box of some vertices, at least one.
+/// Returns the length of the diagonal of the bounding box of the given vertices (at least one).
 double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices);
 
 }  // namespace crowdface

@@ -17,8 +17,8 @@ namespace {
 /// Largest number of vertices of a part that are used; a part with more vertices is subsampled
 /// evenly.
 constexpr std::size_t kMaxVertices = 2500;
-/// kClusterPairs: largest number of pairs in a cluster. kMoreSlack: factor by which height
-/// differences within a cluster may be larger in a face than in the heads.
+/// kClusterPairs: largest number of pairs in a cluster. kMoreSlack: how many times larger the
+/// height differences within a cluster may be in a new face than in the heads.
 constexpr std::size_t kClusterPairs = 16;
 constexpr double kMoreSlack = 1.5;
 /// Fractions of the reach (about 4 mm). kNear: largest approximate height of vertices whose exact
@@ -32,7 +32,7 @@ constexpr double kFar = 0.15, kDone = 0.002;
 constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
 /// Penalties for violations, as multiples of the reach. kNewPenalty: for vertices that are outside
-/// in all heads; these have priority. kDeepPenalty: for all other vertices.
+/// the skin in all heads; these vertices have priority. kDeepPenalty: for all other vertices.
 constexpr double kNewPenalty = 1000, kDeepPenalty = 1;
 
 /// Unknowns of an optimisation step of a part. All of them are lengths.
@@ -76,7 +76,7 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
   // If two start vertices are nearer to each other than this distance, searches from both find the
   // same point of the skin.
   const double apart = 0.3 * reach_;
-  // Find the skin nearest to each pair in every head.
+  // In every head, find the skin vertex that is nearest to each pair's vertex.
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());
   parallel_for_each(heads.size(), [&](std::size_t i) {
     const Positions& head = heads[i].positions;
@@ -136,7 +136,8 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
     open.emplace_back(middle, end);
     open.emplace_back(begin, middle);
   }
-  // Bound the height differences within each cluster by the differences in the heads.
+  // Set an upper bound for the height differences within each cluster, from the largest differences
+  // in the heads.
   for (Cluster& cluster : clusters_) {
     for (const Head& head : heads) {
       const auto rough = [&](std::size_t i) {
@@ -252,7 +253,7 @@ bool Contact::step(const Positions& target, const RigidMotion& start, const Posi
     program.add_target(kShift + i, -shifted(static_cast<Index>(i)), 1);
     program.add_target(kTurn + i, 0, kHoldTurn);
   }
-  // Keep the total change of size small, within limits.
+  // Keep the total change of size small, and within fixed limits.
   program.add_target(kSize, -grown, kHoldSize);
   program.add_bounds(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
   program.add_slack(kNewSlack, kNewPenalty * reach_);

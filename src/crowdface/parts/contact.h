@@ -24,7 +24,7 @@ class Contact {
   /// \param grid       The skin's vertices at these positions.
   /// \param skin       The skin's vertices.
   /// \param part       The part's vertices.
-  /// \param reach      Largest distance of a pair.
+  /// \param reach      Largest distance between the vertex and the triangle of a pair.
   Contact(const Topology& topology, const VertexFaces& faces, const Positions& positions,
           const PointGrid& grid, std::span<const std::uint32_t> skin,
           std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
@@ -36,7 +36,7 @@ class Contact {
   };
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// Returns the motion that is nearest to `motion` and keeps the part out of the skin. After this
+  /// Returns the motion that keeps the part out of the skin and is nearest to `motion`. After this
   /// motion, no vertex is deeper inside the skin than in the head where this vertex is deepest. A
   /// vertex that is outside the skin in all heads stays outside. The correction is a small
   /// translation, rotation and scaling.
@@ -44,7 +44,8 @@ class Contact {
   /// \param target  The head with the part before the motion.
   /// \param motion  Motion of the surrounding skin.
   /// \param after   The face with the moved skin.
-  /// \param margin  Clearance to keep where all heads have a clearance.
+  /// \param margin  Clearance that the part keeps from the skin where it is clear of the skin in
+  ///                all heads.
   RigidMotion keep_out_of_skin(const Positions& target, const RigidMotion& motion,
                                const Positions& after, double margin) const;
 
@@ -57,8 +58,8 @@ class Contact {
     std::uint32_t vertex;
     Triangle corners;
     std::array<double, 3> shares;
-    /// Vertices at which the search for the nearest skin starts; on both lips if both lips are
-    /// near.
+    /// Vertices at which the search for the nearest skin starts. If both lips are near, some of
+    /// these vertices lie on each lip.
     Starts starts;
     double min_height;  ///< smallest height of the pair in all heads
   };

@@ -17,7 +17,8 @@ namespace {
 /// within kUp spacings determine the section's `up`.
 constexpr double kCourse = 4, kUp = 1.5;
 
-/// Returns the principal direction of the midpoints near a point, perpendicular to `up`.
+/// Returns the direction, perpendicular to `up`, in which the midpoints of the pairs near a point
+/// are spread most.
 Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, double reach,
                        const Eigen::Vector3d& up) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -62,7 +63,7 @@ double GapSection::gap(const Positions& positions) const {
 std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double spacing) {
   std::vector<double> nearest(group.size(), std::numeric_limits<double>::max());
   std::vector<GapSection> sections;
-  // the pair farthest from all sections so far
+  // `next` is the pair that is farthest from all sections chosen so far
   for (std::size_t next = 0; nearest[next] >= spacing;) {
     const Eigen::Vector3d middle = group[next].middle;
     Eigen::Vector3d up = Eigen::Vector3d::Zero();

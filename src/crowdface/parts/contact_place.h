@@ -21,8 +21,8 @@ struct EdgePoint {
   double fraction;  ///< from a (0) to b (1)
 };
 
-/// A section at which the gap between two facing sides is measured. A plane cuts a short profile of
-/// each side on the mean head.
+/// A cutting plane in which the gap between two facing sides of the skin is measured. On the mean
+/// head, the plane cuts a short curve (profile) out of each side.
 struct GapSection {
   /// `middle`: position on the mean head. `up`: unit vector from the low side to the high side.
   Eigen::Vector3d middle, up;
@@ -36,18 +36,18 @@ struct GapSection {
   Eigen::Vector3d inward() const { return plane_normal.cross(up); }
 };
 
-/// Returns sections spread evenly over a group. The profiles of the sections are empty;
-/// `cut_profiles` fills them.
+/// Returns sections that are spread evenly over a group. The profiles of the returned sections are
+/// empty; `cut_profiles` fills the profiles.
 ///
 /// \param spacing  Minimum distance between two sections; every pair of the group is within this
 ///                 distance of some section.
 std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double spacing);
 
-/// Cuts the two profiles of a section; one or both may stay empty.
+/// Cuts the two profiles of a section. One profile or both profiles may stay empty.
 ///
 /// \param vertices  Vertices around the group.
 /// \param side      #V: positive on the high side, negative on the low side.
-/// \param reach     Largest distance of the profiles from the section's middle.
+/// \param reach     Largest distance of a profile's points from the section's middle.
 void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
                   double reach, GapSection& section);
@@ -61,13 +61,13 @@ inline double height_of(const EdgePoint& point, const Eigen::Vector3d& up,
 
 /// Measures the smallest gap between the two profiles of a section, at depths where both profiles
 /// have points. If the inner rim of the upper lip hangs behind the lower lip, the lowest point of
-/// the rim is hidden, and the gap is that of the visible slit in front.
+/// the rim is hidden, and the gap is measured at the visible slit in front of the rim.
 class Clearance {
  public:
   Clearance(const GapSection& section, const Adjacency& adjacency);
 
   /// A point on the low profile and a point on the high profile at the same depth, each
-  /// interpolated between two points.
+  /// interpolated between two neighbouring profile points.
   struct OppositePoints {
     /// indices of points; the points of the low profile come before the points of the high profile
     std::array<std::uint32_t, 2> low, high;
@@ -87,8 +87,8 @@ class Clearance {
   ///
   /// \param depths  Depths of all points.
   std::vector<OppositePoints> opposite_points(std::span<const double> depths) const;
-  /// Return the coordinates of all points along the section's `up` and `inward()`, the points of
-  /// the low profile first.
+  /// `heights` returns the coordinates of all profile points along the section's `up`, `depths` the
+  /// coordinates along `inward()`. The points of the low profile come first.
   std::vector<double> heights(const Positions& positions) const {
     return coordinates(up_, positions);
   }

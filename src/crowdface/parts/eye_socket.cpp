@@ -21,23 +21,26 @@ constexpr std::size_t kDirections = 60;
 /// Largest number of lid vertices that are used; more vertices are subsampled evenly.
 constexpr std::size_t kMaxLids = 2500;
 
-/// kMeans: weight of the mean gap of a lid, relative to the mean square of the gaps at the rim.
-/// kMeanOff: tolerance of the mean gap, as a fraction of the radius (0.05 mm).
+/// kMeans: weight of the error of a lid's mean gap, relative to the mean square error of the gaps
+/// at the rim. kMeanOff: tolerance of the mean gap, as a fraction of the radius (0.05 mm).
 constexpr double kMeans = 20, kMeanOff = 0.004;
-/// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the gaps.
+/// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the cost of
+/// errors of the gaps.
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
 /// Largest decrease and increase of the eyeball's size.
 constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
 /// Fractions of the radius. kMargin: clearance that is kept where no head has a lid inside the
 /// eyeball (0.025 mm). kFreeOfLids: smallest gap that counts as outside (−0.04 mm).
 constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
-/// Fractions of the radius. Lid vertices farther from the eyeball than this need no check, because
-/// the eyeball will move by less: kFarFirst in the first step, kFarLater in later steps.
+/// Fractions of the radius. Lid vertices farther from the eyeball than this distance need no check,
+/// because the eyeball moves by a smaller distance: kFarFirst in the first step, kFarLater in later
+/// steps.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
-/// Penalties for violations, as multiples of the radius. Lids that are outside in all heads have
-/// the highest penalty, then the mean gaps, then the largest depths.
+/// Penalties for violations, as multiples of the radius. The highest penalty is for lid vertices
+/// that are outside the eyeball in all heads, the next for the mean gaps, the lowest for the
+/// largest depths.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
 /// Unknowns of an optimisation step of an eyeball. All of them are lengths.
@@ -50,8 +53,8 @@ enum BallUnknown : std::size_t {
   kBallUnknowns
 };
 
-/// Returns the index of the sector that contains a direction in the plane. There are kDirections
-/// equal sectors.
+/// The plane is divided into kDirections equal sectors. Returns the index of the sector that
+/// contains the direction (x, y).
 std::size_t sector(double x, double y) {
   constexpr double kTurn = 6.283185307179586, kRound = 1e9;
   const double turn = std::round((std::atan2(y, x) / kTurn + 0.5) * kRound) / kRound;
@@ -152,8 +155,8 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
                             double far, Size size, std::vector<LidPoint>& lids) const {
   const BallMap& map = maps_[target];
   const double radius = motion.scale * map.radius();
-  // A gap is a distance along the normal, so it is a little smaller than the distance along the ray
-  // from the centre.
+  // A gap is measured along the normal of the eyeball, so the gap is a little smaller than the
+  // distance along the ray from the centre.
   const double outside = motion.scale * map.max_radius() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
   const Eigen::Vector3d shifted = centre - start.apply(map.centre());
@@ -166,7 +169,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   } mean[2];
 
   std::size_t kept = 0;
-  // Each lid vertex gives a constraint. Each rim vertex also has a wanted gap.
+  // Each lid vertex gives a constraint. Each rim vertex also gives a target for its gap.
   for (const LidPoint& lid : lids) {
     const std::uint32_t r = rim_indices_[lid.index];
     const Eigen::Vector3d from = lid.point - centre;

@@ -33,12 +33,12 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
 class EyeSocket {
  public:
   EyeSocket() = default;
-  /// \param maps  #heads: the eyeball in each head.
+  /// \param maps  #heads: the radii of the eyeball in each head.
   EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads);
 
   const Lids& lids() const { return lids_; }
-  /// Returns the gaps between the rim and the eyeball in a head; negative if the rim is inside the
-  /// eyeball.
+  /// Returns, for each rim vertex, the gap between this vertex and the eyeball in a head; negative
+  /// if the vertex is inside the eyeball.
   const std::vector<double>& gaps(std::size_t head) const { return gaps_[head]; }
 
   /// Fits the eyeball of `target` behind the lids of a face. Translates the eyeball and scales it

@@ -26,7 +26,7 @@ std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge
   return std::nullopt;
 }
 
-/// Visits the polygons beside two corresponding edges.
+/// Visits the two polygons that contain two corresponding directed edges.
 /// \return false if only one of the edges has a polygon.
 bool MirroredWalk::visit_faces(DirectedEdge here, DirectedEdge there) {
   const auto face = face_along(here);

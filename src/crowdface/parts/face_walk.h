@@ -30,8 +30,8 @@ class MirroredWalk {
   MirroredWalk(const Topology& topology, const VertexFaces& vertex_faces);
 
   /// Walks from polygon to polygon on both sides simultaneously, with opposite winding on the
-  /// second side. The walk succeeds if corresponding polygons have equally many corners and each
-  /// vertex always gets the same partner.
+  /// second side. The walk succeeds if corresponding polygons have equally many corners and if no
+  /// vertex gets two different partners.
   ///
   /// \param edge     An edge of a polygon on the first side.
   /// \param other    The mirror image of `edge` on the second side: from the partner of edge.to to

@@ -30,16 +30,19 @@ constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 constexpr double kOverlap = 0.0005;
 constexpr double kAside = 0.0035;  // smallest gap that the test of kSideways assumes
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
-// largest distance between the midpoints of one group's pairs; a coarse mesh has a larger limit
+// pairs whose midpoints are at most this far apart belong to the same group; a coarse mesh has a
+// larger limit
 constexpr double kTogether = 0.015;
-// smallest distance along the surface, as a multiple of the distance in space
+// smallest distance of a pair's vertices along the surface, as a multiple of their distance in
+// space
 constexpr double kTimesAway = 3;
 constexpr double kOpposed = -0.3;       // largest cosine between the normals
 constexpr double kEdgesTogether = 2.5;  // the limit kTogether in a coarse mesh, in edge lengths
 constexpr double kSideways = 0.75;      // largest sideways offset, as a fraction of the gap
 constexpr Index kBlock = 1024, kSearches = 16;
 
-/// Returns one vertex in each cell of a grid, the one with the lowest index; ascending.
+/// Returns the vertex with the lowest index in each cell of a grid; the result is in ascending
+/// order.
 std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const std::uint32_t> skin,
                                    double width) {
   using Cell = std::array<double, 3>;
@@ -178,7 +181,8 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
       throw_if_interrupted();
       goals.clear();
       for (const Candidate& candidate : candidates[i]) goals.push_back(candidate.vertex);
-      // Keep the nearest candidate that is far away along the surface.
+      // Keep the candidate that is nearest in space among those that are far away along the
+      // surface.
       along.search_for(some[i], goals,
                        std::max(kTimesAway * candidates[i].back().distance, kMinAway * extent));
       for (const Candidate& candidate : candidates[i]) {

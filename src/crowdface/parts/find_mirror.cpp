@@ -18,7 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// A coordinate plane is preferred if its error is at most this factor times the smallest error.
+/// A coordinate plane is preferred if its error is at most this factor times the error of the best
+/// plane.
 constexpr double kAsGood = 1.05;
 constexpr std::size_t kSeeds = 24;  ///< number of walks tried for two components
 /// A walk with an error below this fraction of the component's extent is accepted without further
@@ -44,7 +45,8 @@ using Box = Eigen::AlignedBox3d;
 
 /// Matches each component with the component at its mirror image; kNoIndex if there is none. First
 /// pairs components with equally many vertices, the nearest pairs first, so that each layer of
-/// lashes finds its counterpart. Each remaining component gets the nearest component.
+/// lashes finds its counterpart. Each remaining component gets the component that is nearest to its
+/// mirror image.
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;
@@ -83,7 +85,8 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
   return partners;
 }
 
-/// Finds the partners of a component's vertices on another component, or on itself.
+/// Finds the mirror partners of a component's vertices, on another component or on the same
+/// component.
 class PlaceFinder {
  public:
   PlaceFinder(const Topology& topology, const VertexFaces& around, const Positions& mean,
@@ -118,7 +121,7 @@ class PlaceFinder {
     std::optional<std::vector<MirroredPair>> best;
     double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
     for (const Seed& seed : seeds) {
-      // Try a walk from each edge that leaves the seed.
+      // Start a walk at each polygon edge that begins at the seed.
       for (const std::uint32_t f : vertex_faces_.items_of(seed.vertex)) {
         const auto face = topology_.face(f);
         const auto corner = std::ranges::find(face, seed.vertex);
@@ -176,7 +179,7 @@ class PlaceFinder {
     map.corners[vertex] = {partner, partner, partner};
     map.shares[vertex] = {1, 0, 0};
   }
-  /// Marks a vertex as having no mutual partner: its mirror point stays at the same vertex, but
+  /// Marks a vertex as having no mutual partner: the stored mirror point does not change, but
   /// MirrorMap::is_vertex becomes false.
   static void mark_unpaired(MirrorMap& map, std::uint32_t vertex) {
     std::swap(map.corners[vertex][0], map.corners[vertex][1]);
@@ -219,8 +222,8 @@ double mean_square(const MirrorMap& map, const Positions& mean, double* largest 
   return squares / static_cast<double>(mean.rows());
 }
 
-/// Returns the plane that the pairs of partners determine, or the coordinate plane if it is nearly
-/// as good.
+/// Returns the plane that the pairs of partners determine, or the coordinate plane if the
+/// coordinate plane fits nearly as well.
 MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positions& mean,
                               const Eigen::Vector3d& side) {
   PlaneFit fit;

@@ -23,13 +23,13 @@ struct FoundMirror {
 };
 
 /// Finds the symmetry plane of the mean head and the partner of each vertex. A coordinate plane is
-/// preferred if it fits nearly as well.
+/// preferred if it fits nearly as well as the best plane.
 ///
 /// Components are matched by position: the left eye with the right one. If the polygons of two
 /// matched components mirror each other, a walk over the polygons gives the partners, however
-/// asymmetric the mean head is. Otherwise, two vertices are partners if each is the nearest vertex
-/// to the mirror image of the other, and close to this image. All other vertices get the nearest
-/// point on the surface.
+/// asymmetric the mean head is. Otherwise, two vertices are partners if each of the two is the
+/// vertex nearest to the mirror image of the other vertex, and is close to this image. Every other
+/// vertex gets the point on the surface that is nearest to its mirror image.
 ///
 /// \param mean  #V by 3.
 /// \param side  Unit vector along the axis from the head's right to its left, in either direction.

@@ -11,7 +11,8 @@
 namespace crowdface {
 
 /// Fits a mirror plane to points and their partners. The normal is the principal direction of the
-/// differences between point and partner; the plane contains the mean midpoint.
+/// differences between point and partner. The plane contains the mean of the midpoints between
+/// point and partner.
 class PlaneFit {
  public:
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner);

@@ -15,8 +15,9 @@
 namespace crowdface {
 namespace {
 
-/// Reach of the socket of a rigid part. kEyeReach: for an eyeball, as a fraction of its radius
-/// (about 12 mm). kSocketReach: for other parts, as a fraction of the skin's extent (about 43 cm).
+/// Distance up to which skin belongs to the socket of a rigid part. kEyeReach: for an eyeball, as a
+/// fraction of its radius (about 12 mm). kSocketReach: for other parts, as a fraction of the skin's
+/// extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
 /// Largest number of a part's vertices that determine its socket.
 constexpr std::size_t kMaxSocketVertices = 4000;
@@ -26,7 +27,8 @@ constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
 /// Largest distance at which gums follow a tooth, as a fraction of the skin's extent.
 constexpr double kTieReach = 0.01;
 
-/// Returns #V: the area of each vertex, which is its share of the areas of the adjacent polygons.
+/// Returns the area of each vertex (#V): the vertex's share of the areas of the polygons that
+/// contain it.
 std::vector<double> vertex_areas(const Topology& topology, const Positions& positions) {
   const Positions vectors = face_area_vectors(topology, positions);
   std::vector<double> areas(static_cast<std::size_t>(topology.vertex_count), 0.0);
@@ -70,8 +72,8 @@ struct SkinOfMean {
 /// Returns the skin around a rigid part. The reach doubles until there is enough skin, so that a
 /// part far from the skin follows the nearest skin.
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
-  // The distance between skin and part needs no higher precision than the spacing of the part's
-  // vertices.
+  // The distance between skin and part may be imprecise by the spacing of the part's vertices, so a
+  // subset of these vertices is enough.
   const PointGrid rough_grid(skin.mean, evenly_spaced_items(part.vertices, kMaxSocketVertices));
   Socket socket;
   for (int tries = 0; tries < 8 && socket.vertices.size() < 12; ++tries, reach *= 2) {
@@ -229,7 +231,8 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
     }
     return;
   }
-  // First move the blended part rigidly onto the target's part, so that only its shape is kept.
+  // First move the blended part rigidly onto the target's part, so that only the shape of the
+  // blended part is kept.
   const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.unit_weights);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// The orientation of a head, as unit vectors.
+/// The directions up and front of a head, as unit vectors.
 struct HeadAxes {
   Eigen::Vector3d front = {0, 0, 1}, up = {0, 1, 0};
 

@@ -19,7 +19,8 @@ namespace {
 
 // Lengths are fractions of the skin's extent, the diagonal of its bounding box: about 43 cm for a
 // head with its neck.
-// smallest extent of a component, besides the largest, that is skin
+
+// smallest extent of a component that counts as skin; the largest component always does
 constexpr double kSkinExtent = 0.5;
 constexpr double kOpen = 0.7;            // openness: a hemisphere has 0.5, a disc 1
 constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
@@ -64,7 +65,8 @@ double box_height(const Box& box) {
   return box.center().y();
 }
 
-/// Returns the overlap of two boxes along an axis, minus half the length of the shorter box.
+/// Returns the length by which two boxes overlap along an axis, minus half the length of the
+/// shorter box.
 double overlap(const Box& a, const Box& b, Index axis) {
   return a.intersection(b).sizes()(axis) - std::min(a.sizes()(axis), b.sizes()(axis)) / 2;
 }
@@ -95,7 +97,7 @@ std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_f
   return stacked && over ? lower : 0;
 }
 
-/// Joins each eyeball with the components whose centre is inside it.
+/// Joins each eyeball with the components whose centre is inside the eyeball.
 void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
                  const std::vector<bool>& eyeball, DisjointSets& grouping) {
   Positions centres(static_cast<Index>(list.shapes.size()), 3);

@@ -25,7 +25,7 @@ struct Part {
   std::vector<std::uint32_t> components;    ///< ascending
   std::vector<std::uint32_t> vertices;      ///< vertices of all components, ascending
   std::uint32_t ball_component = kNoIndex;  ///< only for an eyeball: index of its largest component
-  /// only for an eyeball: the vertices of its largest component
+  /// only for an eyeball: the vertices of the eyeball's largest component
   std::vector<std::uint32_t> surface;
 };
 
@@ -37,7 +37,7 @@ struct PartList {
   std::vector<Part> parts;
 };
 
-/// Classifications set by the user.
+/// Assignments of components to classes and parts that the user has made.
 struct PartOverrides {
   std::vector<std::optional<PartClass>> classes;              ///< #components, or empty
   std::vector<std::vector<std::uint32_t>> joined_components;  ///< components of each part

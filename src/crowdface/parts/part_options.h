@@ -3,7 +3,7 @@
 
 namespace crowdface {
 
-/// The shape of a rigid part in a generated face.
+/// How the shape of a rigid part in a new face is determined.
 enum class PartShape {
   kTarget,  ///< the target's shape
   kBlend,   ///< blended like skin (Eq. 7)

@@ -70,8 +70,8 @@ PointGrid::NearestVertex PointGrid::nearest(const Eigen::Vector3d& point, double
   best.distance = reach;
   if (!may_have_vertex_within(point, reach)) return best;
   const Index farthest = std::max({cell_counts_[0], cell_counts_[1], cell_counts_[2]});
-  // Searches shells of cells around the cell of the point. A cell of shell s is at least s − 1 cell
-  // widths away from the point, whether the point is inside or outside the grid.
+  // Searches shells of cells around the cell of the point. Every cell of shell number s is at least
+  // s − 1 cell widths away from the point, whether the point is inside or outside the grid.
   const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {
     for (const std::uint32_t v :
          vertices_in_cells(index_of({low_x, y, z}), index_of({high_x, y, z}))) {
@@ -84,7 +84,8 @@ PointGrid::NearestVertex PointGrid::nearest(const Eigen::Vector3d& point, double
       }
     }
   };
-  // A lower bound of the distance to a layer of cells, safe against rounding.
+  // A lower bound of the distance from the point to a layer of cells; rounding cannot make this
+  // bound too large.
   const auto gap_to = [&](Index axis, Index cell) {
     constexpr double kRounding = 1e-9;
     const double low = min_corner_(axis) + static_cast<double>(cell) * cell_width_;

@@ -17,8 +17,8 @@ class PointGrid {
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
-  /// A fast, conservative test. Returns false only if no vertex lies within `reach` of the point;
-  /// may also return true then.
+  /// A fast, conservative test. If a vertex lies within `reach` of the point, returns true. If none
+  /// does, may return false or true.
   bool may_have_vertex_within(const Eigen::Vector3d& point, double reach) const;
 
   struct NearestVertex {

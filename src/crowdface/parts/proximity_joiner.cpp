@@ -39,8 +39,8 @@ void ProximityJoiner::join_near(const Eigen::Vector3d& place, double reach,
 
 void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, double reach,
                                 std::uint32_t component) {
-  // This uses the same arithmetic as the distances of points below, so that rounding cannot make a
-  // box farther away than its points.
+  // The distance of a box uses the same arithmetic as the distances of points below. So rounding
+  // cannot make a box farther away than the points in it.
   if (boxes_[n].exteriorDistance(place) > reach) return;
   std::uint32_t& only = only_groups_[n];
   if (only != kNoIndex && groups_.root(only) == groups_.root(component)) return;

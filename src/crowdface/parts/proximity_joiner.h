@@ -19,7 +19,7 @@ namespace crowdface {
 class ProximityJoiner {
  public:
   /// The points, the components and the groups must outlive this object. Other code may also join
-  /// groups.
+  /// groups while this object exists.
   /// \param points      the rows listed in `rows` must be finite; other rows are not read.
   /// \param rows        rows of the points in the tree; may be empty.
   /// \param components  #points: the component of each point.

@@ -38,7 +38,8 @@ struct Active {
   Vector forces = {};
   std::size_t count = 0;
 
-  /// Returns the least-squares coefficients of `a` in the active normals.
+  /// Returns the coefficients of the combination of active normals that is nearest to `a` in the
+  /// least-squares sense.
   Vector shares_in(const Vector& a, std::size_t n) const {
     Matrix gram{};
     Vector right{};
@@ -62,7 +63,8 @@ struct Active {
   }
 };
 
-/// Moves x until a·x = lower. Drops active constraints whose multipliers would become negative.
+/// Moves x until the constraint holds with equality, a·x = lower. Drops active constraints whose
+/// multipliers would become negative.
 ///
 /// \return  false if x cannot reach the constraint.
 bool move_onto(Active& active, const Vector& a, double lower, Vector& x, std::size_t n) {
@@ -101,8 +103,8 @@ bool move_onto(Active& active, const Vector& a, double lower, Vector& x, std::si
   return false;
 }
 
-/// All constraints, expressed in y = Lᵀ x and stored by column, so that loops over constraints
-/// vectorise.
+/// All constraints, as conditions on y = Lᵀ x. They are stored by column, so that loops over
+/// constraints vectorise.
 template <class Bound>
 class Table {
  public:

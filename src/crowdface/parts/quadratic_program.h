@@ -30,7 +30,8 @@ class QuadraticProgram {
   /// Adds the constraints lower ≤ x_i ≤ upper for an unknown.
   void add_bounds(std::size_t unknown, double lower, double upper);
   /// Makes an unknown a slack variable: it is not negative, and each unit costs `penalty`. A
-  /// constraint in which this unknown occurs may be violated, by up to coefficient times unknown.
+  /// constraint in which this unknown occurs may be violated by up to the unknown's coefficient
+  /// times its value.
   void add_slack(std::size_t unknown, double penalty);
 
   /// Returns the solution, by the dual active-set method (Goldfarb & Idnani 1983). Every unknown

@@ -94,7 +94,7 @@ RigidMotion fit_rigid_motion(const Positions& source, const Positions& target,
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3d a = row3(source, vertices[i]) - motion.pivot;
     const Eigen::Vector3d b = row3(target, vertices[i]) - motion.moved_pivot;
-    // round before the product, so that the order is fixed
+    // round this product first, so that the order of operations is fixed
     const Eigen::Vector3d weighted = weights[i] * a;
     s += weighted * b.transpose();
     variance += weights[i] * a.squaredNorm();

@@ -230,8 +230,8 @@ std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
 /// a positive amplitude only if its gap would otherwise be too narrow, and a negative amplitude
 /// only if its gap would otherwise be too wide. So neighbours rarely counteract each other. This is
 /// a linear complementarity problem, solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992,
-/// chapter 5). The nearest points of the profiles change during the iteration, so each step
-/// computes the gap again.
+/// chapter 5). The points at which two profiles are nearest change during the iteration, so each
+/// step computes the gap again.
 std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_amplitudes(
     const Contact& contact, std::span<const Range> ranges, double max_amplitude, Profiles& profiles,
     std::vector<double>& amplitudes) const {
@@ -289,7 +289,7 @@ void SkinContacts::move(const Contact& contact, std::span<const double> amplitud
   });
 }
 
-/// Iterates, because after points have moved, other points lie at the same depth.
+/// Repeats the correction, because other points lie opposite each other after points have moved.
 void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions) const {
   for (const Contact& contact : contacts_) {
     Profiles profiles;

@@ -25,9 +25,9 @@ class SkinContacts {
 
   std::size_t size() const { return sections_.size(); }
   const GapSection& section(std::size_t i) const { return sections_[i]; }
-  /// Returns the gaps at all sections, in the heads' unit.
+  /// Returns one value for each section: the gap there, in the heads' unit.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns the gaps of a head at all sections, in the heads' unit.
+  /// Returns one value for each section: the gap of a head there, in the heads' unit.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
@@ -43,9 +43,9 @@ class SkinContacts {
     double min, max;
   };
   /// Moves the skin so that the gap at each section lies in its range. Moves nothing if all gaps
-  /// already do.
+  /// are already in their ranges.
   ///
-  /// \param ranges     #sections.
+  /// \param ranges     #sections: the wanted range of each gap.
   /// \param positions  #V by 3; adjusted.
   void fit_gaps(std::span<const Range> ranges, Positions& positions) const;
 
@@ -61,7 +61,7 @@ class SkinContacts {
   struct PointMotions {
     std::vector<double> heights, depths;
   };
-  /// Places that affect the same skin, such as all sections of a mouth.
+  /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct Contact {
     std::size_t begin = 0, end = 0;           ///< range of sections
     std::vector<std::uint32_t> vertices;      ///< vertices that move, ascending

@@ -7,7 +7,7 @@ namespace crowdface {
 namespace {
 
 /// kMaxKept: largest number of vertices in a socket; more would change the motion by less than 0.01
-/// mm. kMaxMeasured: largest number of vertices whose distance is measured.
+/// mm. kMaxMeasured: largest number of vertices whose distance from the part is measured.
 constexpr std::size_t kMaxKept = 1500, kMaxMeasured = 16 * kMaxKept;
 
 }  // namespace

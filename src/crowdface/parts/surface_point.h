@@ -22,14 +22,15 @@ struct SurfacePoint {
 Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
                          const std::array<double, 3>& shares);
 
-/// Returns the point nearest to `point` on the polygons around a vertex and around its neighbours.
+/// Returns the point of the surface that is nearest to `point`. Considers only the polygons around
+/// a vertex and around the neighbours of this vertex.
 SurfacePoint nearest_point_around(const Topology& topology, const VertexFaces& faces,
                                   const Positions& positions, std::uint32_t vertex,
                                   const Eigen::Vector3d& point);
 
 /// Walks over the mesh from vertex `start` as long as a vertex of an adjacent polygon is nearer to
-/// the point. Returns the last vertex, which is a good start for nearest_point_from. This walk is
-/// cheaper than nearest_point_from.
+/// the point than the current vertex. Returns the last vertex, which is a good start for
+/// nearest_point_from. This walk is cheaper than nearest_point_from.
 std::uint32_t walk_to_nearest_vertex(const Topology& topology, const VertexFaces& faces,
                                      const Positions& positions, std::uint32_t start,
                                      const Eigen::Vector3d& point);

@@ -14,8 +14,9 @@ using Eigen::RowVector2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A vertical section of the bust: control points of a uniform cubic B-spline, distance from the
-/// axis and height above the rim in cm. The first point is on the rim.
+/// A vertical section of the bust: the control points of a uniform cubic B-spline. A point consists
+/// of the distance from the axis and the height above the rim, in cm. The first point is on the
+/// rim.
 constexpr std::size_t kPoints = 9;
 using Section = std::array<Vector2d, kPoints>;
 
@@ -49,10 +50,11 @@ const Section kBack = {{{5.2, 0},
 
 const Vector3d kAxis(0, -16.4, -3.1);  ///< middle of the rim of the average head
 
-// Radii of the circles onto which the bust's rim and lower edge are mapped in the texture.
+// Radii, in the texture, of the circles that show the bust's rim (kInner) and lower edge (kOuter).
 constexpr double kInner = 0.1, kOuter = 0.48;
 
-/// Returns the control points in a horizontal direction. \param way  unit vector (x, z)
+/// Returns the control points of the section in a horizontal direction from the axis.
+/// \param way  unit vector (x, z)
 Section section_at(const Vector2d& way) {
   const double side = way.x() * way.x();
   const double ahead = std::max(0.0, way.y());

@@ -10,11 +10,11 @@ namespace crowdface::synth {
 /// Returns a bust below a neck: shoulders and chest without arms, open at top and bottom. The
 /// texture shows the bust from above, with the front at the bottom of the image.
 /// \param rim  the lower end of the neck of the average head, #rim by 3, cm, counter-clockwise seen
-/// from above. These are also the first vertices of the result.
+///             from above. The points of the rim are also the first vertices of the result.
 Mesh bust_below(const Positions& rim);
 
-/// Returns the point, in cm, of an ideal bust at texture coordinates; clamped to the edges of the
-/// bust.
+/// Returns the point, in cm, that an ideal bust has at the given texture coordinates. Coordinates
+/// outside the bust give a point on its edge.
 Eigen::Vector3d bust_point(const Eigen::RowVector2d& uv);
 
 }  // namespace crowdface::synth

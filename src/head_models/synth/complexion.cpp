@@ -19,9 +19,9 @@ ScreenColour along(const std::array<ScreenColour, N>& colours, double t) {
   return (1 - part) * colours[i] + part * colours[i + 1];
 }
 
-/// Facial skin colours from very light to dark. They follow the distribution of measured skin in
-/// CIELAB (Chardon et al. 1991, "Skin colour typology and suntanning pathways"): L* from 72 to 29,
-/// a* and b* largest in the middle.
+/// Facial skin colours from very light to dark. The colours follow the distribution of measured
+/// skin colours in CIELAB (Chardon et al. 1991, "Skin colour typology and suntanning pathways"): L*
+/// from 72 to 29, a* and b* largest in the middle.
 const auto& skin_tones() {
   static const std::array<ScreenColour, 8> tones = {
       from_bytes(201, 171, 151), from_bytes(192, 156, 135), from_bytes(181, 141, 120),
@@ -82,8 +82,8 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
   look.iris = random_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
-    // Use stratified random numbers, so that about two of five successive men are shaven, and
-    // successive men differ in their hairlines.
+    // Use stratified random numbers, so that about two of five successive men are shaven, and so
+    // that the hairlines of successive men differ.
     grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);
     const double early = random_stratified({seed, index / 2, "synth/receding"}, 4);
     look.receding = smooth_step(28, 80, person.age + 45 * (early - 0.5));

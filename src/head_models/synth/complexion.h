@@ -15,7 +15,7 @@ using ScreenColour = Eigen::Array3d;
 inline ScreenColour from_bytes(double red, double green, double blue) {
   return ScreenColour(red, green, blue) / 255;
 }
-/// Quantises a value in [0, 1] to 8 bits, rounded.
+/// Maps a value in [0, 1] to an integer in 0 … 255, rounded to the nearest integer.
 inline std::uint8_t to_byte(double part) {
   return static_cast<std::uint8_t>(std::floor(255 * part + 0.5));
 }

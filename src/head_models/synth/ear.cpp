@@ -16,17 +16,17 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Profile of the ear at the ring coordinates kRing, from the skin of the head over the rim into
-/// the bowl: kReach is the distance from the ear's centre (1 on the outline), kHeight the height
-/// above the skin (1 on the rim).
+/// Profile of the ear, from the skin of the head over the ear's rim into its bowl. For each ring
+/// coordinate in kRing, kReach is the distance from the ear's centre (1 on the outline), and
+/// kHeight is the height above the skin (1 on the rim).
 constexpr std::size_t kKnots = 9;
 constexpr double kAttached = 0.18;  // ring coordinates below this lie on the head
 constexpr std::array<double, kKnots> kRing = {0, kAttached, 0.32, 0.44, 0.54, 0.64, 0.76, 0.88, 1};
 constexpr std::array<double, kKnots> kReach = {1.3, 0.80, 0.84, 1.0, 0.97, 0.86, 0.74, 0.58, 0.46};
 constexpr std::array<double, kKnots> kHeight = {0, 0.0, 0.5, 0.92, 1.02, 0.70, 0.92, 0.62, 0.12};
 
-/// Interpolates knot values at ring coordinate b: cubic Hermite spline with finite-difference
-/// slopes.
+/// Interpolates between knot values at ring coordinate b, by a cubic Hermite spline with
+/// finite-difference slopes.
 double along(const std::array<double, kKnots>& values, double b) {
   std::size_t k = 0;
   while (k + 2 < kKnots && kRing[k + 1] <= b) ++k;
@@ -39,7 +39,7 @@ double along(const std::array<double, kKnots>& values, double b) {
          h * t * (1 - t) * ((1 - t) * slope(k) - t * slope(k + 1));
 }
 
-/// Returns the 3D point of the ear for a point of its disc.
+/// Maps a point of a disc, which is the ear seen from the side, to a 3D point of the ear.
 /// \param place   y up, x to the back; length 1 on the outline.
 /// \param height  height above the skin, cm.
 Vector3d ear_point(const Vector2d& place, double height) {

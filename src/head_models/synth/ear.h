@@ -7,7 +7,8 @@
 
 namespace crowdface::synth {
 
-/// Returns the point, in cm, of the average ear at x > 0 for an address in the ear's rings or core.
+/// Returns the point, in cm, of the average head's ear at x > 0.
+/// \param address  an address in the rings or the core of the ear.
 Eigen::Vector3d ear_position(const Address& address);
 
 /// Centre of the ear at x > 0, on the side of the head, cm.

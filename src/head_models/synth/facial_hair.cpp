@@ -36,7 +36,8 @@ SkinPaint paint_of(const FacialHair& style) {
   return SkinPaint(kSeed, 1, 1, look);
 }
 
-/// Returns the point of a polygon at parameters (s, t), interpolated between its corners.
+/// Returns the point of a polygon at parameters (s, t), interpolated between the corners of the
+/// polygon.
 Vector3d point_of(const Mesh& mesh, std::span<const std::uint32_t> corners, double s, double t) {
   const auto at = [&](std::size_t c) -> Vector3d {
     return mesh.positions.row(corners[std::min(c, corners.size() - 1)]).transpose();
@@ -44,7 +45,7 @@ Vector3d point_of(const Mesh& mesh, std::span<const std::uint32_t> corners, doub
   return (1 - t) * ((1 - s) * at(0) + s * at(1)) + t * ((1 - s) * at(3) + s * at(2));
 }
 
-/// Returns the polygons that hair covers at least partly.
+/// Returns the polygons of the skin that hair covers partly or completely.
 template <class Cover>
 std::vector<Index> covered_faces(const Mesh& skin, const Cover& cover) {
   constexpr int kSteps = 6;
@@ -116,8 +117,8 @@ std::span<const FacialHair> facial_hairs() {
 FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   const SkinPaint paint = paint_of(style);
   const auto cover = [&](const Vector3d& p) {
-    // A separate layer needs denser brows than a skin texture, because the edges of the layer do
-    // not blend with the skin.
+    // Brows on a separate layer must be denser than brows in a skin texture, because the edges of
+    // the layer do not blend with the skin.
     if (style.is_beard) return paint.beard_cover(p);
     const double root = std::sqrt(std::max(0.0, paint.brow_cover(p)));
     return root * std::sqrt(root);
@@ -133,7 +134,8 @@ FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   topology.vertex_count = static_cast<Index>(rows.size());
   const Positions on_skin = skin.positions(rows, kAllColumns);
   layer.mesh.positions = on_skin + kAboveSkin * normals(rows, kAllColumns);
-  // The layer gets its own texture: the rectangle of the head's texture that these faces use.
+  // The layer gets its own texture: the rectangle of the head's texture that the layer's polygons
+  // use.
   TextureCoordinates uvs = skin.uvs(uv_rows, kAllColumns);
   const Eigen::RowVector2d low = uvs.colwise().minCoeff(), high = uvs.colwise().maxCoeff();
   uvs = (uvs.rowwise() - low).array().rowwise() / (high - low).array();

@@ -60,8 +60,8 @@ constexpr std::array<LatticeRow, kRows> kLattice = {{
 }};
 // clang-format on
 
-/// A ray origin that replaces the default origin. Around the nose and under the chin, rays start
-/// close to the skin, so that they meet the skin at nearly right angles.
+/// The origin of a ray that replaces the default origin of rays. Around the nose and under the
+/// chin, rays start close to the skin, so that the rays meet the skin at nearly right angles.
 struct NearOrigin {
   int row, column;
   double x, y, z;
@@ -108,8 +108,8 @@ struct Web {
     rays[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)] = ray;
   }
 
-  /// Returns the ray of row j and column k. Columns wrap around at the midline of the back
-  /// (columns 13 and −13); negative columns are mirrored.
+  /// Returns the ray of lattice row j and lattice column k. Columns wrap around at the midline of
+  /// the back (columns 13 and −13); negative columns are the mirror images of positive ones.
   GuideRay at(int j, int k) const {
     const int around = 2 * (kColumns - 1);
     if (k > kColumns - 1) k -= around;

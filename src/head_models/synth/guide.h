@@ -7,8 +7,8 @@
 
 namespace crowdface::synth {
 
-/// A line from a point inside the head through a point near the skin, cm. The intersection with the
-/// skin is a vertex of the mesh.
+/// A line from a point inside the head through a point near the skin, cm. The point where the line
+/// intersects the skin is a vertex of the mesh.
 struct GuideRay {
   Eigen::Vector3d origin, guide;
 };
@@ -19,7 +19,7 @@ GuideRay strip_ray(double a, double b);
 /// Like strip_ray, for an address of the cap.
 GuideRay cap_ray(double a, double b);
 
-/// Returns the ray at the outer edge of an opening (ring coordinate b = 0), at x > 0.
+/// Returns the ray of a point on the outline (ring coordinate b = 0) of the opening at x > 0.
 /// \param around  ring coordinate a, 0 … 4.
 GuideRay opening_ray(const Opening& opening, double around);
 

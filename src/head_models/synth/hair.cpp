@@ -22,7 +22,8 @@ double around_head(const Vector3d& p) {
   return p.z() >= 0 ? quarter : 2 - quarter;
 }
 
-/// Returns 0 on the ears and 1 from a distance of `away` ear sizes from the ears' centres.
+/// Returns 0 on the ears. The value rises to 1 at a distance of `away` ear sizes from the ears'
+/// centres, and stays 1 beyond.
 double off_ears(const Vector3d& p, double away) {
   const double y = (p.y() + 2.6) / 4.6, z = (p.z() + 1.6) / 3.4;
   const double beside = smooth_step(4.5, 6, std::abs(p.x()));

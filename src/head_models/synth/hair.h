@@ -10,7 +10,7 @@
 
 namespace crowdface::synth {
 
-/// A hair style: thickness of the hair layer in cm, before age-related thinning.
+/// A hair style. The thicknesses of the hair layer are in cm, before age-related thinning.
 struct HairStyle {
   double top = 0;         ///< above the forehead and on the crown
   double sides = 0;       ///< above and behind the ears
@@ -32,13 +32,14 @@ bool has_curls(std::uint64_t seed, std::uint64_t index);
 /// A person's hair as a layer on the scalp. All points are points of the average head, cm.
 class Hair {
  public:
-  /// \param falls  whether to include hair that hangs over the neck; its roots are higher on the
-  ///   head.
+  /// \param falls  whether to include hair that hangs over the neck; the roots of such hair are
+  ///               higher on the head.
   Hair(std::uint64_t seed, std::uint64_t index, bool falls = true);
 
   /// Returns whether hair may be at a point; a fast conservative test.
   bool reaches(const Eigen::Vector3d& p) const;
-  /// Returns the brightness of the strand at a point relative to the hair colour, about −1 … 1.
+  /// Returns how much brighter (positive) or darker (negative) than the hair colour the strand at a
+  /// point is, about −1 … 1.
   double strand(const Eigen::Vector3d& p) const;
   /// Returns the fraction of the skin that hair hides at a point, 0 … 1. \param strand  strand(p).
   double cover(const Eigen::Vector3d& p, double strand) const;

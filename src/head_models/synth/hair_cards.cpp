@@ -31,7 +31,7 @@ struct Root {
   Vector3d place, normal;
 };
 
-/// Returns roots spread over the scalp with a minimum distance of kBetween.
+/// Returns the roots of hair cards, spread over the scalp with a minimum distance of kBetween.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
   const double least = cut.layers > 1 ? 0.1 : cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
@@ -48,12 +48,13 @@ std::vector<Root> roots_on_scalp(const HairCut& cut) {
   return roots;
 }
 
-/// Centre line of a card, and the unit vectors across the card at each of its points.
+/// The points of a card's centre line and, at each of these points, the unit vector across the
+/// card.
 struct Card {
   std::vector<Vector3d> middle, across;
 };
 
-/// Grows the cards of one cut.
+/// Makes the hair cards of one haircut.
 class Grower {
  public:
   explicit Grower(const HairCut& cut)
@@ -103,7 +104,8 @@ class Grower {
       // the lock.
       rest = std::max(rest, hair_stand_off(cut_, next));
       next = moved_off_head(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
-      // End the lock at the lower edge of the fringe (over the face) or of the cut.
+      // Over the face, the lock ends at the lower edge of the fringe; elsewhere, at the lower edge
+      // of the haircut.
       const double limit = over_face(next) ? fringe : hem;
       if (i > 0 && next.y() < limit && p.y() > limit)
         next = p + (p.y() - limit + 1e-3) / (p.y() - next.y()) * (next - p);
@@ -155,7 +157,7 @@ class Grower {
     return card;
   }
 
-  /// Maps the fraction t of pieces to the fraction of the lock's length.
+  /// Returns the fraction of the lock's length that the first fraction t of the pieces covers.
   static double along(double t) { return t * (0.3 + 0.7 * t); }
 
   /// Moves a point in front of the face sideways, to the edge of the face. Does not move the points

@@ -24,7 +24,7 @@ struct HairCut {
   double fringe = 99;   ///< height y of the fringe over the forehead; 99: no fringe
   double volume = 1;    ///< factor of the distance from the scalp
   double wave = 0;      ///< amplitude of waves in the locks
-  /// 1: combed locks; more than 1: that many layers of curls in random directions
+  /// 1: combed locks. Larger numbers: the number of layers of curls, which have random directions
   int layers = 1;
   bool is_tied = false;  ///< tied at the back: lies on the head until behind the ears
   bool young = false;    ///< whether old people do not wear the cut
@@ -34,7 +34,7 @@ struct HairCut {
 /// Returns all haircuts.
 std::span<const HairCut> hair_cuts();
 
-/// A colour of hair cards.
+/// A hair colour that hair cards may have.
 struct HairColour {
   std::string_view name;
   ScreenColour colour;

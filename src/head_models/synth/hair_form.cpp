@@ -31,16 +31,17 @@ double triangle_wave(double x) {
   return std::fmod(std::abs(whole), 2.0) < 0.5 ? part : 1 - part;
 }
 
-/// Returns a coordinate across the main combing direction, cm.
+/// Returns the coordinate of a point at right angles to the main combing direction, cm.
 double across_hair(const HairCut& cut, const Vector3d& p) {
   if (cut.back >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
-  // On the forehead, hair is combed across the hairline, which runs from side to side.
+  // On the forehead, the hairline runs from side to side, and hair is combed at right angles to it.
   const double ahead = smooth_step(1, 4, p.z()), x = std::abs(p.x());
   return (1 - ahead) * p.z() + (ahead - smooth_step(-3, -7, p.z())) * x;
 }
 
-/// Returns the texture coordinate v of the cap at a distance `within` inside the hairline, cm.
+/// Returns the texture coordinate v of the cap at a point whose distance from the hairline,
+/// measured inwards, is `within` cm.
 double from_edge(const HairCut& cut, double within) {
   constexpr double kTips = 0.02, kSpan = 0.75;
   const double closed = within + kRim - kFade;
@@ -80,7 +81,8 @@ double hair_stand_off(const HairCut& cut, const Vector3d& p) {
 }
 
 Vector3d combing_direction(const HairCut& cut, const Vector3d& p) {
-  // The parting ends at the crown; further back the direction changes gradually.
+  // The parting ends at the crown. Farther back, the combing direction changes gradually from one
+  // side to the other.
   const double wide = cut.back >= 0.8 ? 5 : 0.25 + 5 * smooth_step(-2, -7, p.z());
   const double side = std::clamp((p.x() - cut.parting) / wide, -1.0, 1.0);
   Vector3d way(cut.sideways * side, -0.15, -cut.back);

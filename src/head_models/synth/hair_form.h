@@ -10,13 +10,14 @@
 
 namespace crowdface::synth {
 
-/// Returns the approximate signed distance to the average head with ellipsoids as ears, cm.
+/// Returns the approximate signed distance of a point from the average head, cm. The ears of this
+/// head are ellipsoids.
 double head_distance(const Eigen::Vector3d& p);
 /// Returns the unit gradient of head_distance.
 Eigen::Vector3d head_distance_gradient(const Eigen::Vector3d& p);
 
-// The overall form of a haircut on the average head. The points passed to these functions are on or
-// near the scalp, in cm.
+// The next three functions describe the form of a haircut on the average head. The points passed to
+// the functions are on or near the scalp, in cm.
 /// Returns the signed distance from the edge of the hair-covered area, cm; positive inside.
 double distance_inside_hair(const HairCut& cut, const Eigen::Vector3d& p);
 /// Returns the distance of the hair from the scalp, cm; small at the edges and at the parting.

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kStrands = 30;          // strands per strip
 constexpr double kAcross = 1.9, kDown = 1.5;  // noise frequencies of curls on the cap's strip
 
-/// Up to this fraction of its length from v = 1, the cap's strip shows strands; beyond, single
-/// roots.
+/// From v = 1 up to this fraction of its length, the cap's strip shows strands. The remaining part
+/// of the strip shows single roots.
 constexpr double kCapClosed = 0.5;
 
 struct Strand {

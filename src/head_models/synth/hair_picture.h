@@ -12,8 +12,8 @@ namespace crowdface::synth {
 /// strip for the cap below the cards.
 inline constexpr int kCardStrips = 4, kHairStrips = 5;
 
-/// sRGB value of hair in neutral textures, which are tinted with each face's hair colour (see
-/// Tint).
+/// sRGB value of hair in neutral textures. Neutral textures are tinted with each face's hair colour
+/// (see Tint).
 inline constexpr double kNeutralTone = 0.67;
 
 /// Paints a hair texture: vertical strips of strands from roots (v = 1) to separate tips (v = 0).

@@ -51,7 +51,8 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
     return cut_normal({seed, index, purpose});
   };
   const double aged = person_.scaled_age();
-  // Choose a random value of each measure around the person's average.
+  // Choose a random value for each measure, distributed around the average for this person's sex,
+  // age and build.
   for (const Measure& measure : measures()) {
     double value = measure.male * person_.male + measure.aged * aged +
                    measure.build * person_.build + measure.spread * normal(measure.name);

@@ -25,8 +25,8 @@ struct Person {
 /// different fifth of the range.
 Person random_person(std::uint64_t seed, std::uint64_t index);
 
-/// The identity of a head: the attributes of its person, and measures that vary randomly around the
-/// averages for these attributes.
+/// The identity of a head: the attributes of the person, and the values of the person's measures.
+/// These values vary randomly around the averages for these attributes.
 class Identity {
  public:
   Identity(std::uint64_t seed, std::uint64_t index);

@@ -8,7 +8,8 @@
 
 namespace crowdface::synth {
 
-/// Interpolates y linearly at x between knots (x ascending); constant beyond the ends.
+/// Returns the value at x of the piecewise linear function through the knots, which are sorted by
+/// ascending x. Beyond the first and last knot the function is constant.
 template <std::size_t N>
 double interpolate_knots(const std::array<Eigen::Vector2d, N>& knots, double x) {
   if (x <= knots[0].x()) return knots[0].y();

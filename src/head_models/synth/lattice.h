@@ -16,8 +16,8 @@ struct Address {
   Sheet sheet = Sheet::kStrip;
   double side = 1;  ///< −1: the mirrored patch at the head's right (x < 0)
   /// Strip and cap: signed units around the head from the midline of the face. Rings: 0 … 4 along
-  /// the sides of the opening, counter-clockwise from its upper left corner, seen on the side x > 0.
-  /// Ear core: 0 … 1 across.
+  /// the sides of the opening, counter-clockwise from its upper left corner, seen on the side x >
+  /// 0. Ear core: 0 … 1 across.
   double a = 0;
   /// Strip: units down from the cap. Cap: units from front to back. Rings: 0 at the opening's
   /// outline, 1 at the edge of the opening (ear: of the core), 2 at the hole. Ear core: 0 … 1 down.
@@ -30,9 +30,11 @@ inline constexpr int kColumns = 14, kRows = 12;
 inline constexpr int kFrontColumn = 5;  ///< between front and side: front corners of the cap
 inline constexpr int kBackColumn = 8;   ///< between side and back: rear corners of the cap
 
-/// Returns the units from the midline to a lattice column (−13 … 13, negative on the other side).
+/// Returns the distance, in units, from the midline to a lattice column.
+/// \param column  −13 … 13, negative at x < 0.
 double column_unit(int column);
-/// Returns the units from the cap to a lattice row (0 … 11).
+/// Returns the distance, in units, from the cap to a lattice row.
+/// \param row  0 … 11.
 double row_unit(int row);
 
 /// A rectangle of the lattice that is cut out of the strip: an eye, an ear, a nostril or the mouth.
@@ -40,7 +42,7 @@ struct Opening {
   Sheet sheet;
   int column0, column1, row0, row1;  ///< bounds at x > 0; for the mouth column0 = −column1
 };
-/// Returns the opening whose rings are this patch.
+/// Returns the opening that is filled by the rings of this patch.
 const Opening& opening_of(Sheet sheet);
 std::span<const Opening> openings();
 

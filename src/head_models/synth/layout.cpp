@@ -45,8 +45,8 @@ class Sewing {
     std::uint32_t vertex, uv;
   };
 
-  /// Appends the coordinates, in units, of the mesh columns (or rows) in lattice interval k,
-  /// without the end of the interval.
+  /// Appends the coordinates, in units, of the mesh columns (or rows) in lattice interval k.
+  /// Includes the start of the interval, but not its end.
   template <class Quads>
   static void spread(const Quads& quads_of, int k, double (*unit)(int), std::vector<double>& out) {
     const int n = quads_of[static_cast<std::size_t>(k)];
@@ -72,7 +72,7 @@ class Sewing {
                               std::array{a.uv, b.uv, c.uv, d.uv});
   }
 
-  /// An opening's range of columns i and rows j, in quads.
+  /// The range of mesh columns i and mesh rows j that an opening covers, counted in quads.
   struct Span {
     int i0, i1, j0, j1;
   };
@@ -177,7 +177,8 @@ class Sewing {
     return 4 - x;
   }
 
-  /// Returns the opening's outline, counter-clockwise from its upper left corner, seen from outside.
+  /// Returns the opening's outline, counter-clockwise from its upper left corner, seen from
+  /// outside.
   std::vector<Stitch> outline(const Span& s, int side) {
     std::vector<Stitch> out;
     const auto put = [&](int i, int j) {

@@ -8,7 +8,7 @@
 
 namespace crowdface::synth {
 
-/// A quad mesh of a head without positions.
+/// The quad mesh of a head, without vertex positions.
 struct Layout {
   Topology topology;
   TextureCoordinates uvs;          ///< #T by 2, in [0, 1]²

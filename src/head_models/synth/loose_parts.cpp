@@ -22,7 +22,8 @@ constexpr double kArcWidth = 2.1, kArcDepth = 1.9;
 
 /// Maps a point (i, j) in [−1, 1]² on a side of a cube to the unit sphere.
 Vector3d point_on_ball(int side, double i, double j) {
-  // This distortion makes quads in the middle and at the corners of a side similar in size.
+  // This distortion makes the quads in the middle of a side about as large as the quads at its
+  // corners.
   const auto even = [](double x) { return x * (1.25 - 0.25 * x * x); };
   const double a = even(i), b = even(j);
   const std::array<Vector3d, 6> on_cube = {
@@ -39,7 +40,7 @@ struct Row {
 Row row_at(double t, double up) {
   const double x = kArcWidth * t * (1.2 - 0.2 * t * t), z = 7.95 - kArcDepth * t * t;
   const double height = (up > 0 ? 0.95 : 0.85) * (1 - 0.25 * t * t);
-  // The upper row is slightly in front of the lower row.
+  // The upper row of teeth is slightly in front of the lower row.
   return {{x * (up > 0 ? 1.0 : 0.96), -7.02 + up * (0.03 + height / 2), z - (up > 0 ? 0 : 0.12)},
           height};
 }
@@ -141,7 +142,7 @@ void LooseParts::add_teeth(double up, int along, int around) {
     const Vector3d tangent =
         row_at(std::min(t + 0.01, 1.0), up).middle - row_at(std::max(t - 0.01, -1.0), up).middle;
     const Vector3d outward = Vector3d(-tangent.z(), 0, tangent.x()).normalized();
-    // A row of fourteen teeth; the gaps between the teeth are slightly recessed.
+    // The surface of a row of fourteen teeth. Between two teeth, the surface is slightly recessed.
     const double tooth = 7 * (t + 1) - std::floor(7 * (t + 1));
     const double proud = 0.035 * (4 * tooth * (1 - tooth) - 0.5);
     for (int k = 0; k < around; ++k) {

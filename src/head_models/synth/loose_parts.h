@@ -12,20 +12,22 @@ namespace crowdface::synth {
 enum class LoosePiece { kLeftEye, kRightEye, kUpperTeeth, kLowerTeeth };
 
 /// Two eyeballs (spheres) and two rows of teeth (closed bands along the dental arches) as quad
-/// meshes. In different identities, the parts differ in scale and position but not in shape.
+/// meshes. The parts of two heads differ in scale and position, but not in shape.
 class LooseParts {
  public:
   /// \param edge_cm  desired edge length in cm.
   explicit LooseParts(double edge_cm);
 
-  /// Appends faces and texture coordinates of the parts to the skin's. The appended coordinates lie
-  /// in the texture areas of the eyeballs (unwrap_eyeball) and of the mouth's hole (unwrap_hole).
+  /// Appends the polygons and texture coordinates of the parts to the polygons and texture
+  /// coordinates of the skin. The appended coordinates lie in the texture areas of the eyeballs
+  /// (unwrap_eyeball) and of the mouth's hole (unwrap_hole).
   void append_to(Topology& topology, TextureCoordinates& uvs) const;
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
   Index face_count() const { return static_cast<Index>(corners_.size() / 4); }
-  /// Returns the first vertex of a piece. Pieces are stored in the order of LoosePiece.
+  /// Returns the index of the first vertex of a piece. Pieces are stored in the order of
+  /// LoosePiece.
   Index first_vertex(LoosePiece piece) const { return first_[static_cast<std::size_t>(piece)]; }
-  /// Returns the first face of a piece.
+  /// Returns the index of the first polygon of a piece.
   Index first_face(LoosePiece piece) const { return first_faces_[static_cast<std::size_t>(piece)]; }
 
   /// Returns whether a vertex belongs to an eyeball.

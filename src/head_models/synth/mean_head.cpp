@@ -49,8 +49,8 @@ GuideRay edge_of(Sheet sheet, const Vector2d& circle) {
   return sheet == Sheet::kNostril ? nostril_edge(circle) : mouth_edge(circle);
 }
 
-/// Continues from the edge of a lid inward: b = 1 … 1.2 is the thickness of the lid, 1.2 … 2 runs
-/// along the eyeball to the pupil.
+/// Continues the skin from the edge of a lid inward. From b = 1 to 1.2, the skin crosses the
+/// thickness of the lid; from 1.2 to 2, it covers the eyeball up to the pupil.
 Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d spoke = edge - eye_centre();
   const Vector3d foot = eye_centre() + kEyeRadius / spoke.norm() *
@@ -66,14 +66,14 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);
 }
 
-/// Continues from the edge of a lid inward: b = 1 … 1.2 is the thickness of the lid, 1.2 … 2 runs
-/// back between lid and eyeball.
+/// Continues the skin from the edge of a lid inward. From b = 1 to 1.2, the skin crosses the
+/// thickness of the lid; from 1.2 to 2, it runs back between lid and eyeball.
 Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
   if (b <= 1.2) return eye_centre() + foot;
   const double t = (b - 1.2) / 0.8, radius = foot.norm();
-  // Go along the eyeball, away from the viewing direction, and stay on the eyeball: blended lids
-  // may be thinner than the heads' lids, and the pocket must not protrude from the lids.
+  // Go along the eyeball, away from the viewing direction, and stay on the eyeball. Blended lids
+  // may be thinner than the heads' lids, and the pocket must not protrude from them.
   const Vector3d spoke = foot / radius, gaze(0, 0, 1);
   const Vector3d back = (spoke * spoke.z() - gaze).normalized();
   return eye_centre() + radius * (spoke + 0.2 * t * back).normalized();

@@ -15,7 +15,7 @@ struct Pull {
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 
-/// An independent measure of a head, with the value male · Person::male + aged ·
+/// A property of a head, such as the length of the nose. Its value is male · Person::male + aged ·
 /// Person::scaled_age() + build · Person::build + spread · N(0, 1).
 struct Measure {
   std::string_view name;

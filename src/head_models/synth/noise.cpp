@@ -26,7 +26,7 @@ std::array<double, 4> spline(double t) {
           t * t * t / 6};
 }
 
-/// The coefficients of the 4 × 4 × 4 lattice points around a cell: [z][4 x + y].
+/// The coefficients of the 4 × 4 × 4 lattice points around a cell, indexed as [z][4 x + y].
 using Coefficients = std::array<std::array<double, 16>, 4>;
 
 /// Returns the coefficients around a cell. Each thread caches recently used cells (direct-mapped),

@@ -11,7 +11,7 @@ namespace crowdface::synth {
 /// coefficients on a lattice.
 class SmoothNoise {
  public:
-  /// \param key      selects the noise function.
+  /// \param key      selects the noise function: different keys give independent noise.
   /// \param spacing  spacing of the lattice, in the unit of the points.
   SmoothNoise(std::uint64_t key, double spacing) : key_(key), spacing_(spacing) {}
   double at(const Eigen::Vector3d& point) const;

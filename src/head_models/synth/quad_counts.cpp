@@ -9,7 +9,8 @@
 namespace crowdface::synth {
 namespace {
 
-/// A span of rings in an opening: range of the coordinate b, and number of rings at a scale of 1.
+/// Consecutive rings of an opening: the range of their coordinate b, and the number of rings at one
+/// quad per unit.
 struct RingSpan {
   double from, to, weight;
 };
@@ -63,8 +64,8 @@ Index QuadCounts::vertices() const {
   for (const Opening& w : openings()) {
     const Index nx = column(w.column1) - column(w.column0), ny = row(w.row1) - row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(rings(w.sheet).size());
-    // Subtract the strip's vertices inside the opening, except for an ear, whose core has as many
-    // vertices.
+    // Subtract the strip's vertices inside the opening. An ear needs no subtraction, because its
+    // core has as many vertices.
     if (w.sheet != Sheet::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.sheet == Sheet::kMouth ? piece : 2 * piece;
   }

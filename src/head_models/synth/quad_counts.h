@@ -11,15 +11,16 @@ namespace crowdface::synth {
 
 /// Number of quads in every lattice interval and ring span of a layout.
 struct QuadCounts {
-  /// \param quads_per_unit  density of quads. The number of quads of each interval is rounded, and
-  ///                        at least one.
+  /// \param quads_per_unit  density of quads. In each interval, the number of quads is rounded, and
+  ///                        is at least one.
   explicit QuadCounts(double quads_per_unit);
 
   /// Returns the number of quads from the midline to lattice column k; negative if k < 0.
   int column(int k) const;
   /// Returns the number of quads from the cap to lattice row k.
   int row(int k) const;
-  /// Returns the coordinate b (see Address) of every ring of an opening, without its outline (b = 0).
+  /// Returns the coordinate b (see Address) of every ring of an opening, without the opening's
+  /// outline (b = 0).
   std::vector<double> rings(Sheet sheet) const;
   /// Returns the number of vertices of the whole layout.
   Index vertices() const;
@@ -29,7 +30,7 @@ struct QuadCounts {
   std::array<int, kRows - 1> rows{};
 };
 
-/// Returns the counts whose number of vertices is nearest to `wanted`.
+/// Returns the quad counts of the layout whose number of vertices is nearest to `wanted`.
 QuadCounts nearest_counts(Index wanted);
 
 }  // namespace crowdface::synth

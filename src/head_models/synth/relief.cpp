@@ -91,7 +91,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.base + 1.25 * fold.aged * aged +
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      // Fade out lines that are too narrow for the mesh, because such lines would look like steps.
+      // Fade out lines that are too narrow for the mesh. Such lines would look like steps.
       const double drawn = fold.wander > 0 ? carried(4 * fold.width, edge_cm) : 1;
       const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
       if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
@@ -102,7 +102,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
     return Octave{{mix(seed, index, lane), spacing}, amplitude};
   };
   broad_octaves_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
-  // The wavelength of SmoothNoise is about 2.5 to 3 spacings.
+  // The wavelength of SmoothNoise is about 2.5 to 3 times its lattice spacing.
   for (const auto& [lane, spacing, amplitude] :
        {std::tuple{23U, 0.22, 0.0035}, std::tuple{24U, 0.1, 0.003}, std::tuple{25U, 0.05, 0.002}}) {
     const double part = carried(2.5 * spacing, edge_cm);

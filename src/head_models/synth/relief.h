@@ -22,8 +22,8 @@ class Relief {
   /// Returns the displacement of the relief along the normal of the average skin, cm.
   double height(const SkinPoint& mean) const;
 
-  /// Returns the displacement of folds and lines only, cm. \param position  point on the average
-  /// head.
+  /// Returns the part of `height` that is due to folds and lines, cm.
+  /// \param position  point on the average head.
   double folds(const Eigen::Vector3d& position) const;
 
  private:

@@ -19,7 +19,7 @@ double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radi
   return k1 > 0 ? k0 * (k0 - 1) / k1 : -radii.minCoeff();
 }
 
-/// Distance to a capsule whose radius changes linearly from ra to rb.
+/// Distance from p to a capsule from a to b, whose radius changes linearly from ra to rb.
 double rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double ra, double rb) {
   const Vector3d axis = b - a;
   const double t = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
@@ -130,7 +130,8 @@ Vector3d skin_normal(const Vector3d& point) {
 Vector3d project_onto_skin(const Vector3d& origin, const Vector3d& guide) {
   const Vector3d direction = (guide - origin).normalized();
   const auto at = [&](double t) { return skin_distance(origin + t * direction); };
-  // Step from the guide point along the line to the nearest change of sign of the distance.
+  // Step from the guide point along the line, towards the skin, until the distance changes its
+  // sign.
   double t0 = (guide - origin).norm(), d0 = at(t0);
   double t1 = t0, d1 = d0;
   for (int i = 0; i < 80 && (d1 > 0) == (d0 > 0); ++i) {

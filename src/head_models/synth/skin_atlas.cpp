@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Number of vertices of the layout, fine enough that edges are not visible in a texture.
+/// Number of vertices of the layout. The layout is so fine that its edges are not visible in a
+/// texture.
 constexpr Index kVertices = 60'000;
 
 AtlasTexel place_at(const Address& address) {
@@ -116,7 +117,7 @@ std::vector<AtlasTexel> skin_atlas(int size) {
     if (place.is_covered) place.point_on_ball = loose.point_on_eyeball(v);
     places.push_back(place);
   }
-  // Rasterise all faces into the texture, then fill the texels outside the charts.
+  // Rasterise all polygons into the texture, then fill the texels outside the charts.
   std::vector<AtlasTexel> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   const Topology& topology = layout.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {

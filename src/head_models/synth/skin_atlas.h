@@ -10,7 +10,7 @@
 
 namespace crowdface::synth {
 
-/// The point of the average head that a texel shows.
+/// The point of the average head that one texel of the skin texture shows.
 struct AtlasTexel {
   SkinPoint skin;    ///< on the average head
   double eye = 0;    ///< Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2

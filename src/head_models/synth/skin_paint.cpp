@@ -33,8 +33,8 @@ void cover(ScreenColour& colour, const ScreenColour& with, double amount) {
   colour += amount * (with - colour);
 }
 
-// The outline of the lips at |x|, cm: y of the line between the lips, and the heights of the upper
-// and the lower lip from this line.
+// The outline of the lips as functions of |x|, cm: the y of the line between the lips, and the
+// heights of the upper and the lower lip above and below this line.
 constexpr double kMouthHalf = 2.45;
 double lip_line(double x) {
   const double q = std::min(1.0, x * x / (kMouthHalf * kMouthHalf));
@@ -90,7 +90,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
   const double blood = std::min(1.0, complexion_.ruddy + 0.2 * complexion_.makeup);
   tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
-  // Darken lines and hollows, which are less tanned and shaded.
+  // Darken lines and hollows, because they lie in shade.
   const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
   tint(colour, {0.88, 0.81, 0.79}, hollow);
   return colour;
@@ -173,7 +173,7 @@ double SkinPaint::brow_cover(const Vector& p) const {
 
 double SkinPaint::beard_cover(const Vector& p, double strand) const {
   const double x = std::abs(p.x());
-  // Upper edge of the beard: height y over |x|, from the moustache along the cheek to the sideburn.
+  // Upper edge of the beard, from the moustache along the cheek to the sideburn: points (|x|, y).
   static const std::array<Vector2d, 5> edge = {
       {{0, -5.0}, {1.6, -5.15}, {3.1, -6.6}, {5.2, -5.0}, {6.6, -1.2}}};
   const double over = p.y() - interpolate_knots(edge, x);
@@ -243,12 +243,13 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
   ScreenColour iris =
       complexion_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
-  // The iris is lighter around the pupil, and in its lower half, which light from above reaches.
+  // The iris is lighter around the pupil. It is also lighter in its lower half, because light from
+  // above reaches this half.
   iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
   iris *= 1 - 0.62 * smooth_step(kIris - 0.08, kIris, flat);
   cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));
   cover(colour, iris, smooth_step(kIris + 0.03, kIris - 0.02, flat));
-  // The shadow of the upper lid and its lashes.
+  // Add the shadow of the upper lid and of the upper lashes.
   return colour * (1 - 0.45 * smooth_step(0.12, 0.36, ball.y()));
 }
 

@@ -16,8 +16,8 @@ bool is_skin(const AtlasTexel& place) {
   return place.is_covered && place.ball <= 0.5;
 }
 
-/// Computes the slopes of a height field that is stored in texels; the slope is 0 between texels
-/// that are not adjacent on the skin.
+/// Computes the slopes of a height field that is stored in texels; between two texels that are not
+/// adjacent on the skin, the slope is 0.
 class Slopes {
  public:
   Slopes(const std::vector<AtlasTexel>& atlas, const std::vector<double>& heights, double texel)

@@ -13,7 +13,8 @@ namespace crowdface::synth {
 double texel_cm(int size, const std::vector<AtlasTexel>& atlas);
 
 /// Returns a tangent-space normal map of the relief that is too fine for the mesh, as 8-bit RGB.
-/// Red points to the right of the texture, green to its top. Eyeballs are smooth.
+/// The red channel is the component to the right of the texture, the green channel the component to
+/// its top. Eyeballs are smooth.
 /// \param atlas   skin_atlas(size).
 /// \param texel   texel_cm() of the atlas.
 /// \param fine    the complete relief of the head.

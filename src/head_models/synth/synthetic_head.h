@@ -31,12 +31,12 @@ class SyntheticHeads {
   /// \throws BrokenPrecondition if `vertices` is outside this range.
   explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin, Scalp scalp = Scalp::kBare);
 
-  /// Name of a component and its first face.
+  /// The name of a component and the index of its first polygon.
   struct Piece {
     std::string name;
     Index first_face = 0;
   };
-  /// Returns the components by ascending first face.
+  /// Returns the components in ascending order of their first polygons.
   std::vector<Piece> pieces() const;
 
   /// Returns the topology, the same for every seed. Each corner has a texture coordinate.
@@ -49,9 +49,10 @@ class SyntheticHeads {
   /// +Z, the origin is inside the head at the height of the eyes. The surface is the same at every
   /// resolution, and the bits are the same on every machine.
   Positions positions(std::uint64_t seed, std::uint64_t index) const;
-  /// Returns the typical edge length in cm. The mesh contains no finer relief.
+  /// Returns the typical edge length in cm. The mesh contains no relief finer than this length.
   double edge_cm() const { return edge_cm_; }
-  /// Returns the average head without hair and relief, for which hair cards are made: #V by 3, cm.
+  /// Returns the average head, without hair and relief: #V by 3, cm. Hair cards are made for this
+  /// head.
   Positions average() const;
   /// Returns a body for the heads: shoulders and chest below the rim of the average head, cm, with
   /// texture coordinates of its own. The first vertices are the vertices of the rim.

@@ -15,17 +15,18 @@ namespace crowdface {
 class SyntheticSkins {
  public:
   /// \param size   width and height of the textures in texels, 64 … 8,192.
-  /// \param scalp  the scalp of the heads.
+  /// \param scalp  whether the heads' scalps are bare or haired, see SyntheticHeads::Scalp.
   /// \throws BrokenPrecondition if size is out of range.
   explicit SyntheticSkins(int size, SyntheticHeads::Scalp scalp = SyntheticHeads::Scalp::kHaired);
 
   int size() const { return size_; }
   /// Returns the albedo (sRGB) of head `index` of a seed, for the texture coordinates of
-  /// SyntheticHeads: size × size × 3 bytes, row by row, first row at v = 1. The same bytes on every
-  /// machine.
+  /// SyntheticHeads: size × size × 3 bytes, row by row, first row at v = 1. The bytes are the same
+  /// on every machine.
   std::vector<std::uint8_t> albedo(std::uint64_t seed, std::uint64_t index) const;
   /// Returns the tangent-space normal map in the layout of albedo().
-  /// \param edge_cm  SyntheticHeads::edge_cm(); the map contains only finer relief.
+  /// \param edge_cm  SyntheticHeads::edge_cm(); the map contains only relief that is finer than
+  ///                 this length.
   std::vector<std::uint8_t> normals(std::uint64_t seed, std::uint64_t index, double edge_cm) const;
   /// Returns the albedo of the body with this head's skin colour, for the texture coordinates of
   /// SyntheticHeads::body(), in the layout of albedo().

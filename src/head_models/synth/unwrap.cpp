@@ -35,7 +35,7 @@ double down(double unit) {
   return piecewise(unit, row_unit, kHeights.data(), kRows - 1);
 }
 
-/// Half the width of the texture, and its height below the cap, in the unit of kWidths.
+/// Half the width of the texture, and the height of its part below the cap, in the unit of kWidths.
 double half_width() {
   return across(column_unit(kColumns - 1));
 }
@@ -55,7 +55,8 @@ Eigen::Vector2d disc_centre() {
   return {(across(column_unit(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
-/// Half-axes of the edge of an opening and of its hole, relative to the opening.
+/// Half-axes of the edge of an opening, and of the edge of the opening's hole, as fractions of half
+/// the opening's size.
 struct HalfAxes {
   Eigen::Vector2d edge, hole;
 };

@@ -30,8 +30,8 @@ Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 /// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
 double strip_v(double unit);
 
-/// Returns the point of ring coordinate a on the outline of an opening's square [−1, 1]²: x outward,
-/// y up.
+/// Maps the ring coordinate a to the point on the outline of an opening's square [−1, 1]², with x
+/// outward and y up.
 Eigen::Vector2d point_on_square(double around);
 /// Returns the point of the unit circle in the direction of point_on_square(around).
 inline Eigen::Vector2d point_on_circle(double around) {
