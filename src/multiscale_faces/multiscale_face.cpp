@@ -75,7 +75,8 @@ SurfacePoint surface_point(const SplineLattice& surface, const Eigen::RowVector2
 }
 
 /// Moves (u, v) by Newton's method to the point where a normal meets a surface. \return the
-/// distance along the normal; nothing if the method does not converge, and (u, v) stays as it was.
+/// distance along the normal. If the method does not converge, returns nothing and leaves (u, v)
+/// unchanged.
 std::optional<double> distance_along(const SurfacePoint& from, const SplineLattice& surface,
                                      Eigen::Ref<Eigen::RowVector2d> start) {
   constexpr int kMaxSteps = 20;

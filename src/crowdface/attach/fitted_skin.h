@@ -45,7 +45,7 @@ class FittedSkin {
   /// of vertices.
   double spacing() const { return levels_.front().spacing; }
 
-  /// A weighted sample of the skin around a point.
+  /// Skin vertices around a point, with weights.
   struct Patch {
     std::vector<std::uint32_t> vertices;
     std::vector<double> weights;  ///< #vertices: area times a weight that decreases with distance

@@ -88,7 +88,7 @@ std::string flow_list(const std::vector<std::string>& items);
 std::string flow_map(const std::vector<std::string>& entries);
 std::string flow_names(const std::vector<std::string>& names);
 /// Return a list or mapping in YAML's block style, with one line for each item; "[]" or "{}" if
-/// empty. Pass the text to entry() or block_list(), which indent its lines.
+/// empty. entry() and block_list() indent the lines of such a result.
 std::string block_list(const std::vector<std::string>& items);
 std::string block_map(const std::vector<std::string>& entries);
 /// Returns "key: value". If the value is in block style, indents its lines.

@@ -26,7 +26,7 @@ inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kDisplacement, "disp", "displacement"},
     TextureStatement{TextureKind::kBump, "map_Bump", "bump"}};
 
-/// Whether previews show textures of this kind; they always show the colour map.
+/// Whether previews show textures of this kind in addition to colour maps.
 constexpr bool is_shown_in_previews(TextureKind kind) {
   return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
 }

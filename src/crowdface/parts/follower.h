@@ -27,7 +27,8 @@ class PartFollower {
                PartShape shape = PartShape::kTarget);
   ~PartFollower();
 
-  /// Moves the parts of a blended face. May be called from several threads, with different results.
+  /// Moves the parts of a blended face. Several threads may call this, each
+  /// with its own `result`.
   ///
   /// \param target  The head that the face is built on.
   /// \param result  #V by 3, blended; the skin is left unchanged.

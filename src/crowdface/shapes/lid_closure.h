@@ -153,7 +153,7 @@ class LidClosure {
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
   static RimPoint rim_point(const std::vector<ProfilePoint>& points, double sign,
                             const EyeAxes& axes, const Positions& face, const Positions& moves);
-  /// Returns #sections: the current gap minus the goal.
+  /// Returns one value for each section: the current gap minus the goal.
   static std::vector<double> gap_excesses(const std::vector<Gap>& now, const Goals& goals,
                                           double scale);
   std::vector<Gap> measure_gaps(const EyeAxes& axes, const Positions& face,

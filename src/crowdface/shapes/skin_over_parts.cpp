@@ -214,7 +214,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
     const Corners over = corners_of(mesh, covered.covering_triangle);
     if ((over[0] - point).dot(normal_of(over)) > kNear * scale * extent_) continue;
-    // Find the skin in front of the vertex on this face.
+    // Find the skin that lies in front of this vertex in the new face.
     std::optional<double> foremost;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const Triangle& triangle : covered.candidates) {
