@@ -36,7 +36,7 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
 class AvoidedFaces {
  public:
   /// \param cast     the crowd with the changes of the reviews so far.
-  /// \param settled  #crowd: false for faces that are being redrawn. Empty: no face is being redrawn.
+  /// \param settled  #crowd: false for faces that are being redrawn. Empty: no face is.
   AvoidedFaces(const CastingResult& cast, double min_distance_mm,
                const std::vector<bool>& settled = {});
   /// Returns why a point of the face space is rejected; nothing if it is accepted.

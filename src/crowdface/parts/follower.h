@@ -27,8 +27,7 @@ class PartFollower {
                PartShape shape = PartShape::kTarget);
   ~PartFollower();
 
-  /// Moves the parts of a blended face. Several threads may call this, each
-  /// with its own `result`.
+  /// Moves the parts of a blended face. Several threads may call this, each with its own `result`.
   ///
   /// \param target  The head that the face is built on.
   /// \param result  #V by 3, blended; the skin is left unchanged.

@@ -32,7 +32,7 @@ int find_byte(float light) {
 class ByteTable {
  public:
   ByteTable() {
-    // For each byte, find by bisection the smallest float that maps to this byte. The bit patterns of
+    // For each byte, find by bisection the smallest float that maps to it. The bit patterns of
     // positive floats have the same order as their values.
     for (int byte = 1; byte < 256; ++byte) {
       std::uint32_t below = 0, first = std::bit_cast<std::uint32_t>(kWhite);

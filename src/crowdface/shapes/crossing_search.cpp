@@ -16,8 +16,8 @@
 namespace crowdface {
 namespace {
 
-/// Triangles at most kSheetRings edges apart count as one sheet. A sheet counts as
-/// folded if the cosine between any two of its normals is below kAlike.
+/// Triangles at most kSheetRings edges apart count as one sheet. A sheet counts as folded if the
+/// cosine between any two of its normals is below kAlike.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.998F;
 

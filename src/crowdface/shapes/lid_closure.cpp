@@ -155,8 +155,8 @@ void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency
     const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kSections;
     const Eigen::Vector3d middle =
         (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
-    // Cut both lids across the opening, on the template with the blend shape applied. Keep the section if the shape
-    // closes the lids enough.
+    // Cut both lids across the opening, on the template with the blend shape applied. Keep the
+    // section if the shape closes the lids enough.
     GapSection cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
     cut_profiles(adjacency, closed, eye.skin_vertices, side, kProfile * radius_, cut);
     if (cut.low.empty() || cut.high.empty()) continue;
