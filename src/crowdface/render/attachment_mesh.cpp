@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/render/attachment_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -71,10 +70,14 @@ std::uint8_t AttachmentSurface::mip_level(std::uint32_t quad, float pixel_count)
   const float texel_count = std::abs(one.x() * other.y() - one.y() * other.x()) / 2 *
                             static_cast<float>(levels[0].width) *
                             static_cast<float>(levels[0].height);
-  if (!(texel_count > pixel_count)) return 0;
-  const auto coarsest = static_cast<float>(levels.size() - 1);
-  const float level = std::log2(texel_count / std::max(pixel_count, 1e-6F)) / 2;
-  return static_cast<std::uint8_t>(std::min(std::round(level), coarsest));
+  // The nearest level: rounds log₄ of the ratio, without the C library's logarithm, whose last bit
+  // depends on its version.
+  std::uint8_t level = 0;
+  for (float ratio = texel_count / pixel_count; ratio >= 2 && level + 1U < levels.size();
+       ratio /= 4) {
+    ++level;
+  }
+  return level;
 }
 
 }  // namespace crowdface
