@@ -18,12 +18,13 @@ Differences differences(const FrontPatch& patch, const Positions& a, const Posit
 /// The energy of each wavelength band of a head, on the patch: Σ over its vertices of the squared
 /// length of S(finer bound) − S(coarser bound), where S is Laplacian smoothing (Eq. 1).
 /// \param positions  #V by 3 of whole heads, in millimetres.
-/// \param bounds_mm  half-amplitude wavelengths, ascending. The first band is finer than the first
-///                   bound.
+/// \param bounds_mm  half-amplitude wavelengths, ascending. The first band contains the wavelengths
+///                   below the first bound.
 std::vector<double> band_energies(const Topology& topology, const FrontPatch& patch,
                                   const Positions& positions, const std::vector<double>& bounds_mm);
 
-/// The largest distance between corresponding vertices of two faces along the given rims.
+/// The largest distance between corresponding vertices of two faces `a` and `b`, over the vertices
+/// on the given rims (boundary loops).
 double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
                             const Positions& b);
 

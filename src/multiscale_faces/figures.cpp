@@ -90,7 +90,7 @@ class Heads {
   std::map<int, MultiscaleFace> faces_;
 };
 
-/// A head from which a face takes the detail of some levels, in a region or everywhere.
+/// A head, and the levels whose detail a face takes from this head, in a region or everywhere.
 struct Lender {
   int head;
   std::vector<double> level_weights;

@@ -32,7 +32,8 @@ struct FrontPatch {
 /// eye sockets and the inside of the mouth become holes. Omits triangles where a rim touches itself
 /// and triangles whose corners all lie on rims.
 /// \param mean   #V by 3, the mean of all heads.
-/// \param up     axis towards the top of the head. \param front  axis along which heads look.
+/// \param up     axis towards the top of the head.
+/// \param front  axis that points to the front of the head.
 /// \throws InvalidInput if the front has no border.
 FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up, Axis front);
 

@@ -9,7 +9,8 @@
 
 namespace crowdface::multiscale {
 
-/// Spans of the coarsest and the finest lattice. Level k has kCoarsest·2^k spans.
+/// Number of spline spans along each side of the coarsest and of the finest lattice. Level k has
+/// kCoarsest·2^k spans.
 inline constexpr Index kCoarsest = 4;
 inline constexpr Index kFinest = 256;
 inline constexpr int kLevels = 7;
@@ -42,7 +43,7 @@ MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positio
 /// Returns the same face with another base level.
 MultiscaleFace with_base(MultiscaleFace face, int base);
 
-/// The details that a new face takes from one face.
+/// The details that a new face takes from one source face.
 struct Details {
   const MultiscaleFace* face = nullptr;
   /// For each level from base + 1 on, the weight of the level's detail in the whole patch.

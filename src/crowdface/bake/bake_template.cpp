@@ -20,7 +20,7 @@ namespace {
 
 /// Removes textures that the skin does not use. For each material and tile of untextured skin, adds
 /// a texture file without a path.
-/// \param is_skin  #F: whether the face belongs to the skin
+/// \param is_skin  #F: whether the polygon belongs to the skin
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      FoundTextureFiles& found) {
   HeadTextureFiles& placed = found.heads[0];

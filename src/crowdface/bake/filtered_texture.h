@@ -29,8 +29,9 @@ class FilteredTexture {
                          const Eigen::Vector2d& lower_step) const;
 
  private:
-  /// A level of the pyramid: each texel is the mean of 4 by 4 texels of the next finer level. It
-  /// holds three values times the covered fraction of its area, then this fraction.
+  /// A level of the pyramid: each texel is the mean of 4 by 4 texels of the next finer level. A
+  /// texel holds three values, each multiplied by the covered fraction of the texel's area, and
+  /// then this fraction.
   struct Level {
     int width = 0, height = 0;
     std::vector<Eigen::Array4f> texels;

@@ -25,7 +25,8 @@ constexpr int kTexelRows = 8;
 constexpr double kMaxDistanceMm = 3;
 /// Width of the band along the edge of the scan's data in which the scan's colours fade out.
 constexpr double kFeatherMm = 3;
-/// Smallest size of the differences in tone that continue into holes; smaller differences fade.
+/// Smallest extent on the skin of a difference in tone that continues into holes; smaller spots
+/// fade.
 constexpr double kMinToneSizeMm = 8;
 constexpr int kMaxSamples = 4;
 

@@ -60,7 +60,8 @@ class ScanBake {
   /// Mean length in mm of the edges at a vertex of the skin.
   double mean_edge_length(Index vertex) const;
   ScanPoint find_scan_point(const SkinPoint& skin_point, std::uint32_t guess) const;
-  /// The mean optical density of an area of the scan; nothing if the area has no colour.
+  /// The mean optical density of each colour channel over an area of the scan; nothing if the area
+  /// has no colour.
   std::optional<Eigen::Vector3d> mean_density(const ScanArea& area) const;
   /// The optical densities of the template over a texel; zero if the template has no texture.
   Eigen::Vector3d template_density(std::size_t picture, const Eigen::Vector2d& uv,

@@ -19,7 +19,7 @@ namespace {
 /// pose.
 constexpr double kFarMm = 25;
 /// Largest distance between a found landmark and the same landmark of the template, after a fit to
-/// all landmarks. Faces of different people differ by less.
+/// all landmarks. The differences between people's faces are smaller than this distance.
 constexpr double kOffMm = 14;
 /// Uncertainty of found landmarks: twice the errors of 1.3 to 2.4 mm that scripts/measure_wrap.sh
 /// shows, because the errors of neighbouring landmarks are correlated.

@@ -41,7 +41,7 @@ std::uint32_t template_vertex(const LandmarkFile::Place& place,
 Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan);
 
 /// The landmarks that template and scan have in common: template vertices and points on the scan. A
-/// template point stands for its nearest vertex.
+/// point on the template is replaced by the nearest template vertex.
 /// \throws UsageError if there is no vertex with the number given.
 std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
                                           const Positions& template_positions, const Scan& scan);
@@ -55,8 +55,8 @@ struct PickedLandmark {
   std::optional<std::uint32_t> scan_vertex;
 };
 
-/// The text of a landmark file, such that read_landmarks reads the same landmarks. Names without a
-/// place are left out.
+/// The text of a landmark file, from which read_landmarks reads the same landmarks. The text omits
+/// landmarks without a place.
 /// \param comments  lines put in front, see opening_comments.
 std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
                              std::string_view comments = {});

@@ -143,7 +143,7 @@ void read_table(std::string_view text, PlaceList& list) {
     }
     const bool is_header = numbers.empty() && (line_number == 1 || name.empty());
     if (is_header) continue;
-    // A number before name and point is a row number.
+    // A number that precedes the name and the point's coordinates is a row number.
     if (numbers.size() == 4 && !name.empty()) numbers.erase(numbers.begin());
     const std::string where = concat(':', line_number);
     if (has_other_words || numbers.empty()) {

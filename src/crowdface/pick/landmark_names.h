@@ -21,7 +21,7 @@ struct LandmarkName {
 /// measurements (trait_landmarks). The first four determine the pose of a head.
 const std::vector<LandmarkName>& suggested_landmarks();
 
-/// The name with left and right exchanged: "eye_outer_left" for "eye_outer_right", "brow_l" for
+/// The name of the landmark on the other side: "eye_outer_left" for "eye_outer_right", "brow_l" for
 /// "brow_r"; nothing if the name has no side.
 std::optional<std::string> mirrored_name(std::string_view name);
 

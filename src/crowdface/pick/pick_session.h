@@ -36,7 +36,7 @@ struct PickInputs {
 class PickSession {
  public:
   /// Reads the landmark file if it exists.
-  /// \param inputs  its `shape` must outlive this object
+  /// \param inputs  `inputs.shape` must outlive this object
   /// \throws Error that names the fault in the file
   explicit PickSession(PickInputs inputs);
 
@@ -50,8 +50,9 @@ class PickSession {
   /// Whether saving would lose comments: only comments at the start of the file are kept.
   bool loses_comments() const;
 
-  /// The first point on the mesh along a ray: on the template a vertex, on the scan a point,
-  /// rounded to a power of ten that is at most a millionth of the scan's size.
+  /// The first point at which a ray hits the mesh. On the template, this is a vertex. On the scan,
+  /// it is a point whose coordinates are rounded to a power of ten that is at most a millionth of
+  /// the scan's size.
   std::optional<PickedPlace> pick_on_template(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const;
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,

@@ -30,7 +30,7 @@ std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
   return pairs;
 }
 
-/// Whether the points determine a rotation, which points on a line do not.
+/// Whether the points determine a rotation. Points on one line do not.
 bool spread_out(const Positions& places) {
   constexpr double kMinRatio = 0.1;
   const Positions centred = places.rowwise() - places.colwise().mean();
@@ -103,7 +103,8 @@ Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& p
   return sum / weights;
 }
 
-/// Moves a place inside a nostril to the skin outside, if that lies within `depth`.
+/// Moves a place inside a nostril to the skin outside, if this skin lies within the distance
+/// `depth`.
 std::optional<PickedPlace> outermost(const PickableMesh& mesh,
                                      const std::optional<PickedPlace>& place, double depth) {
   if (!place) return place;

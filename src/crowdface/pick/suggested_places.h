@@ -20,8 +20,8 @@ struct LandmarkPose {
     /// Distance between both landmarks of the pair after a fit to the other pairs, in mm. With
     /// three pairs: after a fit to all three pairs.
     double distance_mm = 0;
-    /// Whether the distance is far larger than the other distances, most likely by mistake;
-    /// outliers are not used for `pose`.
+    /// Whether the distance is far larger than those of the other pairs, probably because a
+    /// landmark was misplaced; `pose` does not use outliers.
     bool is_outlier = false;
   };
   std::map<std::string, Residual> residuals;  ///< one for each pair

@@ -18,11 +18,11 @@ namespace crowdface {
 /// first use. Thread-safe.
 class AttachmentSurfaces {
  public:
-  /// \param max_px   larger textures are reduced to this many texels a side.
+  /// \param max_px    larger textures are reduced so that the longer side has this many texels.
   /// \param textured  whether colour textures are shown; opacity is always applied.
   AttachmentSurfaces(int max_px, bool textured) : max_px_(max_px), shows_textures_(textured) {}
 
-  /// \param item  attachment of the inputs.
+  /// \param item  one of the attachments in the crowd's inputs.
   const AttachmentSurface& at(const Attachment& item) const;
   /// The attachments of a face, for rendering. The result holds references to `placed` and to this
   /// object.
@@ -38,12 +38,12 @@ class AttachmentSurfaces {
   int max_px_;
   bool shows_textures_;
   mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;
-  // Textures by file, because many attachments share the same textures.
+  // Textures by file path; many attachments share the same texture file.
   mutable LazyMap<std::filesystem::path, Picture> colour_maps_;
   mutable LazyMap<std::filesystem::path, std::shared_ptr<const MipMap>> opacity_maps_;
 };
 
-/// Memory in bytes that the textures of some attachments use after they are read.
+/// Memory in bytes that the textures of `items` use once the textures have been read.
 std::uint64_t attachment_texture_bytes(std::span<const Attachment* const> items, int max_px);
 
 }  // namespace crowdface

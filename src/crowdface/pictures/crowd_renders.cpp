@@ -19,9 +19,9 @@ namespace {
 /// judging faces.
 constexpr double kCutBelow = 0.22;
 
-/// Estimates the extreme points of the attachments on all heads, for framing: maps a sample of each
-/// attachment's vertices from the bounding box of the head for which it was made to the bounding
-/// boxes of the other heads.
+/// Estimates, for framing the images, the extreme points of the attachments on all heads. Maps a
+/// sample of each attachment's vertices from the bounding box of the head for which the attachment
+/// was made to the bounding boxes of the other heads.
 std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& head_set) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
@@ -51,8 +51,8 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
   return reach;
 }
 
-/// For each vertex, its lowest displacement in any shape, because an open jaw reaches below the
-/// neutral head.
+/// For each vertex, the displacement that reaches farthest down among all blend shapes, because an
+/// open jaw reaches below the neutral head.
 Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {

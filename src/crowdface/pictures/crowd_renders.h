@@ -51,10 +51,10 @@ class CrowdRenders {
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                const FaceTextures* textures = nullptr);
 
-  /// After this call, `render_files` also makes gallery meshes. \param meshes  must outlive this
-  /// object.
+  /// Enables gallery meshes: after this call, `render_files` also makes them. \param meshes  must
+  /// outlive this object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
-  /// Whether `render_files` needs the shapes of a face.
+  /// Whether `render_files` needs the blend shapes of a face.
   bool show_shapes() const { return gallery_ != nullptr; }
 
   const PicturedMesh& mesh() const { return mesh_; }

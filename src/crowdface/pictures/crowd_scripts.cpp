@@ -24,10 +24,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Largest number of faces in the plane view if the recipes are split into several scripts.
+/// Largest number of faces in the gallery's plane view if the recipes are split into several
+/// scripts.
 constexpr std::size_t kMaxOnPlane = 2000;
 
-/// All data of the crowd's script except the data of single faces.
+/// The first part of the crowd's script: all data that do not belong to a single face.
 Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
                     const std::vector<std::vector<double>>& head_traits, bool has_textures) {
   const PlanNames names = config.plan_names();
@@ -100,8 +101,8 @@ Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
   return json;
 }
 
-/// The data for filtering, for sorting and for the grid: a column of values over all faces for each
-/// kind of data.
+/// The data for filtering, for sorting and for the grid. Each kind of data is one column with one
+/// value per face.
 std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
                     const Likeness& likeness) {
   std::string text;
@@ -159,7 +160,8 @@ std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
                        ",\n\"note\":", notes.dump(), '}');
 }
 
-/// A script with the recipes of the faces [begin, end) and the nearest faces of each.
+/// A script with the recipes of the faces [begin, end) and, for each of these faces, its most
+/// similar faces.
 std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, std::size_t end,
                         std::size_t page, const PlanNames& names, const Digest& settings,
                         const Likeness& likeness) {

@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// Adds points on edges: rows interpolated between the rows of both ends; at most one point per
-/// edge.
+/// Adds points on edges, at most one point per edge. The row of a point is interpolated between the
+/// rows of the edge's two ends.
 template <class Rows>
 class EdgePoints {
  public:

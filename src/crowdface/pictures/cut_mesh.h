@@ -8,7 +8,7 @@
 namespace crowdface {
 
 /// Keeps the part of a mesh in which a function is not negative. The function is given at the
-/// vertices and linear along edges. Polygons that cross zero are clipped (Sutherland & Hodgman
+/// vertices, and is linear along edges. Polygons that cross zero are clipped (Sutherland & Hodgman
 /// 1974). Vertices and texture coordinates keep their rows, even if no polygon uses them any more;
 /// new rows follow.
 /// \param signed_distances  #V: the function at each vertex

@@ -38,7 +38,7 @@ MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
 }
 
-/// The folder of another crowd, with the folder layout that the config file in it states.
+/// The folder of another crowd, with the folder layout that the config file in this folder states.
 CrowdDirectory crowd_at(const std::filesystem::path& folder) {
   CrowdDirectory directory{folder};
   if (!is_surely_there(directory.config())) return directory;

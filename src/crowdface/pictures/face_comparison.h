@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// A face, and its vertices' distances to the same vertices of another mesh that was fitted rigidly
-/// to the face. All distances are 0 if there is no other mesh.
+/// A face of the crowd, and the distance of each vertex to the same vertex of another mesh, after
+/// the other mesh was fitted rigidly to the face. All distances are 0 if there is no other mesh.
 struct ComparedFace {
   Positions mesh;
   Eigen::VectorXd mm;  ///< #V distances

@@ -27,10 +27,11 @@ using Json = nlohmann::ordered_json;
 
 /// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
 constexpr std::size_t kMaxTriangles = 24'000;
-/// Limit for hidden triangles, such as triangles behind closed lips: teeth and mouth cavity have
-/// finer meshes than the face.
+/// Largest number of hidden triangles, such as triangles behind closed lips. Hidden triangles have
+/// their own limit, because teeth and mouth cavity have finer meshes than the skin.
 constexpr std::size_t kMaxHidden = 2'000;
-/// Width and height of a face's textures; half of this if there are more than two textures.
+/// Largest width and height of a face's textures in texels; half of this if there are more than two
+/// textures.
 constexpr int kMaxTexels = 1024;
 constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are omitted
 constexpr float kMinLight = 0.004F;  ///< lower bound of `visibility_` if there are shapes
@@ -38,7 +39,7 @@ constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction o
 
 /// Returns the visible fraction of the sky at the vertices of `triangles`, which are part of a
 /// split mesh.
-/// \return #V; 0 for other vertices.
+/// \return #V; 0 for vertices that no triangle uses.
 std::vector<float> openness_at(const Topology& topology, const std::vector<SurfaceKind>& kinds,
                                const Positions& mean, const SplitMesh& split,
                                const std::vector<Triangle>& triangles) {
@@ -53,8 +54,8 @@ std::vector<float> openness_at(const Topology& topology, const std::vector<Surfa
   return open_at;
 }
 
-/// Labels polygons for split_mesh: on every head, polygons with the same label have the same
-/// texture or none.
+/// Labels polygons for split_mesh. Polygons with the same label share one texture (or have none) on
+/// every head.
 /// \return #F labels; kNoIndex for polygons that are not shown.
 /// \param faces  number of polygons of the face; all later polygons belong to the body
 std::vector<std::uint32_t> looks_of(const HeadTextures& textures,

@@ -32,8 +32,8 @@ class GalleryMeshes {
   std::string shared_script() const;
   /// The file data/faces/NAME.js or data/heads/NAME.js.
   /// \param moves    displacements of each shape of the face.
-  /// \param texture_set  textures of the face; if null, it shows vertex colours or the colours
-  ///                     shared by all faces.
+  /// \param texture_set  textures of the face; if null, the face shows its vertex colours or the
+  ///                     colours that all faces share.
   /// \param colours  vertex colours of the face, or null.
   /// \param placed   the attachments that the face wears.
   /// \param body     texture of the body, or null.
@@ -74,7 +74,7 @@ class GalleryMeshes {
   std::vector<TexturePlace> texture_places_;
   Eigen::Vector3d box_low_, box_high_;  ///< bounding box of all heads and the shoulders of the body
 
-  /// The vertices of the reduced mesh that a shape moves.
+  /// The vertices of the reduced mesh that a blend shape moves.
   struct ShownMoves {
     std::vector<std::uint32_t> rows;      ///< rows of the shape's displacements
     std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh

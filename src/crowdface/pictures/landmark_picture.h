@@ -15,8 +15,8 @@ struct LabelledPoint {
   SurfacePoint place;
 };
 
-/// Draws an image of a head with labelled points, as the bytes of a PNG file: all views of
-/// `renders` side by side. Each view shows only the points on skin that faces its camera.
+/// Draws an image of a head with labelled points: all views of `renders` side by side. Returns the
+/// bytes of a PNG file. Each view shows only the points on skin that faces its camera.
 std::string landmark_picture(const CrowdRenders& renders, const Topology& topology,
                              const Positions& head, const std::vector<LabelledPoint>& points);
 

@@ -13,7 +13,7 @@ namespace crowdface {
 std::uint8_t srgb_byte(float light);
 
 /// Images encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
-/// load textures from files. Larger images are reduced to `max_px` texels a side.
+/// load textures from files. Larger images are reduced so that the longer side has `max_px` texels.
 
 /// The texture as JPEG in sRGB.
 std::string colour_picture(const Texture& texture, int max_px);

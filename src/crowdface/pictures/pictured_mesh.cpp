@@ -29,7 +29,7 @@ std::vector<double> above_chest(const Config& config, const Inputs& inputs, cons
   return above;
 }
 
-/// For each polygon corner at a vertex of the rim, the corner's position in the texture.
+/// For each polygon corner at a vertex of the neck's rim, the corner's position in the texture.
 std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& head_set) {
   std::vector<TexturePlace> places;
   const VertexFaces around(head_set.topology);

@@ -14,9 +14,10 @@
 
 namespace crowdface {
 
-/// The mesh that rendered images show: the faces' mesh or, if `neck.show_body` is set, a joint mesh
-/// of face and body. The body's rim is joined to the ring of the face, so that both have the same
-/// normals there. The body is cut at the chest. Vertices and polygons of the face come first.
+/// The mesh that rendered images show: the mesh of the crowd's faces or, if `neck.show_body` is
+/// set, a joint mesh of face and body. The boundary of the body at the neck is joined to the
+/// boundary (ring) of the face, so that face and body have the same normals there. The body is cut
+/// at the chest. Vertices and polygons of the face come first.
 class PicturedMesh {
  public:
   /// Images of faces show this much of the body below the heads, as a fraction of the heads'

@@ -28,7 +28,7 @@ class CrowdPictures {
   const CrowdRenders& renders() const { return renders_; }
 
   /// Sets the measurements of the input heads that the gallery shows. \param of_heads  #heads by
-  /// #named traits
+  /// #named traits: the measurements
   void show_traits(std::vector<std::vector<double>> of_heads) {
     head_traits_ = std::move(of_heads);
   }
@@ -65,8 +65,8 @@ class CrowdPictures {
   std::vector<std::vector<double>> head_traits_;
 };
 
-/// The files of the contact sheets, the gallery and the likeness in the crowd's folder, sorted;
-/// without the renders and meshes of the faces. \throws IoError if a folder cannot be read.
+/// The paths of the files of contact sheets, gallery and likeness in the crowd's folder, sorted.
+/// Omits the renders and meshes of the faces. \throws IoError if a folder cannot be read.
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets);
 

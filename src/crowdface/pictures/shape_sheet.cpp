@@ -18,7 +18,8 @@ namespace {
 /// Largest number of columns on a page, including the neutral face.
 constexpr std::size_t kMaxColumns = 16;
 
-/// A column of a page: a shape, or a shape together with its companion (see companions_of).
+/// A column of a page: a blend shape; a corrective shape is shown together with the shape that it
+/// corrects (see companions_of).
 struct Column {
   std::string name;
   std::vector<std::size_t> shapes;

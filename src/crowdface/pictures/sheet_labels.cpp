@@ -15,7 +15,8 @@
 namespace crowdface {
 namespace {
 
-/// The target head, such as "ann"; for a mixture of heads, such as "ann 60 %, bob 40 %".
+/// The name of the target head, such as "ann". If the target is a mixture of heads, the names and
+/// weights, such as "ann 60 %, bob 40 %".
 std::string target_label(const Recipe& recipe, const std::vector<std::string>& heads) {
   if (recipe.mixture.empty()) return heads[static_cast<std::size_t>(recipe.target)];
   std::vector<std::string> parts;
@@ -26,8 +27,8 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
   return join(parts);
 }
 
-/// The regions inherited from `parent`. A region of which only some bands come from this parent is
-/// listed by band: "brow/skin".
+/// The names of the regions that the face inherits from `parent`. If only some wavelength bands of
+/// a region come from this parent, the list names these bands: "brow/skin".
 std::vector<std::string> given_by(std::string_view parent, const FacePlan& face,
                                   const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});

@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-// Largest size of a page in the index, in pixels
+// Largest width and height of a page's image in the index, in pixels
 constexpr int kIndexWidth = 480, kIndexHeight = 960;
 constexpr std::size_t kPagesPerVolume = 64;
 

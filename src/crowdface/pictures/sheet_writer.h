@@ -12,8 +12,8 @@
 namespace crowdface {
 
 /// Writes pages of contact sheets to a folder, in the requested formats. Every 64 pages form a
-/// volume with its own index and, if requested, its own PDF, so that memory does not grow with the
-/// crowd.
+/// volume with its own index and, if requested, its own PDF file, so that the memory in use does
+/// not grow with the number of faces.
 class SheetWriter {
  public:
   /// \param folder  must exist. \param title  title of each index.
@@ -24,7 +24,8 @@ class SheetWriter {
   /// \param stem     file name without extension.
   /// \param caption  text under the page in the index.
   void add(const std::string& stem, const std::string& caption, Rgb8Image page);
-  /// Writes the last index and PDF. A single page gets no index. \return all files written.
+  /// Writes the index and the PDF file of the last volume. A single page gets no index. \return all
+  /// files written.
   std::vector<std::filesystem::path> finish();
 
  private:
@@ -43,7 +44,7 @@ class SheetWriter {
   std::vector<SheetCell> index_cells_;    ///< pages in the index of the current volume
   std::vector<std::filesystem::path> written_files_;
   int pages_in_memory_ = 0;
-  // Last member, so that its tasks end before the members they use are destroyed.
+  // Must be the last member: its destructor waits for tasks that use the other members.
   BackgroundTasks tasks_;
 };
 

@@ -104,8 +104,8 @@ class CrowdSheets {
     return pages;
   }
 
-  /// Adds a sheet with as many rows as its cells need, on several pages if one page would be too
-  /// large.
+  /// Adds a sheet with as many rows as its cells need. Splits the sheet into several pages if one
+  /// page would be too large.
   /// \param stem  returns the file name of a page without extension; takes the page number, from 1.
   void add_tall_pages(const std::function<std::string(std::size_t)>& stem,
                       const std::string& caption, const std::string& title, const std::string& note,
@@ -141,7 +141,8 @@ class CrowdSheets {
                    });
   }
 
-  /// Each family has a sheet of its own: parents or founder first, then the members.
+  /// Each family has its own sheet: first its parents or its founder (the face from which its
+  /// members are derived), then the members.
   void write_families() {
     std::map<std::string, std::vector<std::size_t>> families;
     for (std::size_t face = 0; face < crowd_.faces.size(); ++face) {
@@ -151,7 +152,7 @@ class CrowdSheets {
   }
 
   /// The sheet of a family with parents is a family tree with a row per generation: grandparents,
-  /// parents, children. On other sheets the founder comes first.
+  /// parents, children. On the sheet of a family without parents, the founder comes first.
   void write_family(const std::string& family, const std::vector<std::size_t>& members) {
     const std::vector<std::string>& parents = crowd_.faces[members.front()].parents;
     std::vector<Relative> cells;
@@ -212,7 +213,7 @@ class CrowdSheets {
             concat(name, '\n', role)};
   }
 
-  /// The label of a family member: for a child its inheritance, for other members the nearest face.
+  /// The label of a family member: what a child inherits; for other members the most similar face.
   std::string label_of_member(std::size_t member) const {
     const FacePlan& face = crowd_.faces[member];
     if (face.parents.empty()) {

@@ -18,8 +18,8 @@ struct WrittenSheets {
 /// an index. Removes outdated sheets of earlier runs.
 WrittenSheets write_sheets(const PicturedCrowd& crowd);
 
-/// Adds pages `shapes_001` … with one row per face: the neutral face, then each shape, from the
-/// front. The first row shows the template.
+/// Adds pages `shapes_001` … with one row per face: the neutral face, then each blend shape, all
+/// seen from the front. The first row shows the template.
 /// \param crowd  the first faces of the crowd are shown, as many as the config requests; their
 ///               meshes are read from the folder.
 void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages);

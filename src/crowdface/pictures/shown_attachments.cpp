@@ -15,13 +15,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Limit for all materials of an attachment together. Each vertex takes 8 characters per face.
+/// Largest number of triangles of an attachment, all materials together. In each face's script, a
+/// vertex takes 8 characters.
 constexpr std::size_t kMaxAttachmentTriangles = 24'000;
 constexpr std::size_t kMaxAttachmentDraft = 6'000, kMinAttachmentDraft = 300;
 constexpr int kMaxAttachmentTexels = 512;
 
-/// The indices, 4 bytes each, of the vertices that the shape moves by at least `least`, followed by
-/// the displacements of these vertices.
+/// The vertices that the blend shape moves by at least `least`: first the indices of these vertices
+/// (4 bytes each), then their displacements.
 /// \param shown  rows of the full mesh that the page shows
 std::string packed_moves(std::span<const std::uint32_t> shown, const Displacements& shape,
                          const PackingFrame& frame, double least) {

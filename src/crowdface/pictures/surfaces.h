@@ -7,9 +7,9 @@
 
 namespace crowdface {
 
-/// Determines the surface kind of each polygon of the crowd's mesh from the config, from material
-/// names and from the shape of eyeballs. Materials that the material file makes transparent, such
-/// as lash cards, are hidden.
+/// Determines the surface kind (skin, eye, …) of each polygon of the crowd's mesh from the config
+/// and from the names of materials. Finds eyeballs also by their form. Materials that the material
+/// file makes transparent, such as lash cards, are hidden.
 Surfaces surfaces_of(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The layer's texture that covers a vertex, or null.
+/// The texture of `layer` that covers the vertex at `place`; null if none covers the vertex.
 const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
   if (place.face < 0 || layer.of_face.empty()) return nullptr;
   const std::uint32_t picture = layer.of_face[static_cast<std::size_t>(place.face)];
@@ -38,7 +38,7 @@ Vector3d tilted_normal(const TextureSet& texture_set, const Topology& topology,
                        const Positions& positions, const Vector3d& normal) {
   const Texture* slopes = picture_at(texture_set.slopes, place);
   if (slopes == nullptr) return normal;
-  // Derive the texture axes from the triangle at the face's first corner.
+  // Derive the texture axes from the triangle at the polygon's first corner.
   const auto vertices = topology.face(place.face);
   const auto uvs = topology.face_uvs(place.face);
   const std::size_t last = vertices.size() - 1;

@@ -34,8 +34,8 @@ class RowBuffer {
   std::vector<float*> rows_;
 };
 
-/// Interpolates the fields at a row's covered texels. A span may write beyond its end; the next
-/// span overwrites these texels.
+/// Interpolates the fields at a row's covered texels. A span may write texels beyond its end; the
+/// next span overwrites these texels.
 void interpolate(const SurfaceTexels& texels, int y, const PictureFields& fields,
                  const RowBuffer& buffer) {
   const auto row = static_cast<float>(y);

@@ -20,7 +20,7 @@ struct Ramp {
   float first = 0, step = 0;
 };
 
-/// Writes the first `count` values of each ramp, and up to kRowSlack more.
+/// Writes the first `count` values of each ramp, and up to kRowSlack further values beyond the end.
 /// \param rows  #ramps rows.
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 

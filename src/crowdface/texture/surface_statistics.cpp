@@ -203,8 +203,9 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
   });
 }
 
-/// Groups up to three consecutive pairs of heads that have maps for the same texture images. The
-/// products of these pairs are known at the same vertices, so that they can be smoothed as one row.
+/// Groups consecutive pairs of heads, up to three pairs per group, whose heads have maps for the
+/// same texture images. The products of these pairs are known at the same vertices, so that they
+/// can be smoothed as one row.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& maps) {
   std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map
   for (std::size_t a = 0; a < maps.front().size(); ++a) {

@@ -40,7 +40,8 @@ class SurfaceTexels {
     std::uint16_t begin, end;
   };
   /// An uncovered texel near the surface (`target`), and the covered texel whose colour it copies
-  /// (`source`). The gutter keeps texture filtering from blending in the background.
+  /// (`source`). Because of the gutter, texture filtering does not mix the background into the
+  /// surface.
   struct Gutter {
     std::uint32_t target, source;  ///< row · width + column of each texel
   };

@@ -137,7 +137,7 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
   std::vector<std::vector<double>> weights;
   if (!recipe.colours.empty()) return {recipe.regions.size(), of_target};
   for (const RegionRecipe& region : recipe.regions) {
-    // Skin colour belongs to the finest band.
+    // The colour weights of a region are those of its finest wavelength band.
     const BandRecipe& finest = band_of(region, band_count(region) - 1);
     std::vector<double> of_region(heads, 0.0);
     double sum = 0;

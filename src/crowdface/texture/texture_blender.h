@@ -75,7 +75,7 @@ class TextureBlender {
   std::vector<double> region_shares_;  ///< #regions: fraction of the face that each region covers
 };
 
-/// The fraction of the face that each region covers.
+/// For each region, the fraction of the face's area that the region covers.
 /// \param areas  #V: weight of each vertex.
 std::vector<double> region_shares(const RegionWeights& regions, const std::vector<double>& areas);
 

@@ -13,7 +13,7 @@ inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 /// Calls `body(x, y)` for each texel whose centre lies in the triangle or on its edge.
-/// \param at  the corners in texels, y downwards.
+/// \param at  the corners, in texels; y points downwards.
 /// \param width, height  of the picture.
 template <class Body>
 void for_each_texel(const std::array<Eigen::Vector2d, 3>& at, int width, int height,

@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// Blends vertex colours: the weighted mean of the heads' optical densities. The weights are
-/// constant over the face, so that forehead and chin match in colour. Heads without colours get no
-/// weight.
+/// Blends vertex colours: computes the weighted mean of the heads' optical densities. The weights
+/// are constant over the face, so that forehead and chin match in colour. Heads without colours get
+/// no weight.
 /// \param heads      #heads, each #V by 3 or without rows; at least one has rows.
 /// \param is_target_only  #V, or empty: vertices that use weights.target instead of weights.face,
 ///                     such as eyes.

@@ -23,7 +23,8 @@ constexpr double kHiddenStiffnessMm = 10;  // smallest stiffness where the scan 
 constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
-/// The corresponding point found for a vertex of the skin or for a sampled point of the scan.
+/// The point that corresponds to a vertex of the skin (or to a sampled point of the scan) on the
+/// other surface.
 struct Correspondence {
   bool found = false;
   Eigen::Vector3d normal, offset;  ///< normal of the scan; vector from the skin to the scan

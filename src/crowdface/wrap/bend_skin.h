@@ -10,11 +10,11 @@
 namespace crowdface {
 
 struct BendOptions {
-  /// Stiffness of each round, as a wavelength: the round suppresses displacement variations of
-  /// shorter wavelengths, independently of the mesh resolution.
+  /// Stiffness of each round, given as a wavelength. The round suppresses variations of the
+  /// displacement whose wavelength is shorter. The effect does not depend on the mesh resolution.
   std::vector<double> wavelengths_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
-  /// Weight of offsets along the surface, relative to 1 for offsets along the normal, in the first
-  /// and in the last round.
+  /// Weight of offsets along the surface, in the first and in the last round. Offsets along the
+  /// normal have weight 1.
   double first_tangential_weight = 0.2, last_tangential_weight = 0.8;
   /// Weight of the landmarks in the first and in the last round.
   double first_landmark_weight = 1, last_landmark_weight = 0.3;

@@ -18,7 +18,8 @@ namespace crowdface {
 namespace {
 
 constexpr double kReachMm = 3;
-/// Smoothing scale in edge lengths of the skin: finer relief is treated as noise.
+/// Smoothing scale, as a multiple of the skin's edge length. Relief finer than this scale is
+/// treated as noise.
 constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
 constexpr double kMinNormalCosine = 0.7;  // least cosine between the normals of scan and skin
@@ -27,10 +28,11 @@ constexpr double kNoDataWeight = 1e-4;  ///< weight of a zero offset at vertices
 constexpr int kSteps = 30;
 constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
 constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
-/// Smallest allowed ratio of a triangle's area after the move, projected onto the plane of the
-/// triangle before the move, to its area before the move.
+/// Smallest allowed ratio of two areas of a triangle: the area after the move, projected onto the
+/// triangle's plane before the move, divided by the area before the move.
 constexpr double kMinAreaRatio = 0.05;
-/// Smallest cosine between the normals of a triangle on the skin and on the template.
+/// Smallest allowed cosine between a triangle's normal on the deformed skin and its normal on the
+/// template.
 constexpr double kMinFaceCosine = 0.05;
 
 constexpr std::ptrdiff_t kDetailBlock = 8192;
@@ -39,9 +41,9 @@ double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return parallel_dot(a.data(), b.data(), a.size(), kDetailBlock);
 }
 
-/// Solves (W + c Uᵀ U) x = W r, where U x is the difference between a value and the mean of its
-/// neighbours. Uses conjugate gradients with the diagonal as preconditioner; this is sufficient
-/// because the stiffness acts over only one or two edges.
+/// Solves (W + c Uᵀ U) x = W r, where U x is, for each vertex, the difference between the vertex's
+/// value and the mean of its neighbours' values. Uses conjugate gradients with the diagonal as
+/// preconditioner; this is sufficient because the stiffness acts over only one or two edges.
 class SmoothFit {
  public:
   SmoothFit(const Adjacency& adjacency, double stiffness)
@@ -168,8 +170,8 @@ void reduce_offsets(const Positions& rest, const Positions& before, const Positi
 }
 
 /// Removes folds that arise if the closest points of neighbouring vertices lie on different layers
-/// of the scan: replaces the offsets there by the mean of their neighbours, in a neighbourhood that
-/// grows as needed.
+/// of the scan. Replaces each offset near a fold by the mean of the neighbours' offsets, and
+/// enlarges the treated area until the fold is gone or a limit is reached.
 /// \param mender  repairs the skin; created on first use.
 void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
                     const Positions& normals, std::optional<PatchMender>& mender,

@@ -11,9 +11,9 @@ namespace crowdface {
 /// relief down to about twice the skin's edge length.
 /// \param rest  #skin by 3, of the template; no triangle becomes flipped relative to `rest`.
 /// \param positions  #skin by 3, in millimetres, in the scan's frame.
-/// \param smoothing_steps  If the bending step used a much coarser skin: number of smoothing steps
-///                    of normals and offsets in a preliminary round, which corrects coarse errors.
-///                    0: no such round.
+/// \param smoothing_steps  number of smoothing steps of normals and offsets in a preliminary round.
+///                    This round corrects coarse errors that remain if the bending step used a much
+///                    coarser skin. 0: no preliminary round.
 Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
                         const ScanSurface& scan, int smoothing_steps);
 

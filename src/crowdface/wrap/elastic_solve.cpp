@@ -31,8 +31,8 @@ SparseMatrix with_diagonal(SparseMatrix matrix, const Eigen::VectorXd& diagonal)
   return matrix;
 }
 
-/// L D Lᵀ factorisation of a symmetric matrix. Solves three columns at once, because reading L
-/// dominates the time.
+/// L D Lᵀ factorisation of a symmetric matrix. Solves for three right-hand sides at once, because
+/// most of the time is spent on reading L.
 class Factors {
  public:
   explicit Factors(const SparseMatrix& matrix) {

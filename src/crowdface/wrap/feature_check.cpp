@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// The landmarks of a feature, in order along the feature's outline, and the distance from the
-/// outline up to which vertices belong to the feature.
+/// The landmarks of a feature, in order along the feature's outline, and a distance: vertices that
+/// are at most this far from the outline belong to the feature.
 struct Outline {
   std::string_view name;
   std::vector<std::string> landmarks;

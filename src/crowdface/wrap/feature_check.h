@@ -17,16 +17,16 @@ struct FaceFeature {
   std::vector<std::uint32_t> skin;  ///< rows of the skin, ascending
 };
 
-/// Finds the features of a template's face around its landmarks. Omits features that lack a
-/// landmark.
+/// Finds the facial features of a template from its landmarks. Omits a feature if one of the
+/// feature's landmarks is missing.
 /// \param landmarks  landmarks of the template by name, as vertex numbers (see propose_landmarks)
 std::vector<FaceFeature> face_features(const WrapTemplate& shape,
                                        const std::map<std::string, std::uint32_t>& landmarks);
 
-/// Compares the relief of each feature before and after a wrap: the correlation of the skin's
-/// heights above a quadratic surface that is fitted to the feature. The correlation is above 0.75
-/// if the feature lies on the same feature of the scan (measured by scripts/measure_wrap.sh), and
-/// mostly below 0.5 if the feature lies elsewhere.
+/// Returns, for each feature, the correlation between its relief before and after a wrap. The
+/// relief is the height of the skin above a quadratic surface that is fitted to the feature. The
+/// correlation is above 0.75 if the template's feature lies on the same feature of the scan
+/// (measured by scripts/measure_wrap.sh), and mostly below 0.5 if it lies elsewhere.
 /// \param wrapped  positions of the whole template, #V by 3
 /// \return #features
 std::vector<double> relief_agreements(const WrapTemplate& shape,

@@ -20,8 +20,8 @@ class GrowingPatch {
   /// Adds the next ring of vertices.
   void grow();
   std::span<const std::uint32_t> vertices() const { return vertices_; }
-  /// Weight of vertex `i` of the patch: 1 at the triangle, falling to 0 beyond the last ring; with
-  /// a larger steepness, mainly near the border.
+  /// Weight of vertex `i` of the patch: 1 at the triangle, falling to 0 beyond the last ring. With
+  /// a larger steepness, the weight falls mainly near the border.
   double weight(std::size_t i) const {
     return std::min(1.0, steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
   }
@@ -44,8 +44,8 @@ struct PatchChange {
 /// Repairs triangles of a skin by operations on patches around them.
 class PatchMender {
  public:
-  /// \param rest  #skin by 3, in millimetres: patches grow to at most twelve rings or about 15 mm
-  /// in `rest`.
+  /// \param rest  #skin by 3, in millimetres: a patch grows to at most twelve rings of vertices or
+  /// to about 15 mm, measured in `rest`.
   PatchMender(const SkinMesh& skin, const Positions& rest);
 
   /// For each bad triangle, applies the operation to the smallest patch around it in which this

@@ -19,7 +19,7 @@ Eigen::Matrix3d frame_of(const Eigen::Vector3d& up, const Eigen::Vector3d& front
   return frame;
 }
 
-/// The bounding box in the axes of a frame.
+/// The bounding box of the used positions, along the axes of a frame.
 Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool>& used,
                               const Eigen::Matrix3d& frame) {
   Eigen::AlignedBox3d extent;

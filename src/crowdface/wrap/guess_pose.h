@@ -16,10 +16,11 @@ struct PoseHint {
   std::optional<ReliefMatch> face = {};  ///< face of the scan, if already known
 };
 
-/// Estimates the similarity from a template to a scan without landmarks. If both faces are found by
-/// their relief, the function aligns the faces and refines the pose with closest points. Otherwise
-/// it aligns the tops of the heads with several scales and offsets, refines each pose with closest
-/// points, and returns the pose with the smallest distances.
+/// Estimates the similarity from a template to a scan without landmarks. If the relief shows where
+/// the face is on the template and on the scan, the function aligns these two faces and refines the
+/// pose with closest points. Otherwise the function aligns the tops of the heads with several
+/// scales and offsets, refines each pose with closest points, and returns the pose with the
+/// smallest distances.
 /// \param rest  positions of the skin, in millimetres
 /// \param hint  may contain the face of the scan
 /// \param face  face of the template's skin, found by its relief

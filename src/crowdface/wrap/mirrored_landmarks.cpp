@@ -16,7 +16,8 @@ namespace {
 constexpr double kMinMm = 6;  ///< natural variation between people
 constexpr double kTimesWorse = 2.5;
 
-/// Median distance in mm between corresponding landmarks after the best similarity fit.
+/// Median distance in mm between corresponding landmarks of template and scan after the best
+/// similarity fit.
 double residual_of(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
   const Similarity pose = pose_of_landmarks(positions, landmarks);
   std::vector<double> off;

@@ -15,9 +15,10 @@ namespace crowdface {
 
 namespace {
 
-/// Finds the position of each vertex of the original skin on the reduced skin. Searches the
-/// triangles around the reduced vertex that is nearest along the surface, and around its
-/// neighbours. The nearest point in space may be wrong: lips touch, and nostrils have thin walls.
+/// Finds the position of each vertex of the original skin on the reduced skin. Searches only the
+/// triangles around the reduced skin's vertex that is nearest along the surface, and around the
+/// neighbours of that vertex. The point that is nearest in space may be wrong, because lips touch
+/// and nostrils have thin walls.
 std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
                                                        const Positions& positions,
                                                        const SkinMesh& small) {
@@ -84,7 +85,7 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::s
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
   reduced.vertex_positions = find_places(skin, positions, reduced.mesh);
   // Choose the number of smoothing steps: one step acts over half an edge of the original skin, and
-  // must smooth creases at the longer edges of the reduced skin.
+  // all steps together must smooth creases at the longer edges of the reduced skin.
   const auto ratio = static_cast<double>(skin.vertices.size()) /
                      static_cast<double>(std::max<std::size_t>(1, small.vertices.size()));
   reduced.smoothing_steps = static_cast<int>(std::clamp(ratio, 2.0, 120.0));

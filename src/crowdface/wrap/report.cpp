@@ -22,7 +22,8 @@
 namespace crowdface {
 namespace {
 
-// largest median distance between corresponding landmarks after the best similarity fit
+// largest accepted median distance between corresponding landmarks of template and scan after the
+// best similarity fit
 constexpr double kMaxMedianMm = 15;
 constexpr double kMaxDistanceMm = 3;  // 95th percentile over the visible skin
 constexpr double kMaxFarShare = 0.02, kMaxWithoutData = 0.15, kMinWithData = 0.02;
@@ -38,7 +39,8 @@ bool seen(const WrapTemplate& shape, Index v) {
   return shape.skin.openness[static_cast<std::size_t>(v)] > kVisibleOpenness;
 }
 
-/// Distances to the scan of the visible vertices that have scan data.
+/// Distances from the skin's visible vertices to the scan; only of the vertices that have scan
+/// data.
 /// \param regions, region  restrict the result to one region; null: the whole skin
 std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& result,
                                    const SkinRegions* regions = nullptr, std::size_t region = 0) {
@@ -90,7 +92,7 @@ constexpr int kSidePx = 320;
 constexpr double kScaleEndMm = 2;  // end of the heat map's scale
 constexpr std::array<View, 3> kViews = {View::kFront, View::kThreeQuarter, View::kProfile};
 
-/// Shows eyeballs in their own style; hides lashes and tear lines.
+/// Render settings for the surfaces: eyeballs are shown as eyes, lashes and tear lines are hidden.
 Surfaces surfaces_of(const WrapTemplate& shape) {
   std::vector<SurfaceKind> of_component(shape.parts.classes.size(), SurfaceKind::kSkin);
   for (const Part& part : shape.parts.parts) {

@@ -53,8 +53,8 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
                                const WrapResult& result, const SkinRegions& regions,
                                const std::vector<std::string>& warnings);
 
-/// A PNG file with three rows: the scan, the wrapped head, and its distance to the scan; each from
-/// three sides.
+/// The bytes of a PNG file with three rows: the scan, the wrapped head, and the wrapped head
+/// coloured by its distance to the scan. Each row shows three sides.
 std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const WrapResult& result,
                          const HeadFrame& frame, const std::string& title);
 

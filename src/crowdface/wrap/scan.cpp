@@ -35,7 +35,7 @@ bool degenerate(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/// For each triangle, twice the area of its connected component.
+/// For each triangle, twice the area of the connected component to which the triangle belongs.
 std::vector<double> areas_of_pieces(const Scan& scan) {
   DisjointSets groups(static_cast<std::size_t>(scan.positions.rows()));
   for (const Triangle& t : scan.triangles) {

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// A surface from a scanner or another program: any unit, any pose, any triangles.
+/// A surface from a scanner or another program, in any unit and pose, with any triangulation.
 struct Scan {
   Positions positions;                  ///< #V by 3
   std::vector<Triangle> triangles;      ///< oriented outwards

@@ -50,8 +50,8 @@ void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) 
              ": move the scan near the origin before exporting it, or export doubles (PLY, OBJ)"));
 }
 
-/// Rejects a large scan in which at least half of the triangles share one vertex, because the boxes
-/// of these triangles overlap there and make the spatial search slow.
+/// Rejects a large scan in which at least half of the triangles share one vertex, because the
+/// bounding boxes of these triangles overlap at the vertex and make the spatial search slow.
 void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
   constexpr std::uint32_t kManyTriangles = 4096;
   std::vector<std::uint32_t> triangles_at(static_cast<std::size_t>(scan.positions.rows()), 0);

@@ -52,8 +52,9 @@ class ScanSurface {
   SurfaceTree tree_;
 };
 
-/// Distances to the scan beyond the result count as outliers: three standard deviations of normal
-/// noise, estimated from the median, but at least half the reach.
+/// Returns the distance to the scan above which a point counts as an outlier: three standard
+/// deviations of normally distributed noise (estimated from the median), but at least half of
+/// `reach`.
 /// \param distances  not negative; may be empty
 double outlier_distance(std::vector<double> distances, double reach);
 

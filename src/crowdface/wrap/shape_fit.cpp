@@ -59,8 +59,8 @@ void leave_out_farthest(std::vector<Match>& matches) {
   std::erase_if(matches, [&](const Match& match) { return match.distance > most; });
 }
 
-/// The normal equations of one step: rotation, translation, scale, then coefficients. Rows are
-/// collected first, because one matrix product is faster than many updates.
+/// The normal equations of one step: rotation, translation, scale, then coefficients. The class
+/// first collects the rows of the Jacobian, because one matrix product is faster than many updates.
 class Equations {
  public:
   explicit Equations(Index modes)
@@ -175,8 +175,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   if (modes > 0) {  // the model, not the pose, explains differences in size
     equations.hold(6, 1 - fit.pose.scale / first_scale, 1 / (kGrowth * kGrowth));
   }
-  // A small weight keeps the pose unknowns at zero if the surface does not determine them, as the
-  // rotation of a sphere.
+  // A small weight keeps a pose unknown at zero if the surface does not determine this unknown.
+  // Example: the rotation of a sphere.
   for (Index k = 0; k < kPoseUnknowns; ++k) equations.hold(k, 0, 1e-9);
   apply(equations.solve(), middle, fit);
   return matches.size();

@@ -40,7 +40,8 @@ ShapeModel make_shape_model(const std::vector<Positions>& heads) {
     }
   }
   const SymmetricEigen eigen = symmetric_eigen(gram);
-  // smallest eigenvalue, relative to the largest, that yields a mode; identical heads yield none
+  // smallest eigenvalue, relative to the largest, that yields a mode; identical heads yield no
+  // modes
   constexpr double kMinEigenvalue = 1e-9;
   for (Index k = 0; k + 1 < count; ++k) {
     if (eigen.values(k) <= kMinEigenvalue * eigen.values(0)) break;

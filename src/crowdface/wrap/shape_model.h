@@ -11,7 +11,7 @@ namespace crowdface {
 /// A linear model of the heads of a topology: mean and principal components.
 struct ShapeModel {
   Positions mean;  ///< #V by 3
-  /// #V by 3 each, scaled to one standard deviation, largest first
+  /// #V by 3 each, scaled to one standard deviation; the mode with the largest deviation first
   std::vector<Positions> modes;
 
   /// mean + Σ c_k modes_k

@@ -11,7 +11,7 @@
 namespace crowdface {
 
 struct RegressionOptions {
-  /// Fraction of the variance between heads that is modelled as correlated only between nearby
+  /// Fraction of the heads' variance that the model treats as local: correlated only between nearby
   /// points.
   double local_share = 0.15;
   double reach_mm = 45;  ///< correlation length of the local variation
@@ -26,7 +26,7 @@ struct RegressionOptions {
 
 /// Returns the most likely head, given the model and the observation that points of the skin lie on
 /// the scan: Gaussian process regression (Lüthi et al. 2018). The scan constrains positions only
-/// along its normals; the model determines positions along the surface.
+/// along the scan's normals; the model determines positions along the surface.
 /// \param model  of the skin, in the scan's frame, in millimetres
 /// \param positions  #skin by 3: an initial fit close to the scan.
 Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Positions& positions,

@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Thresholds of openness (see vertex_visibility): skin counts as visible above kVisibleOpenness,
-/// and as outside folds above kUnfoldedOpenness.
+/// Thresholds of openness (see vertex_visibility): skin with a larger openness than
+/// kVisibleOpenness counts as visible; above kUnfoldedOpenness, it also counts as outside folds.
 inline constexpr double kVisibleOpenness = 0.12, kUnfoldedOpenness = 0.3;
 
 /// The skin of a template as a separate mesh with its own vertex indices.

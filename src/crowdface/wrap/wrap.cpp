@@ -201,7 +201,8 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   if (used != nullptr) {
     wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks);
     // After the model fit, differences are small and correspondences nearly correct. A tangential
-    // weight would pull vertices to closest points, which are slightly wrong correspondences.
+    // weight would pull vertices along the surface to their closest points, which are less exact
+    // correspondences than those of the model.
     bend = {.wavelengths_mm = {10, 5, 2.5},
             .first_tangential_weight = 0,
             .last_tangential_weight = 0.05,
@@ -271,8 +272,8 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   };
   WrapResult best = wrapped_with(all_landmarks);
   // All automatically found landmarks of a feature may be wrong in the same way, for example if the
-  // landmarks of the mouth lie in the crease above the chin. Only a fit without these landmarks
-  // shows the error.
+  // landmarks of the mouth lie in the crease above the chin. The error shows only in a fit that
+  // does not use these landmarks.
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = index_in_list(shape.skin.vertices, landmark.vertex);
     return std::ranges::any_of(doubts, [&](const FeatureAgreement& feature) {

@@ -14,7 +14,8 @@
 
 namespace crowdface {
 
-/// Distances between a landmark of the template and the same landmark of the scan.
+/// Distances between a landmark of the template and the same landmark of the scan, at different
+/// stages of the wrap.
 struct LandmarkResidual {
   std::string name;
   double pose_distance_mm = 0;     ///< distance after the similarity
@@ -43,12 +44,12 @@ struct WrapResult {
   Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
   std::vector<LandmarkResidual> landmarks;
   std::vector<FeatureAgreement> features;  ///< set by `wrap_checked` only
-  /// Names of the landmarks that `wrap_checked` found but did not use, because they made a feature
-  /// doubtful.
+  /// Names of automatically found landmarks that `wrap_checked` did not use, because a feature was
+  /// doubtful in the wrap that used them.
   std::vector<std::string> dropped_landmarks;
   double pose_residual_mm = 0;  ///< median distance after the similarity
   Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
-  /// #skin: whether the vertex has no scan data nearby, or only the scan's boundary
+  /// #skin: true if the scan has no data near the vertex, or if only the scan's boundary is near
   std::vector<bool> lacks_data;
   Index folded_triangle_count = 0;  ///< triangles of the skin that remain folded
   /// Distance in mm between two estimates of the point between the eyes: on the wrapped template,
@@ -57,8 +58,8 @@ struct WrapResult {
   std::optional<double> face_distance_mm;
 };
 
-/// Restricts a model of whole heads to the rows of the template's skin. If the template is nearly
-/// symmetric, adds the mirror images of the heads.
+/// Restricts a model of whole heads to the vertices of the template's skin. If the template is
+/// nearly symmetric, the function also adds the mirror images of the heads to the model.
 ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
 
 inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determine the pose
@@ -73,10 +74,10 @@ inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determ
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
-/// Wraps, and checks with `relief_agreements` whether each feature of the template ended on the
-/// same feature of the scan. If a feature is doubtful, repeats the wrap without the automatically
-/// found landmarks of this feature, and then without all automatically found landmarks. Returns the
-/// result whose worst feature agrees best.
+/// Wraps the template, and checks with `relief_agreements` whether each feature of the template
+/// ended on the same feature of the scan. If a feature is doubtful, repeats the wrap without the
+/// automatically found landmarks of this feature, and then without all automatically found
+/// landmarks. Returns the result whose worst feature agrees best.
 /// \param features  see `face_features`; may be empty
 /// \param shape, model, scan, landmarks, hint  as for `wrap`
 WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
@@ -85,10 +86,10 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
                         const std::optional<PoseHint>& hint);
 
 /// Leave-out validation: the distance in mm between each landmark's picked position and its
-/// position in a wrap that does not use this landmark. The distance estimates the error of
-/// correspondence between the landmarks, plus the picking error. Needs one more wrap per landmark
-/// for up to eleven landmarks, and four more wraps for twelve and more; empty if too few landmarks
-/// would remain.
+/// position in a wrap that does not use this landmark. The distance estimates the error of the wrap
+/// in places without landmarks, plus the picking error. The function runs one wrap per landmark if
+/// there are at most eleven landmarks, otherwise four wraps. The result is empty if too few
+/// landmarks would remain.
 /// \param shape, model, scan, landmarks, hint  as for `wrap`
 std::map<std::string, double> leave_out_distances(const WrapTemplate& shape,
                                                   const ShapeModel* model, const Scan& scan,

@@ -39,10 +39,11 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
                            const HeadAxes& axes, const TemplateOptions& options = {},
                            const std::optional<ReliefMatch>& face = {});
 
-/// The inputs of the search for the face on the template.
+/// The template's data that the search for its face needs.
 HeadShape head_shape(const WrapTemplate& shape);
 
-/// The triangles that occlude the skin: all but lashes and tear lines.
+/// The triangles that can hide the skin from view: all triangles except those of lashes and tear
+/// lines.
 std::vector<Triangle> occluding_triangles(const WrapTemplate& shape);
 
 }  // namespace crowdface

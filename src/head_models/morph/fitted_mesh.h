@@ -48,7 +48,8 @@ struct FittedMesh {
   /// offsets so that the mesh fitted to `base` stays the same.
   /// \param rows  base-mesh vertices, at least three.
   void anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base);
-  /// Keeps the marked faces; removes all other faces, and vertices that no kept face uses.
+  /// Keeps the marked polygons. Removes all other polygons, and the vertices that no kept polygon
+  /// uses.
   /// \param faces  #F, true to keep.
   void keep_faces(const std::vector<bool>& faces);
 };

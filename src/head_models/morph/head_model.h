@@ -39,7 +39,7 @@ struct FaceHeights {
   double eyes = 0, mouth = 0;
 };
 
-/// Returns the vertices of all faces whose material's name contains one of the words, ascending.
+/// Returns the vertices of all polygons whose material's name contains one of the words, ascending.
 std::vector<std::uint32_t> vertices_of_material(const Topology& topology,
                                                 const std::vector<MaterialRange>& materials,
                                                 const std::vector<std::string>& words);

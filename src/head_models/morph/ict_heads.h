@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Heads of the ICT face model (light): the neutral mesh plus its identity modes. The weight of
-/// each mode is normally distributed and clamped to two standard deviations. Heads contain all
-/// parts of the model: face, head, mouth, gums, teeth, eyes, lashes.
+/// Heads of the light version of the ICT face model: the neutral mesh plus its identity modes. The
+/// weight of each mode is normally distributed and clamped to two standard deviations. Heads
+/// contain all parts of the model: face, head, mouth, gums, teeth, eyes, lashes.
 class IctHeads : public HeadModel {
  public:
   /// \param checkout  folder of ICT-FaceKit with FaceXModel/generic_neutral_mesh.obj and any number

@@ -121,8 +121,9 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
               kCentimetresPerUnit * (mesh_.heights.mouth - origin)};
 }
 
-/// Converts to centimetres and moves the mean of the eyeballs to the origin, because bodies differ
-/// in height. \param base  all vertices of the same body.
+/// Converts positions to centimetres and moves the mean of the eyeballs to the origin. Without the
+/// move, heads would lie at different heights, because bodies differ in height. \param base  all
+/// vertices of the same body.
 Positions MakeHumanHeads::to_head_frame(const Positions& decimetres, const Positions& base) const {
   const Eigen::RowVector3d origin = mean_of(base, eyes_);
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);

@@ -32,8 +32,7 @@ std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t se
                                  std::uint64_t index);
 
 /// Returns the random hair colour of a person's youth, before greying: a name of
-/// named_hair_colours. Light and red hair have a probability above zero for Caucasian ancestry
-/// only.
+/// named_hair_colours. Only people with Caucasian ancestry can get light or red hair.
 std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                   std::uint64_t index);
 

@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-// Type bits of a face: quad, material, texture coordinates per corner. The package contains no
-// other faces.
+// Type bits of a polygon: quad, material, texture coordinates per corner. The package contains no
+// other types of polygons.
 constexpr int kQuadMaterialUvs = 1 | 2 | 8;
 constexpr std::size_t kFaceNumbers = 1 + 4 + 1 + 4;
 
