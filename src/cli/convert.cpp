@@ -8,7 +8,6 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
-#include "crowdface/core/units.h"
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/mesh_format.h"
@@ -19,6 +18,7 @@
 #include "crowdface/io/ply_template.h"
 #include "crowdface/io/usda_template.h"
 #include "crowdface/mesh/normals.h"
+#include "crowdface/run/wrap_inputs.h"
 
 #include "cli/commands.h"
 #include "cli/common_options.h"
@@ -35,12 +35,7 @@ struct ConvertOptions : CommonOptions {
 
 GlbOptions materials_of(const FileMesh& mesh, const ConvertOptions& options) {
   GlbOptions written;
-  const auto unit = parse_length_unit(options.units);
-  if (!unit) {
-    throw UsageError(
-        concat("--units: expected mm, cm, m, in, or a length, found ", quoted(options.units)));
-  }
-  written.unit = *unit;
+  written.unit = parse_unit("--units", options.units);
   written.colours = mesh.colours.rows() > 0;
   if (mesh.materials.empty()) return written;
   FaceMaterials materials = face_materials(mesh.materials, mesh.topology.face_count());

@@ -172,13 +172,13 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
 }
 
 /// Guesses the length unit of the meshes: the named unit in which the face (or, if no face was
-/// found, the head) has the size of a human's. Tries inches last. If no named unit fits, computes
-/// the length of a unit that gives the face human size.
+/// found, the head) has the size of a human's. Tries inches and feet last. If no named unit fits,
+/// computes the length of a unit that gives the face human size.
 void guess_units(const ShapeAnalysis& analysis, StarterFacts& facts) {
   constexpr double kTypicalHeightMm = 280;  // heads with and without neck and shoulders
   constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;
   constexpr double kMaxTimes = 3;  // largest plausible ratio to kTypicalHeightMm
-  facts.units = nearest_unit(facts.head_height, kTypicalHeightMm);
+  facts.units = nearest_unit(facts.head_height, kTypicalHeightMm, kMetricUnits);
   const std::string height =
       concat("the first head is ", format_number_of(facts.head_height), " units tall");
   facts.units_reason = height;
@@ -186,8 +186,9 @@ void guess_units(const ShapeAnalysis& analysis, StarterFacts& facts) {
   const double times = facts.head_height * mm_per(facts.units) / kTypicalHeightMm;
   const auto is_human = [&](double mm) { return mm >= kMinFaceMm && mm <= kMaxFaceMm; };
   if (analysis.face > 0 && !is_human(face_mm)) {
-    facts.units = is_human(analysis.face * mm_per(LengthUnit::kInch))
-                      ? LengthUnit::kInch
+    const LengthUnit named = nearest_unit(analysis.face, kTypicalFaceMm, kLengthUnits);
+    facts.units = is_human(analysis.face * mm_per(named))
+                      ? named
                       : fitting_unit(analysis.face, kTypicalFaceMm);
     facts.units_reason = concat(height, " and ", format_number_of(analysis.face),
                                 " from the eyes to the mouth (about ", kTypicalFaceMm,

@@ -77,8 +77,8 @@ Mesh average_skin(const SyntheticHeads& heads) {
 }  // namespace
 
 bool SynthHair::is_used(const synth::HairCut& cut) const {
-  return std::ranges::any_of(used_hair_styles_, [&](const HairStyle& wish) {
-    return is_for(cut, wish.female, wish.curly, wish.bald);
+  return std::ranges::any_of(used_hair_styles_, [&](const HairStyle& style) {
+    return is_for(cut, style.female, style.curly, style.bald);
   });
 }
 
@@ -86,11 +86,11 @@ std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
   const synth::Complexion look = synth::random_complexion(seed, index);
   const std::string skin = skin_tag(look.tone);
   const bool bald = look.receding > kBald;
-  const HairStyle wish{synth::random_person(seed, index).male < 0,
-                       !bald && synth::has_curls(seed, index), bald};
-  used_hair_styles_.insert(wish);
+  const HairStyle style{synth::random_person(seed, index).male < 0,
+                        !bald && synth::has_curls(seed, index), bald};
+  used_hair_styles_.insert(style);
   return concat(skin, ", ", synth::nearest_hair_colour(look.young_hair).name, "_hair, ",
-                form_tag(wish.curly, wish.bald));
+                form_tag(style.curly, style.bald));
 }
 
 void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads,
@@ -144,7 +144,7 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
   const Mesh skin = average_skin(heads);
   bool any_beard = false;
   for (const synth::FacialHair& style : synth::facial_hairs()) {
-    const auto is_of_sex = [&](const HairStyle& wish) { return wish.female == style.female; };
+    const auto is_of_sex = [&](const HairStyle& used) { return used.female == style.female; };
     if (std::ranges::none_of(used_hair_styles_, is_of_sex)) continue;
     any_beard = any_beard || style.is_beard;
     const auto layer =

@@ -145,7 +145,7 @@ TEST_F(Wrap, RefusalsSayWhatToDo) {
   crowdface(64, {"wrap", "--batch", scans_.string(), "-o", out.string()}, {"--template"});
   auto units = single(landmarks_, out);
   units.insert(units.end(), {"--scan-units", "furlong"});
-  crowdface(64, units, {"furlong", "mm, cm, m, in, or a length"});
+  crowdface(64, units, {"furlong", "mm, cm, m, in, ft, or a length"});
   units.back() = "m";
   crowdface(64, units, {"times as large as the template; expected cm, or none"});
   EXPECT_FALSE(fs::exists(out));

@@ -195,7 +195,7 @@ TEST_F(ReadConfig, EveryProblemOfAFileIsToldInItsOrder) {
       "not starting with '.', found \"../x\"\n"
       "c.yaml:2:28: crowd.count: expected a whole number from 0 to 1000000, found \"-1\"\n"
       "c.yaml:2:32: unknown key \"sede\" in crowd; did you mean \"seed\"?\n"
-      "c.yaml:3:8: faces.units: missing; write the unit of the files: mm, cm, m, in, or a "
+      "c.yaml:3:8: faces.units: missing; write the unit of the files: mm, cm, m, in, ft, or a "
       "length\n"
       "c.yaml:3:27: unknown key \"unit\" in faces; did you mean \"units\"?\n"
       "c.yaml:4:23: smoothing.operator: expected umbrella or lazy, found \"lasy\"; did you mean "

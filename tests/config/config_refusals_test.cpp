@@ -341,7 +341,7 @@ TEST_F(WrongHead, SectionsAreCheckedToo) {
   EXPECT_THAT(with_faces("{units: cm, files: [heads/ann.obj]}"), HasSubstr("found 1 files"));
   EXPECT_THAT(with_faces("{units: cm, files: [a.max, b.obj]}"), HasSubstr("ends in .obj"));
   EXPECT_THAT(with_faces("{units: yards, directory: heads}"),
-              HasSubstr("3:16: faces.units: expected mm or cm or m or in"));
+              HasSubstr("3:16: faces.units: expected mm, cm, m, in, ft, or a length"));
   EXPECT_THAT(with_faces("{units: cm, directory: heads, up: W}"),
               HasSubstr("3:42: faces.up: expected an axis"));
   EXPECT_THAT(with_faces("{units: cm, directory: heads, up: +Z}"), HasSubstr("two different axes"));

@@ -33,7 +33,10 @@ TEST(LengthUnit, MayBeAnyLength) {
     EXPECT_EQ(parse_length_unit(name_of(unit)), unit) << text;
   }
   EXPECT_EQ(fitting_unit(0.0267, 65), LengthUnit{2400});
-  EXPECT_EQ(nearest_unit(27, 280), LengthUnit::kCentimetre);
+  EXPECT_EQ(nearest_unit(27, 280, kMetricUnits), LengthUnit::kCentimetre);
+  EXPECT_EQ(nearest_unit(0.9, 280, kLengthUnits), LengthUnit::kFoot);
+  EXPECT_EQ(nearest_unit(11, 280, kLengthUnits), LengthUnit::kInch);
+  EXPECT_EQ(nearest_unit(4.5, 65, kLengthUnits), LengthUnit::kCentimetre) << "a child's face";
 }
 
 TEST(Axis, NamesReadBack) {

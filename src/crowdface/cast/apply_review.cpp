@@ -94,7 +94,9 @@ class Redrawing {
         return family_draws->rejection_reason(*family, point, own, family_separation);
       };
     } else {
-      generate = [&](std::uint32_t attempt) { return drawn_face(old, attempt); };
+      generate = [&](std::uint32_t attempt) {
+        return random_face(casting_, *old.index, attempt, kind_of(*old.index));
+      };
       rejection_reason = [&](const FaceSpace::Point& point) {
         return family_separation.rejection_reason(point);
       };
@@ -172,14 +174,6 @@ class Redrawing {
 
   const FaceKind& kind_of(std::uint64_t index) const {
     return kinds_[static_cast<std::size_t>(cast_.kinds[index - 1] + 1)];
-  }
-
-  FacePlan drawn_face(const FacePlan& old, std::uint32_t attempt) const {
-    if (!old.index) {  // a hand-written face: redraw the values that its recipe does not specify
-      const auto hand = std::ranges::find(casting_.recipes, old.id, &ManualRecipe::id);
-      return completed_face_plan(casting_, *hand, attempt);
-    }
-    return random_face(casting_, *old.index, attempt, kind_of(*old.index));
   }
 
   /// Copies the locked parts of the old face. Also copies the old face's target, mirroring and

@@ -39,8 +39,8 @@ struct DiversityOptions {
   /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;
 
-  /// Number of acceptable candidates that kFirstFit generates for one face; it keeps the candidate
-  /// that is farthest from the crowd. Must not depend on the size of the crowd.
+  /// Number of acceptable candidates that kFirstFit generates for one face. kFirstFit keeps the
+  /// candidate that is farthest from the crowd. Must not depend on the size of the crowd.
   ///
   /// \param index  Index of the face, from 1.
   static int candidate_count(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
@@ -65,8 +65,8 @@ struct DiversityOptions {
 /// figures.
 struct BelievabilityOptions {
   /// Whether whole meshes are checked in addition to the coarse samples. With kJudge, casting
-  /// itself does this check. With the other values, the check takes place later, when the meshes
-  /// are built, and only adds to the report.
+  /// itself checks. With the other values, whole meshes are checked later, when they are built, and
+  /// the results only appear in the report.
   enum class Meshes {
     kAuto,  ///< check whole meshes if they have at most 200,000 polygons
     kAll,

@@ -168,7 +168,7 @@ Codec<LengthUnit> length_unit() {
       [](const YamlNode& node, Complaints& out) -> std::optional<LengthUnit> {
         const bool is_scalar = node.kind == YamlNode::Kind::kScalar;
         const auto unit = is_scalar ? parse_length_unit(node.text) : std::nullopt;
-        if (!unit) out.expected(node, "mm or cm or m or in, or a length such as \"243.84 cm\"");
+        if (!unit) out.expected(node, std::string(kUnitChoices));
         return unit;
       },
       [](LengthUnit unit) { return name_of(unit); }, "`mm`, `cm`, `m`, `in`, `ft`, or a length");

@@ -45,7 +45,7 @@ std::string remove_article(std::string_view expected);
 Codec<double> number(double low, double high);
 /// Codec for a whole number in [low, high].
 Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high);
-/// Codec for the length of one mesh unit: mm, cm, m, in, or a length such as "243.84 cm".
+/// Codec for the length of one mesh unit: see kUnitChoices.
 Codec<LengthUnit> length_unit();
 /// Codec for a length with a unit. The value is converted to millimetres, and must be in [0,
 /// high_mm].

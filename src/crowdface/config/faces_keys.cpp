@@ -11,6 +11,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
 #include "crowdface/io/mesh_as_obj.h"
 
 namespace crowdface {
@@ -172,11 +173,10 @@ std::string name_some(std::vector<std::string> names) {
 
 StarterLines starter_units(const StarterFacts& facts) {
   const double height_cm = facts.head_height * mm_per(facts.units) / 10;
-  return {
-      name_of(facts.units), "",
-      concat("The unit of the files: mm, cm, m, in, or a length (243.84 cm). Guessed, because ",
-             facts.units_reason, ".\nWith this unit the first mesh is ", format_fixed(height_cm, 1),
-             " cm high. PLEASE CHECK: all sizes below depend on it.")};
+  return {name_of(facts.units), "",
+          concat("The unit of the files: ", kUnitChoices, ". Guessed, because ", facts.units_reason,
+                 ".\nWith this unit the first mesh is ", format_fixed(height_cm, 1),
+                 " cm high. PLEASE CHECK: all sizes below depend on it.")};
 }
 
 StarterLines starter_tags(const StarterFacts& facts) {
@@ -198,7 +198,7 @@ const Keys<Faces>& faces_keys() {
       Key<Faces>{"also", read_more_files, [](const auto&...) { return ""; }}.with_accepted_values(
           "list of meshes"),
       key("units", &Faces::units, length_unit(),
-          "write the unit of the files: mm, cm, m, in, or a length")
+          "write the unit of the files: mm, cm, m, in, ft, or a length")
           .with_starter(starter_units),
       key("up", &Faces::up, axis()).with_starter([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.up), "the axis that points to the top of the head"};

@@ -15,15 +15,14 @@ struct NamedUnit {
   std::string_view name;
   LengthUnit unit;
 };
-constexpr LengthUnit kFoot{304.8};
 /// A unit may have several names in this list; `name_of` returns the first.
 constexpr std::array<NamedUnit, 7> kNamedUnits = {{{"mm", LengthUnit::kMillimetre},
                                                    {"cm", LengthUnit::kCentimetre},
                                                    {"m", LengthUnit::kMetre},
                                                    {"in", LengthUnit::kInch},
-                                                   {"ft", kFoot},
-                                                   {"foot", kFoot},
-                                                   {"feet", kFoot}}};
+                                                   {"ft", LengthUnit::kFoot},
+                                                   {"foot", LengthUnit::kFoot},
+                                                   {"feet", LengthUnit::kFoot}}};
 
 std::optional<LengthUnit> unit_called(std::string_view name) {
   for (const NamedUnit& known : kNamedUnits) {
@@ -49,13 +48,12 @@ std::optional<LengthUnit> parse_length_unit(std::string_view text) {
   return LengthUnit{*mm};
 }
 
-LengthUnit nearest_unit(double length, double typical_mm) {
+LengthUnit nearest_unit(double length, double typical_mm, std::span<const LengthUnit> units) {
   const auto distance = [&](LengthUnit unit) {
     const double ratio = std::max(length * mm_per(unit), 1e-9) / typical_mm;
     return std::max(ratio, 1 / ratio);
   };
-  return std::min({LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre},
-                  [&](LengthUnit a, LengthUnit b) { return distance(a) < distance(b); });
+  return *std::ranges::min_element(units, {}, distance);
 }
 
 LengthUnit fitting_unit(double length, double typical_mm) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,28 +13,34 @@ namespace crowdface {
 struct LengthUnit {
   double mm = 10;
   bool operator==(const LengthUnit&) const = default;
-  static const LengthUnit kMillimetre, kCentimetre, kMetre, kInch;
+  static const LengthUnit kMillimetre, kCentimetre, kMetre, kInch, kFoot;
 };
 inline constexpr LengthUnit LengthUnit::kMillimetre{1};
 inline constexpr LengthUnit LengthUnit::kCentimetre{10};
 inline constexpr LengthUnit LengthUnit::kMetre{1000};
 inline constexpr LengthUnit LengthUnit::kInch{25.4};
+inline constexpr LengthUnit LengthUnit::kFoot{304.8};
 
 /// The units that have a name.
 inline constexpr std::array kLengthUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
-                                            LengthUnit::kMetre, LengthUnit::kInch};
+                                            LengthUnit::kMetre, LengthUnit::kInch,
+                                            LengthUnit::kFoot};
+/// The units that a program is likely to export.
+inline constexpr std::span kMetricUnits(kLengthUnits.data(), 3);
+/// What a user may write for a unit, for messages.
+inline constexpr std::string_view kUnitChoices = "mm, cm, m, in, ft, or a length such as 243.84 cm";
 
 /// Millimetres in one unit.
 inline double mm_per(LengthUnit unit) {
   return unit.mm;
 }
-/// "mm", "cm", "m" or "in". For a unit without a name, its length, such as "2438.4 mm".
+/// "mm", "cm", "m", "in" or "ft". For a unit without a name, its length, such as "2438.4 mm".
 std::string name_of(LengthUnit unit);
 /// Parses the name of a unit or a length with a unit, such as "243.84 cm"; nothing if the text is
 /// neither of these, or if the length is outside 1e-6 mm … 1e9 mm.
 std::optional<LengthUnit> parse_length_unit(std::string_view text);
-/// The unit (mm, cm or m) in which `length` comes closest to `typical_mm` (ratio closest to 1).
-LengthUnit nearest_unit(double length, double typical_mm);
+/// The unit among `units` in which `length` comes closest to `typical_mm` (ratio closest to 1).
+LengthUnit nearest_unit(double length, double typical_mm, std::span<const LengthUnit> units);
 /// The unit in which `length` equals `typical_mm`. The unit's length is rounded to two significant
 /// digits.
 LengthUnit fitting_unit(double length, double typical_mm);

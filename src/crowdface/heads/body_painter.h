@@ -11,9 +11,9 @@
 namespace crowdface {
 
 /// Paints a texture of the body for each face, so that body and face have the same colours at the
-/// ring of the neck. At each vertex of the ring, the body's optical densities change by the
-/// difference between face and body. With growing distance from the ring, the change approaches the
-/// mean difference over the ring; at the distance `falloff_mm` it equals this mean.
+/// ring of the neck. At each vertex of the ring, the body's optical densities become those of the
+/// face. With growing distance from the ring, this change of the densities approaches its mean over
+/// the ring, and at the distance `falloff_mm` it equals this mean.
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.

@@ -171,11 +171,9 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
   const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
   const double units = up.maxCoeff() - up.minCoeff();
   constexpr double kTypicalMm = 65;
-  LengthUnit fitting = fitting_unit(marks->eye_to_mouth(), kTypicalMm);
-  for (const LengthUnit unit : kLengthUnits) {
-    const double other = marks->eye_to_mouth() * mm_per(unit);
-    if (other >= kMinMm && other <= kMaxMm) fitting = unit;
-  }
+  LengthUnit fitting = nearest_unit(marks->eye_to_mouth(), kTypicalMm, kLengthUnits);
+  const double other = marks->eye_to_mouth() * mm_per(fitting);
+  if (other < kMinMm || other > kMaxMm) fitting = fitting_unit(marks->eye_to_mouth(), kTypicalMm);
   throw InvalidInput(
       concat("the first head is ", format_fixed(units, 2), " units high; with faces.units ",
              name_of(config.faces.units), " it is ",

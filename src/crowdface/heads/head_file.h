@@ -17,7 +17,6 @@ struct HeadFile {
   Digest mesh_digest;
   std::shared_ptr<HeadMesh> mesh;    ///< shared by all heads with the same mesh
   bool is_cached = false;            ///< whether the cache has the head
-  bool has_reversed_faces = false;   ///< whether reading flipped its faces, which pointed inward
   bool has_joined_vertices = false;  ///< whether reading joined vertices at the same position
 };
 

@@ -108,21 +108,22 @@ bool is_worth_keeping(const ObjFile& file) {
 /// another head's polygons before.
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
-    if (!head || !head->mesh || !head->has_reversed_faces) continue;
+    if (!head || !head->mesh || !head->file.has_reversed_faces) continue;
     Topology as_read = head->mesh->topology;
     reverse_faces(as_read);
     const auto other = std::ranges::find_if(files, [&](const auto& file) {
       return file && file->mesh && first_difference(file->mesh->topology, as_read).empty();
     });
     if (other == files.end()) continue;
-    head->has_reversed_faces = false;
+    head->file.has_reversed_faces = false;
     give_mesh(*head, **other, obj_colours(head->file.file.bytes(), head->file.positions.rows()));
   }
 }
 
+/// Adds a note to each head whose polygons stay reversed.
 void note_reversed_faces(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
-    if (head && head->has_reversed_faces) head->file.notes.emplace_back(kReversedFacesNote);
+    if (head && head->file.has_reversed_faces) head->file.notes.emplace_back(kReversedFacesNote);
   }
 }
 
@@ -166,15 +167,8 @@ struct HeadReading {
 /// Moves the data that was read to the head and to the head's mesh.
 void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   ObjFile& file = reading.head.file;
-  reading.head.has_reversed_faces =
-      shelf.winding() == Winding::kOutward && is_inside_out(read.topology, read.positions);
-  if (reading.head.has_reversed_faces) {
-    // Whether the head was inside out or is mirrored is known only after all heads are read.
-    std::vector<std::string> notes = std::move(read.notes);
-    read = with_outward_faces(std::move(read));
-    read.notes = std::move(notes);
-  }
-  file = std::move(read);
+  file =
+      shelf.winding() == Winding::kOutward ? with_outward_faces(std::move(read)) : std::move(read);
   HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
                 std::exchange(file.corner_normals, {})};
   file.uvs.resize(0, 2);

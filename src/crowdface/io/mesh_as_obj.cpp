@@ -54,8 +54,10 @@ FileMesh read_joined_mesh(const std::filesystem::path& path) {
 }
 
 ObjFile read_mesh_as_obj(const std::filesystem::path& path) {
-  return with_outward_faces(is_obj(path) ? read_obj(path)
-                                         : convert_to_obj(read_joined_mesh(path), path));
+  ObjFile file = with_outward_faces(is_obj(path) ? read_obj(path)
+                                                 : convert_to_obj(read_joined_mesh(path), path));
+  if (file.has_reversed_faces) file.notes.emplace_back(kReversedFacesNote);
+  return file;
 }
 
 }  // namespace crowdface

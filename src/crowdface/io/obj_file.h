@@ -26,8 +26,9 @@ struct ObjFile {
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;
-  std::vector<std::string> notes;  ///< repairs and ignored statements, one sentence each
-  bool is_mended = false;          ///< whether repairs changed the text
+  std::vector<std::string> notes;   ///< repairs and ignored statements, one sentence each
+  bool is_mended = false;           ///< whether repairs changed the text
+  bool has_reversed_faces = false;  ///< see with_outward_faces
   /// Path of some file in the folder that holds the material files. Empty if the material files are
   /// in the folder of `path`.
   std::filesystem::path textures_at;

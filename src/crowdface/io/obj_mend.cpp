@@ -167,7 +167,7 @@ class Mender {
     out += line;
   }
 
-  /// Appends the statement with at most `most` of the words to `out`. If the line has no further
+  /// Appends the statement and its first words, at most `most`, to `out`. If the line has no further
   /// words and no comment, appends the line unchanged.
   static void add_words(std::string_view statement, const std::vector<std::string_view>& words,
                         std::size_t most, std::string_view line, std::string& out) {

@@ -55,8 +55,7 @@ ObjFile with_outward_faces(ObjFile file) {
   const ObjOutline outline = outline_obj(text.bytes());
   ObjFile turned = read_obj(file.path, std::move(text), outline);
   turned.notes = std::move(file.notes);
-  turned.notes.emplace_back(kReversedFacesNote);
-  turned.is_mended = true;
+  turned.is_mended = turned.has_reversed_faces = true;
   turned.textures_at = std::move(file.textures_at);
   return turned;
 }

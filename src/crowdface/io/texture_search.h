@@ -6,7 +6,7 @@
 
 namespace crowdface {
 
-/// Searches a texture whose path comes from another machine. First tries suffixes of the path
+/// Searches for a texture whose path comes from another machine. First tries suffixes of the path
 /// relative to `folder`, longest first; then looks in the subfolder `STEM.fbm`; then takes the file
 /// of this name in any subfolder, if only one subfolder has such a file. Ignores the case of names,
 /// as Windows does.

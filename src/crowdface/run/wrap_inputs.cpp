@@ -41,7 +41,7 @@ Axis axis_of(const std::string& option, const std::string& text) {
 LengthUnit guess_unit(const Positions& positions) {
   constexpr double kTypicalDiagonalMm = 430;
   return nearest_unit((positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm(),
-                      kTypicalDiagonalMm);
+                      kTypicalDiagonalMm, kMetricUnits);
 }
 
 /// Reads the heads of `--model`, computes the shape model, and sets `positions` to its mean, in mm.
@@ -116,8 +116,7 @@ std::optional<PoseHint> pose_hint(const WrapOptions& options) {
 LengthUnit parse_unit(const std::string& option, const std::string& text) {
   const auto unit = parse_length_unit(text);
   if (!unit)
-    throw UsageError(concat(
-        option, ": expected mm, cm, m, in, or a length such as 243.84 cm, found ", quoted(text)));
+    throw UsageError(concat(option, ": expected ", kUnitChoices, ", found ", quoted(text)));
   return *unit;
 }
 

@@ -15,6 +15,7 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/text.h"
+#include "crowdface/core/units.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/io/read_mesh.h"
 #include "crowdface/paint/face_marks.h"
@@ -174,18 +175,15 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
 /// UsageError if the factor is implausible.
 double output_scale(const WrapOptions& options, const Similarity& pose) {
   if (options.scan_units.empty()) return 1;
-  const auto scale_in = [&](const std::string& unit) {
-    return pose.scale * mm_per(parse_unit("--scan-units", unit));
-  };
   const auto fits = [](double scale) {
     constexpr double kMax = 1.5;
     return scale <= kMax && scale >= 1 / kMax;
   };
-  const double scale = scale_in(options.scan_units);
+  const double scale = pose.scale * mm_per(parse_unit("--scan-units", options.scan_units));
   if (fits(scale)) return scale;
   std::string expected = "another unit";
-  for (const char* unit : {"mm", "cm", "m", "in"}) {
-    if (fits(scale_in(unit))) expected = unit;
+  for (const LengthUnit unit : kLengthUnits) {
+    if (fits(pose.scale * mm_per(unit))) expected = name_of(unit);
   }
   throw UsageError(concat("--scan-units ", options.scan_units, ": the head would be ",
                           format_fixed(scale, 3), " times as large as the template; expected ",

@@ -26,7 +26,7 @@ struct Person {
 Person random_person(std::uint64_t seed, std::uint64_t index);
 
 /// The identity of a head: the attributes of the person, and the values of the person's measures.
-/// These values vary randomly around the averages for these attributes.
+/// The values vary randomly around the averages of people with these attributes.
 class Identity {
  public:
   Identity(std::uint64_t seed, std::uint64_t index);
