@@ -16,13 +16,14 @@
 namespace crowdface {
 namespace {
 
-/// Triangles at most kSheetRings edges apart count as one sheet. A sheet counts as folded if the
-/// cosine between any two of its normals is below kAlike.
+/// Triangles that are at most kSheetRings edges apart belong to the same sheet of surface. A sheet
+/// counts as folded if the cosine between any two of its normals is below kAlike.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.998F;
 
-/// Upper limit of both search distances, in mean diagonals of the leaves' boxes. On a dense mesh,
-/// leaves are small; larger distances would give too many pairs of leaves.
+/// Upper limit of `max_distance` and `max_facing_distance`, in units of the mean diagonal of the
+/// leaves' bounding boxes. On a dense mesh, leaves are small; larger distances would give too many
+/// pairs of leaves.
 constexpr double kMaxLeaves = 3;
 
 /// Bit mask (see LeafPair) with one bit for each pair of two different triangles of the same leaf.
@@ -36,7 +37,7 @@ constexpr std::uint64_t kEachPairOnce = [] {
   return bits;
 }();
 
-/// Finds the triangles a few edges away from a triangle.
+/// Finds the triangles that are a few edges away from a given triangle.
 class Rings {
  public:
   Rings(const std::vector<Triangle>& triangles, Index vertex_count)
@@ -72,7 +73,7 @@ class Rings {
   std::vector<std::uint32_t> reached_;
 };
 
-/// Returns the mean diagonal of the leaves' boxes.
+/// Returns the mean diagonal of the leaves' bounding boxes.
 double mean_leaf_size(const TriangleTree& tree, const SingleRows& points) {
   double sum = 0;
   for (const LeafCorners& corners : tree.corners) {
@@ -122,14 +123,15 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
   std::vector<std::uint32_t> place(numbered.size(), kNoIndex);
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(numbered, points.rows());
-  // #leaves: two bit masks of pairs of a triangle of leaf `one` and a triangle of this leaf: pairs
-  // few edges apart, and pairs with a common vertex
+  // #leaves: two bit masks for leaf `one` and each leaf of the tree. A bit stands for one triangle
+  // of each leaf. The first mask marks triangles that are a few edges apart; the second mask marks
+  // triangles with a common vertex.
   std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());
   for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
     const std::vector<std::uint32_t> others = scene.leaves_near(one);
     for (const std::uint32_t other : others) of_sheet[other] = {0, 0};
     const auto ones = tree_.leaf(one);
-    // Mark the triangles on the same sheet: few edges apart, and joined at a vertex.
+    // Set the bits of both masks for triangles on the same sheet.
     for (std::size_t k = 0; k < ones.size(); ++k) {
       for (const std::uint32_t other : rings.triangles_near(ones[k])) {
         if (place[other] == kNoIndex) continue;

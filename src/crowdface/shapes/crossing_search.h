@@ -11,9 +11,9 @@
 namespace crowdface {
 
 /// Finds intersecting triangles in many meshes of one topology. A tree over the triangles has
-/// leaves of eight neighbouring triangles. From one mesh, the constructor determines the
-/// candidates: the pairs of triangles that can intersect at all. Each search compares the bounding
-/// boxes of the candidates before the exact test.
+/// leaves of eight neighbouring triangles. The constructor takes one of the meshes and finds the
+/// candidates: the pairs of triangles so close that they may intersect on another mesh. Each search
+/// compares the bounding boxes of two candidates before the exact test.
 class CrossingSearch {
  public:
   using Pair = std::array<std::uint32_t, 2>;  ///< indices of two triangles, ascending
@@ -21,12 +21,12 @@ class CrossingSearch {
   CrossingSearch() = default;
   /// \param triangles  The triangles to search.
   /// \param mesh       #V by 3: the mesh on which the constructor finds candidate pairs.
-  /// \param max_distance  Largest distance of two candidates on `mesh`.
-  /// \param max_facing_distance  The same for candidates that face each other; at least
-  ///                   `max_distance`.
+  /// \param max_distance  Largest distance on `mesh` between the two triangles of a candidate pair.
+  /// \param max_facing_distance  The largest distance if the two triangles face each other; at
+  ///                   least `max_distance`.
   ///
-  /// Two triangles that are connected by a few edges are tested only if their normals differ, that
-  /// is, if the surface between them is folded.
+  /// Two triangles that are connected by a few edges are tested only if their normals differ,
+  /// because only folded surface intersects itself there.
   CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double max_distance,
                  double max_facing_distance);
 
@@ -44,7 +44,7 @@ class CrossingSearch {
   Boxes make_boxes(const Positions& mesh) const;
   /// Updates the boxes after vertices moved.
   ///
-  /// \param changed  #V: whether a vertex moved since the last update.
+  /// \param changed  #V: whether each vertex moved since the last update.
   void update(const Positions& mesh, const std::vector<bool>& changed, Boxes& boxes) const;
 
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
@@ -59,7 +59,7 @@ class CrossingSearch {
   struct LeafPair {
     std::uint32_t first, second;
     std::uint64_t always_tested;
-    /// pairs of triangles on one sheet, few edges apart: tested only if their normals differ
+    /// pairs of triangles that are a few edges apart, tested only if their normals differ
     std::uint64_t tested_if_folded;
   };
   void find_leaf_pairs(const std::vector<Triangle>& triangles, const Positions& points,

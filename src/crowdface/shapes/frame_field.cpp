@@ -18,11 +18,11 @@ namespace {
 constexpr double kSpacing = 0.06;   // spacing of the nodes
 constexpr double kInfluence = 0.1;  // radius of a node's influence
 constexpr double kPatch = 0.1;      // radius of the patch that determines a node's map
-/// Weight of the whole skin's similarity transform in the fit of a node's map, as a fraction of the
-/// sum of squares of the patch's positions.
+/// Weight of the whole skin's similarity transform in the fit of a node's linear map, as a fraction
+/// of the scatter (sum of squared deviations) of the patch around the node.
 constexpr double kRegularisation = 0.02;
-/// Largest numbers of vertices: kMaxSkin for the whole skin, kMaxCandidates for candidates of
-/// nodes, kMaxPatch for a patch.
+/// Largest numbers of vertices in use: kMaxSkin in the fit of the whole skin, kMaxCandidates as
+/// possible nodes, kMaxPatch in the patch around a node.
 constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
 
 /// Farthest-point sampling. Repeatedly adds the vertex that is farthest from the chosen vertices,
@@ -132,7 +132,8 @@ FrameField::Frames FrameField::frames(const Positions& face) const {
     Eigen::Matrix3d& map = frames.node_maps[p];
     for (Index c = 0; c < 3; ++c)
       map.col(c) = frames.face_motion.apply_to_direction(node.motion_factor.col(c));
-    // Positions relative to one vertex, so that rounding does not depend on where the face is.
+    // Use positions relative to the node's vertex, so that rounding does not depend on where the
+    // face lies in space.
     const Eigen::Vector3d origin = row3(face, node.vertex);
     for (const Sample& sample : node.samples) {
       const Eigen::Vector3d from = row3(face, sample.vertex) - origin;

@@ -11,9 +11,9 @@
 
 namespace crowdface {
 
-/// The local rotation and stretch of a face's skin relative to the template's, as a smooth field of
+/// The local rotation and stretch from the template's skin to a face's skin, as a smooth field of
 /// linear maps. The maps are fitted at nodes a few centimetres apart: each map is the least-squares
-/// fit from the template's skin around the node to the same skin of the face. The maps are
+/// fit from the template's vertices around the node to the same vertices of the face. The maps are
 /// interpolated between the nodes. A flat patch of skin does not determine a map, so each fit also
 /// includes, with a small weight, the similarity transform of the whole skin. The constructor
 /// computes everything that depends on the template only.
@@ -65,7 +65,7 @@ class FrameField {
   CompressedRows<NodeWeight> node_weights_;
 };
 
-/// Inverts a regular 3 by 3 matrix by cofactors.
+/// Returns the inverse of an invertible 3 by 3 matrix, computed from cofactors.
 Eigen::Matrix3d inverse3(const Eigen::Matrix3d& m);
 
 }  // namespace crowdface

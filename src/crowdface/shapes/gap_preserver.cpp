@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// Largest change of a gap that counts as nearly the same, as a fraction of the skin's extent: 0.4
-/// mm on a head.
+/// A shape leaves a gap nearly the same if it changes the gap by at most this length, as a fraction
+/// of the skin's extent: 0.4 mm on a head.
 constexpr double kMaxChange = 1e-3;
 
 }  // namespace

@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// Preserves the gap between the lips in shapes that keep the lips closed or equally far apart. The
-/// linear maps of FrameField alone would change the gap, because they differ between the lips,
-/// which are far from each other along the skin.
+/// linear maps of FrameField alone would change the gap, because the two lips get different maps:
+/// the lips are far from each other along the skin.
 class GapPreserver {
  public:
   /// \param skin  Vertices of the skin, ascending.
@@ -21,17 +21,18 @@ class GapPreserver {
   /// Returns whether a shape that moves these vertices (ascending) moves skin that nearly touches
   /// other skin.
   bool is_affected_by(std::span<const std::uint32_t> vertices) const;
-  /// Returns a vertex for each gap that is measured.
+  /// Returns one vertex beside each gap, in the order of the gaps.
   std::vector<std::uint32_t> contact_vertices() const;
 
   /// Returns the vertices that `adjust` may move.
   std::vector<std::uint32_t> movable_vertices() const { return contacts_.movable_vertices(); }
 
-  /// Returns all gaps, in the unit of the positions. \param positions  #V by 3.
+  /// Returns the width of each gap, in the unit of the positions; negative if the skin overlaps.
+  /// \param positions #V by 3.
   std::vector<double> measure_gaps(const Positions& positions) const {
     return contacts_.gaps(positions);
   }
-  /// Returns the largest depth of overlap (the largest negative gap); 0 if no skin overlaps.
+  /// Returns the largest depth to which skin overlaps other skin at a gap; 0 if no skin overlaps.
   double max_overlap(const Positions& positions) const;
 
   /// Which gaps to adjust: only the gaps that the shape hardly changes, or all gaps.

@@ -28,13 +28,14 @@ constexpr double kBlur = .12;          // width of the kernel that blends sectio
 constexpr double kMinClosed = 0.05;
 /// A shape closes the lids only if at most this fraction of the template's gap at rest remains.
 constexpr double kMaxRemaining = 0.4;
-// Clearance between lid and eyeball that is kept if both the template and the face at rest have it.
+// Smallest allowed distance between lid and eyeball, if the distance is at least this large both in
+// the template's shape and on the face at rest.
 constexpr double kMargin = 0.004;
 /// Largest allowed depth of skin in the eyeball. Skin that is deeper at rest may stay that deep.
 constexpr double kDeepest = 0.0125;
 constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
-/// Corrected lids close farther than on the template by at most this length, so that the skin
-/// between two sections closes too.
+/// Corrected lids may close farther than the template's lids, by at most this length, so that the
+/// skin between two sections closes too.
 constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
@@ -302,7 +303,7 @@ bool LidClosure::move_out_of_eyeball(const Positions& face, const FaceEye& eye,
         min_ball_distance(i, eye.rest_gaps[lid.skin_index], face_motion.scale, goals);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    // Weight the missing distance like the correction.
+    // Compare the weighted distance with the tolerance, because the correction has the same weight.
     is_out = is_out && lid.eyeball_weight * (least - now.gap) < tolerance;
     moves.row(lid.row) += (lid.eyeball_weight * (least - now.gap) * now.normal).transpose();
   }
@@ -352,8 +353,8 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
   const Positions carried = moves;
   std::vector<double> gains(sections_.size(), 0.0);
   double sure = 0;
-  // Chord method (Newton with a fixed slope) for the gains. A gain of one narrows the gap at a
-  // section by as much as the shape does on the template.
+  // Chord method (Newton with a fixed slope) for the gains. A gain of one is assumed to narrow the
+  // gap at a section as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) move_lids(profile_vertex_count_, axes.up, carried, gains, moves);
     keep_off_ball(profile_vertex_count_, face, eye, face_motion.scale, goals, moves);

@@ -36,60 +36,60 @@ struct FaceEye {
 FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
                  const Positions& mesh);
 
-/// Marks the skin around an eye by the lid with the nearest rim vertex: 1 for the upper lid, −1 for
-/// the lower lid. Does not change the entries of other vertices.
+/// Assigns each skin vertex around an eye to the lid with the nearest rim vertex: writes 1 for the
+/// upper lid and −1 for the lower lid. Leaves the entries of all other vertices unchanged.
 ///
 /// \param lid_sides  #V; modified.
 void mark_lid_sides(const TemplateEye& eye, const Positions& neutral,
                     std::vector<signed char>& lid_sides);
 
 /// Adjusts how a shape moves the lids of one eye, so that a blink closes eyes of any size. With the
-/// local linear maps alone, lids would stay open or overlap by millimetres: the opening is not part
-/// of the skin, so no map measures its height. Where the shape closes the lids on the template,
-/// this class scales the lids' vertical movement until the gap on the face equals the gap on the
-/// template. The class also keeps the lids outside the eyeball, as on the template.
+/// local linear maps alone, lids would stay open or overlap by millimetres: the opening between the
+/// lids has no skin, so no map follows the opening's height. Where the shape closes the lids on the
+/// template, this class scales the lids' vertical movement until the gap on the face equals the gap
+/// on the template. The class also keeps the lids outside the eyeball, as on the template.
 class LidClosure {
  public:
-  /// \param shape  A shape of the template; its vertices may include skin around the eye.
+  /// \param shape  A shape of the template, which may or may not move skin around the eye.
   LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
              const Displacements& shape, const HeadAxes& axes);
 
   /// Returns whether the shape leaves this eye's lids unmoved.
   bool empty() const { return lid_vertices_.empty(); }
 
-  /// Gap between the rims of both lids at one section; negative if the upper lid is below the lower
-  /// lid.
+  /// Gap between the rims of both lids at one section across the opening; negative if the upper lid
+  /// is below the lower lid.
   struct Gap {
     double paired_gap;    ///< gap between points that lie above each other on the template
     double vertical_gap;  ///< vertical distance from the point of the upper rim to the lower rim
   };
-  /// The gaps and distances that a face's lids should have: measured on a mesh with a known shape,
-  /// and divided by the mesh's scale relative to the template.
+  /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
+  /// are known, and divided by the mesh's scale relative to the template.
   struct Goals {
     std::vector<Gap> gaps;  ///< #sections
-    /// #lids: each lid vertex's distance from the eyeball in the shape, and the difference between
-    /// this distance and the distance at rest
+    /// #lids (lid vertices): distance from the eyeball in the shape, and this distance minus the
+    /// distance at rest
     std::vector<double> ball_distances, distance_changes;
   };
-  /// Measures the goals on a mesh.
+  /// Measures the goals on a mesh with known displacements.
   ///
   /// \param mesh   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the mesh.
-  /// \param moves  The mesh's displacements, with the rows of the shape.
+  /// \param moves  The mesh's displacements in the shape, one row for each vertex of the shape.
   Goals measure_goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& face_motion,
                       const Positions& moves) const;
   /// Returns the weighted mean of the goals of several sets of shapes.
   static Goals mean_goals(std::span<const Goals> goals, std::span<const SetShare> shares);
   /// Returns whether the shape closes the lids.
   bool closes_lids() const { return !sections_.empty(); }
-  /// Returns the rows of the shape's displacements that `fit_lids` may change.
+  /// Returns the indices of the rows in the shape's displacements that `fit_lids` may change.
   std::vector<std::uint32_t> adjustable_rows() const;
 
-  /// Returns the largest gap between lids that the shape should close, in radii of the eyeball; 0
-  /// if all gaps are small enough to count as closed.
+  /// For a shape that closes the lids, returns the largest amount by which a gap exceeds both its
+  /// goal and the gap that counts as closed, in radii of the eyeball; 0 if no gap exceeds both.
   double largest_open_gap(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
                           const Positions& moves) const;
-  /// Closes lids that other corrections have opened again, by scaling the vertical movement.
+  /// Closes lids that other corrections have opened again. Scales the lids' vertical movement.
   void close_again(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
                    Positions& moves) const;
 
@@ -97,19 +97,19 @@ class LidClosure {
   ///
   /// \param face   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the face.
-  /// \param moves  Displacements of the face, with the rows of the shape; adjusted.
+  /// \param moves  Displacements of the face, one row for each vertex of the shape; adjusted.
   void fit_lids(const Positions& face, const FaceEye& eye, const RigidMotion& face_motion,
                 const Goals& goals, Positions& moves) const;
-  /// Moves lid vertices out of the eyeball.
+  /// Moves lid vertices that are too deep in the eyeball outwards.
   ///
-  /// \return  false if any vertex was noticeably too deep before.
+  /// \return  false if any vertex was noticeably too deep before this call.
   bool move_out_of_eyeball(const Positions& face, const FaceEye& eye,
                            const RigidMotion& face_motion, const Goals& goals,
                            Positions& moves) const;
 
  private:
-  /// A point of a lid's profile, on an edge of the mesh. Each row is the row of an end of the edge
-  /// in the shape, or kNoIndex if this end does not move.
+  /// A point of a lid's profile, on an edge of the mesh. `row_a` and `row_b` are the rows of the
+  /// edge's ends in the shape; kNoIndex for an end that the shape does not move.
   struct ProfilePoint {
     EdgePoint edge;
     std::uint32_t row_a, row_b;
@@ -119,7 +119,7 @@ class LidClosure {
     double along;             ///< position along the lid opening
     double template_closing;  ///< length by which the shape narrows the gap on the template
   };
-  /// Unit vectors of a face's eye: along the opening, and from the lower lid to the upper lid.
+  /// Unit vectors on a face: `along` the lid opening, and `up` from the lower lid to the upper lid.
   struct EyeAxes {
     Eigen::Vector3d along, up;
   };
@@ -141,7 +141,8 @@ class LidClosure {
   std::span<const double> gain_effects(std::size_t lid) const {
     return {gain_effects_.data() + lid * sections_.size(), sections_.size()};
   }
-  /// Applies gains to the vertical movement of the first `count` lid vertices.
+  /// Scales the vertical movement of each of the first `count` lid vertices by 1 + the weighted sum
+  /// of the sections' gains.
   void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the
@@ -164,7 +165,7 @@ class LidClosure {
   std::vector<LidSection> sections_;
   std::vector<LidVertex> lid_vertices_;
   std::size_t profile_vertex_count_ = 0;  ///< number of lid vertices in profiles; they come first
-  /// #lids by #sections: weight with which each section's gain moves each lid vertex
+  /// #lids by #sections: weight of each section's gain in the movement of each lid vertex
   std::vector<double> gain_effects_;
 };
 

@@ -19,7 +19,7 @@ double nearest(const Eigen::Vector3d& point, const Positions& mesh,
   return least;
 }
 
-/// Returns whether a point is nearer to an eyeball's centre than every vertex of the eyeball is.
+/// Returns whether a point is nearer to an eyeball's centre than all vertices of the eyeball.
 bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Part& eyeball) {
   const Eigen::Vector3d middle = centre_of(mesh, eyeball.surface);
   return (point - middle).norm() < nearest(middle, mesh, eyeball.surface);
@@ -42,8 +42,8 @@ PointCarrier::PointCarrier(const PointSet& points, const PartList& parts,
 
 std::optional<PointCarrier::TrianglePoint> PointCarrier::point_on_surface(
     const Eigen::Vector3d& point, const Positions& mesh, std::span<const Triangle> triangles) {
-  // Largest distance of a point that counts as on the surface, as a fraction of the mesh's size:
-  // files contain rounded numbers.
+  // Largest distance of a point that counts as on the surface, as a fraction of the mesh's size.
+  // The distance may exceed zero because files contain rounded coordinates.
   constexpr double kNearAsShareOfSize = 1e-5;
   double least =
       kNearAsShareOfSize * (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).maxCoeff();

@@ -26,11 +26,11 @@ struct PointSet {
   bool empty() const { return names.empty(); }
 };
 
-/// Transfers named points to faces. A point on a vertex or a triangle of its mesh stays exactly
-/// there. A point inside an eyeball, or nearer to another rigid part than to the skin, moves with
-/// this part. Any other point moves with the similarity transform that best fits the motion of the
-/// skin near it. If the face is the points' own mesh, rotated, translated and scaled, the points
-/// undergo the same motion up to rounding.
+/// Transfers named points to faces. A point on a vertex or a triangle of the mesh keeps its
+/// barycentric coordinates there. A point inside an eyeball, or nearer to another rigid part than
+/// to the skin, moves with this part. Any other point moves with the similarity transform that best
+/// fits the motion of the skin near it. If the face is the points' own mesh, rotated, translated
+/// and scaled, the points undergo the same motion up to rounding.
 class PointCarrier {
  public:
   /// \param points     Must outlive this object.
@@ -40,8 +40,8 @@ class PointCarrier {
                std::span<const Triangle> triangles);
 
   /// Returns the positions of all points on a face.
-  /// \param target  The head that the face is built on. Its own points are used if each head has
-  ///                points.
+  /// \param target  The head that the face is built on. If each head has its own points, this
+  ///                head's points are used.
   /// \param face    #V by 3.
   /// \return        #names by 3.
   Positions carry(Index target, const Positions& face) const;
@@ -51,7 +51,7 @@ class PointCarrier {
     Triangle corners;
     std::array<double, 3> shares;  ///< barycentric coordinates
   };
-  /// How a point moves: with a position on a triangle, or with the motion of some vertices.
+  /// What a point follows: a fixed position on a triangle, or the joint motion of several vertices.
   using Anchor = std::variant<TrianglePoint, Socket>;
 
   static std::optional<TrianglePoint> point_on_surface(const Eigen::Vector3d& point,

@@ -17,12 +17,12 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of vertices of an eyeball or jaw that determine its motion.
+/// The motion of an eyeball or jaw is fitted to at most this number of its vertices.
 constexpr std::size_t kMaxFitted = 500;
 /// Skin belongs to an eye if its distance from the eyeball's centre is at most this many radii.
 constexpr double kEyeSkin = 3;
-/// Smallest overlap of the lips in a corrective shape (see companions_of), as a fraction of the
-/// skin's extent; about 5 mm.
+/// A shape is corrective (see companions_of) if its lips overlap by more than this length, as a
+/// fraction of the skin's extent; about 5 mm.
 constexpr double kFarThrough = 0.012;
 
 std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& shape_set) {
@@ -36,8 +36,8 @@ std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& shape_set) {
   return used;
 }
 
-/// Returns a head's displacements in the rows of the mean shape; zero for vertices that do not move
-/// on this head.
+/// Returns a head's displacements, one row for each vertex of the mean shape; zero for vertices
+/// that do not move on this head.
 Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& shape) {
   Positions rows = Positions::Zero(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
@@ -278,8 +278,8 @@ Eigen::Matrix3d PreparedShapes::mean_map(const PartMove& part, const PreparedSha
   return map / static_cast<double>(part.rows.size());
 }
 
-/// Measures each set's movement of parts and lids, and normalises the heads' own shapes by removing
-/// the local rotation and stretch of each head.
+/// Measures how each set of shapes moves parts and lids, and normalises the heads' own shapes by
+/// removing the local rotation and stretch of each head.
 void PreparedShapes::add_sets() {
   const std::size_t heads = shape_set.head_shapes.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {

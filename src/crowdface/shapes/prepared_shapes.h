@@ -29,35 +29,38 @@ struct ActingEye {
   std::vector<BallMap> balls;  ///< #heads
 };
 
-/// The movement of a rigid part in a shape.
+/// How a shape moves one rigid part.
 struct PartMove {
   std::size_t part;
   std::vector<std::uint32_t> rows, vertices;
   std::vector<RigidTurn> turns;  ///< #sets: the part's motion in each set of shapes
 };
 
-/// The movement of an eye's lids in a shape.
+/// How a shape moves the lids of one eye.
 struct LidMove {
   LidClosure lids;
   std::vector<LidClosure::Goals> goals;  ///< #sets
 };
 
-/// A vertex of a bound part, such as a lash, that follows the correction of a lid.
+/// A vertex of a part that is bound to the skin, such as a lash. The vertex follows the corrections
+/// of a lid.
 struct LidFollower {
   std::uint32_t row;
-  /// rows, in the shape, of the corners of the skin triangle to which the vertex is bound; kNoIndex
-  /// for a corner that is not corrected
+  /// The vertex is bound to a skin triangle. These are the rows of the triangle's corners in the
+  /// shape; kNoIndex for a corner that is not corrected.
   std::array<std::uint32_t, 3> rows;
   std::array<double, 3> shares;  ///< barycentric coordinates in this triangle
 };
 
 /// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's
 /// `mouthClose` closes the lips while `jawOpen` opens the jaw. A shape is corrective if, applied
-/// alone, it moves the lips far through each other. The companion of a corrective shape is the
-/// other shape with which the lips overlap least; it must at least halve the overlap.
+/// alone, it makes the lips overlap by several millimetres. The companion of a corrective shape is
+/// the other shape with which the lips overlap least; this shape must reduce the overlap to less
+/// than half.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
-/// \return        #shapes: the companion of each corrective shape, if one is found.
+/// \return        #shapes: the index of each corrective shape's companion; nothing for other
+///                shapes, or if no companion is found.
 std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
                                                       const GapPreserver& contacts, double extent);
 
@@ -81,10 +84,10 @@ struct PreparedShape {
   std::vector<std::vector<double>> gap_changes;
 };
 
-/// Everything that ShapeTransfer computes once: how the shapes of a template, or of each head, move
-/// skin, parts, lids and lips.
+/// The data that ShapeTransfer computes once for all faces: how the shapes of a template, or of
+/// each head, move skin, parts, lids and lips.
 struct PreparedShapes {
-  /// Parameters as for ShapeTransfer.
+  /// For the parameters see ShapeTransfer.
   PreparedShapes(const HeadSet& all_faces, const Adjacency& adjacency, const PartList& parts,
                  const HeadAxes& head_axes, const ShapeSet& shape_set,
                  const RegionWeights& regions);
@@ -118,11 +121,12 @@ struct PreparedShapes {
     FrameField::Frames frames;
     std::vector<Eigen::Matrix3d> maps;  ///< #moved_vertices: linear map at each vertex
     std::vector<double> gaps;           ///< #contacts
-    /// #V: whether the vertex is at a self-intersection of the face at rest
+    /// #V: whether each vertex belongs to a triangle that intersects another triangle on the face
+    /// at rest
     std::vector<bool> crosses_at_rest;
   };
   FaceFrames make_face_frames(const Positions& face) const;
-  /// Returns the mean of the linear maps at those vertices of a part that the shape moves.
+  /// Returns the mean linear map over the vertices of a part that the shape moves.
   Eigen::Matrix3d mean_map(const PartMove& part, const PreparedShape& state,
                            std::span<const Eigen::Matrix3d> maps) const;
 
@@ -138,7 +142,8 @@ struct PreparedShapes {
   SkinCrossings::Watched watch(const Displacements& moves, const PreparedShape& state) const;
   void add_sets();
   Displacements shape_of_set(std::size_t number, std::size_t shape) const;
-  /// Adds one set's data of a shape to `state`.
+  /// Adds to `state` the data of one set's shape: motions of parts, lids and lips, and
+  /// intersections to ignore.
   /// \param rest  The mesh to which the shape is added.
   void add_set(const FaceFrames& face_frames, const Positions& rest, const Displacements& shape,
                std::span<const FaceEye> at_eyes, PreparedShape& state) const;

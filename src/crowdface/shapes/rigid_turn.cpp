@@ -37,7 +37,8 @@ Vector3d turned(const std::array<double, 4>& q, const Vector3d& v) {
   return v + q[0] * once + axis.cross(once);
 }
 
-/// Transforms a direction on the face to the template, by the inverse rotation and scale.
+/// Transforms a direction from the face to the template, by the inverse of the face's rotation and
+/// scale.
 Vector3d to_template(const RigidMotion& face_motion, const Vector3d& direction) {
   return face_motion.apply_inverse(face_motion.moved_pivot + direction) - face_motion.pivot;
 }

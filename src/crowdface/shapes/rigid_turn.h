@@ -28,7 +28,7 @@ struct RigidTurn {
   /// unit quaternion (w, x, y, z) of the rotation about the centre
   std::array<double, 4> quaternion = {1, 0, 0, 0};
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< translation of the centre
-  /// #rows: the part of each vertex's displacement that rotation and translation do not explain
+  /// #rows: each vertex's displacement minus its displacement by rotation and translation
   std::vector<Eigen::Vector3d> residuals;
 };
 
@@ -43,7 +43,7 @@ struct PlacedPart {
   const Eigen::Matrix3d& map;      ///< mean linear map of the part's moved vertices
 };
 
-/// Measures the motion of a rigid part in a shape of a mesh, and expresses it on the template.
+/// Measures how a shape moves a rigid part of a mesh, and transforms this motion to the template.
 ///
 /// \param vertices  #rows: vertices of the part that the shape moves.
 /// \param rows      #rows: row of each of these vertices in `moves`.
@@ -55,7 +55,8 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
 /// Returns the weighted mean of the part's motions in several sets of shapes.
 RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares);
 
-/// Transfers a motion to a part of a face: writes the part's displacements to `rows` of `moves`.
+/// Transfers the motion of a rigid part to a face: writes the part's displacements to `rows` of
+/// `moves`.
 void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
                 std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
                 Positions& moves);

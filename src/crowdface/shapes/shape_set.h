@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// An expression (shape): the displacements that it adds to a mesh at rest.
+/// A facial expression (blend shape): a name, and the displacements to add to a mesh at rest.
 struct Shape {
   std::string name;
   Displacements moves;
@@ -39,8 +39,8 @@ std::size_t displacement_bytes(const ShapeSet& shapes);
 /// Returns the memory, in bytes, of the shapes of all heads.
 std::size_t own_shape_bytes(const ShapeSet& shapes);
 
-/// Computes a shape from its mesh. Vertices that move by at most 10⁻⁵ · `extent` (0.004 mm on a
-/// head) do not belong to the shape.
+/// Computes a blend shape from a mesh with this expression and the mesh at rest. Vertices that move
+/// by at most 10⁻⁵ · `extent` (0.004 mm on a head) do not belong to the shape.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
 Shape make_shape(std::string name, const Positions& neutral, const Positions& mesh, double extent);
@@ -48,20 +48,20 @@ Shape make_shape(std::string name, const Positions& neutral, const Positions& me
 OwnShape make_own_shape(const Displacements& moves);
 Displacements displacements_of(const OwnShape& shape);
 
-/// Returns the mean of all heads' displacements in one shape, at all vertices that move on any
-/// head.
+/// Returns the mean, over all heads, of one shape's displacements. The result contains every vertex
+/// that the shape moves on at least one head.
 Displacements mean_displacements(const std::vector<std::vector<OwnShape>>& head_shapes,
                                  std::size_t shape);
 
-/// The weight of a set of shapes, where the shapes of several sets are blended.
+/// The weight of one set of shapes in a blend of several sets.
 struct SetShare {
   std::uint32_t set;
   double share;
 };
 using SetShares = std::vector<SetShare>;
 
-/// #regions: the weights of the sets of shapes that are blended in each region; the weights of a
-/// region sum to one.
+/// #regions: for each region, the weights of the sets of shapes that are blended there. The weights
+/// of a region sum to one.
 using RegionShares = std::vector<SetShares>;
 
 /// Returns the weights of the sets at a position that belongs to several regions.

@@ -16,8 +16,9 @@ namespace {
 /// Largest number of repair rounds. Another round follows only if a round moved lids into an
 /// eyeball or opened lids.
 constexpr int kMaxRepairs = 3;
-/// Cost of a gap between lids that should be closed, per eyeball radius, in units of one
-/// intersecting triangle. The cost is high because intersections between closed lids are invisible.
+/// Cost of a gap of one eyeball radius between lids that should be closed. A cost of 1 equals one
+/// intersecting triangle. The cost of a gap is high because intersections between closed lids are
+/// invisible.
 constexpr double kOpenIsAsBad = 1000;
 
 using FaceFrames = PreparedShapes::FaceFrames;
@@ -34,7 +35,7 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
   return there;
 }
 
-/// One shape of a face.
+/// Computes one shape of a face.
 class CarriedShape {
  public:
   /// \param rest  The mesh to which the shape is added: the face at rest, or the face in the
@@ -68,7 +69,7 @@ class CarriedShape {
   }
 
   Displacements moves() && { return std::move(result_); }
-  /// Returns the number of triangles that still intersect others.
+  /// Returns the number of triangles that still intersect other triangles.
   Index crossing() const { return crossing_; }
 
  private:
@@ -102,7 +103,8 @@ class CarriedShape {
   Index crossing_ = 0;
 };
 
-/// Returns the mean of the heads' own displacements, weighted by the region weights of each vertex.
+/// Returns the weighted mean of the heads' own displacements. The heads' weights at a vertex depend
+/// on the region weights of this vertex.
 Positions CarriedShape::mixed_moves() const {
   Positions moves = Positions::Zero(result_.moves.rows(), 3);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
@@ -138,8 +140,8 @@ void CarriedShape::move_parts() {
   }
 }
 
-/// Returns the current displacements of the skin that lashes follow: a row for each corner of each
-/// triangle, 3 · #lid_followers rows.
+/// Returns the current displacements of the skin that lashes follow. The result has 3 ·
+/// #lid_followers rows, one for each corner of each follower's skin triangle.
 Positions CarriedShape::skin_of_followers() const {
   Positions rows(static_cast<Index>(3 * shape_.lid_followers.size()), 3);
   Index next = 0;
@@ -196,8 +198,8 @@ void CarriedShape::keep_contacts() {
   for (const std::uint32_t v : prepared_.contacts.movable_vertices()) mesh_.row(v) = rest_.row(v);
 }
 
-/// Alternates between repairing intersections and closing lids, because each may undo the other.
-/// Keeps the best round.
+/// Alternates between repairing intersections and closing lids, because each step may undo the
+/// other step. Keeps the result of the best round.
 void CarriedShape::remove_crossings() {
   SkinCrossings::ExtraCost extra_cost;
   if (closes_lids())

@@ -21,11 +21,11 @@ struct PreparedShapes;
 /// mean head.
 ///
 /// - Skin, and everything bound to the skin: displacements are multiplied by the local rotation and
-/// stretch of the face's skin relative to the template's (FrameField).
+/// stretch from the template's skin to the face's skin (FrameField).
 /// - Lids close as on the template and stay outside the eyeballs (LidClosure). Lashes follow the
 /// lids.
-/// - Rigid parts (teeth, eyeballs) rotate as in the shape, about their own centre. Their
-/// translation is transferred like a displacement of the skin.
+/// - Each rigid part (teeth or eyeball) rotates as in the shape, about the part's own centre. The
+/// part's translation is transferred like a displacement of the skin.
 ///
 /// The constructor computes everything that depends on the shapes only. If the face is the
 /// template, or a head with its own shapes, the results equal these shapes up to rounding. A result
@@ -48,7 +48,7 @@ class ShapeTransfer {
   /// \param crossing_counts  Optional output, #shapes: number of skin triangles that intersect
   ///                  other skin in this face's shape, but neither in the template's shape nor in
   ///                  the face at rest.
-  /// \return          #shapes: displacements, with the vertices of the set's shape.
+  /// \return          #shapes: displacements, for the same vertices as the shape in the ShapeSet.
   std::vector<Displacements> carry(Index target, const Positions& face,
                                    std::span<const RegionShares> shares = {},
                                    std::vector<Index>* crossing_counts = nullptr) const;

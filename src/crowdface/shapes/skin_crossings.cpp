@@ -15,8 +15,8 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. Two triangles may intersect on a face
-// if their distance on the template is at most kMaxTemplateGap, or kMaxFacingTemplateGap if they
-// face each other.
+// if their distance in the template's shape is at most kMaxTemplateGap, or kMaxFacingTemplateGap if
+// they face each other.
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
@@ -26,10 +26,10 @@ constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
-// factor on these lengths where skin gets the template's front-to-back order
+// factor on kEvened, kNotEvened and kCell where skin gets the template's front-to-back order
 constexpr double kSameLayoutFactor = 0.7;
-/// Averaging changes the vertical displacements of lids by only this fraction, so that the eye
-/// stays closed.
+/// Averaging applies only this fraction of its vertical change to the lids, so that the eye stays
+/// closed.
 constexpr double kClosing = 0.3;
 // kPush: length of the push in each round. kPushed: skin is pushed up to this distance from
 // intersections, measured at rest.
@@ -124,7 +124,8 @@ class SkinCrossings::Repair {
     }
   }
 
-  /// Returns whether the current displacements are the best so far. If so, stores them.
+  /// Returns whether the current displacements cost less than in all earlier rounds. If so, stores
+  /// the displacements as the best.
   bool is_best(const ExtraCost& extra_cost) {
     const double bad =
         static_cast<double>(crossing()) + (extra_cost ? extra_cost(shape_.moves) : 0);
@@ -146,8 +147,8 @@ class SkinCrossings::Repair {
   }
   /// Searches for intersections again after vertices have moved.
   ///
-  /// \param before  Pairs that intersected before the move. Of these, pairs without a moved vertex
-  ///                still intersect.
+  /// \param before  Pairs that intersected before the move. A pair still intersects if none of its
+  ///                vertices moved.
   void look_again(const std::vector<Pair>& before) {
     for (const ShapeRow& row : watched_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
@@ -182,8 +183,8 @@ class SkinCrossings::Repair {
     changed_[row.vertex] = true;
   }
 
-  /// Averages displacements around intersections, so that skin that is close at rest moves
-  /// together.
+  /// Averages displacements around intersections, so that skin that is close together at rest also
+  /// moves together.
   void even_out(double grown) {
     const double unit = grown * skin_.extent_;
     std::vector<Eigen::Vector3d> around;
@@ -206,7 +207,7 @@ class SkinCrossings::Repair {
   }
 
   /// Gives skin the relative positions that it has in the template's shape: averages the difference
-  /// between face and template over skin that is close in this shape.
+  /// between face and template over skin that is close together in the template's shape.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kSameLayoutFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, watched_.search);
@@ -228,8 +229,8 @@ class SkinCrossings::Repair {
     for (const auto& [number, by] : field.changes(samples)) move(watched_.rows[number], by);
   }
 
-  /// Pushes the upper lid forward over the lower lid. Pushing it up would open the eye, and pushing
-  /// the lower lid back would move it into the eyeball.
+  /// Pushes the upper lid forward over the lower lid. Pushing the upper lid up would open the eye,
+  /// and pushing the lower lid back would move it into the eyeball.
   void push_lids(const std::vector<Pair>& lids, double grown) {
     const Eigen::Vector3d &up = axes_.up, &front = axes_.front;
     std::map<std::uint32_t, Eigen::Vector3d> wanted;
@@ -327,13 +328,13 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   watched.is_excused.assign(triangles.size(), false);
   watched.search = CrossingSearch(std::move(triangles), shaped, kMaxTemplateGap * extent_,
                                   kMaxFacingTemplateGap * extent_);
-  // Ignore the intersections of the template in the shape.
+  // Ignore the intersections that the template already has in this shape.
   mark_excused(shaped, watched);
   return watched;
 }
 
-/// Excuses every triangle that shares a vertex with an intersecting triangle, as NewIntersections
-/// does.
+/// Marks as excused every triangle that shares a vertex with an intersecting triangle, as
+/// NewIntersections does.
 void SkinCrossings::mark_excused(const Positions& mesh, Watched& watched) const {
   const CrossingSearch& search = watched.search;
   std::vector<bool> there(is_skin_.size(), false);

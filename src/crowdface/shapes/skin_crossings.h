@@ -16,12 +16,13 @@
 namespace crowdface {
 
 /// Removes self-intersections that a shape causes on a face but not on the template: in folds,
-/// between lips, where lids meet. Only displacements near intersections change.
+/// between lips, and where eyelids meet. Only displacements near intersections change.
 class SkinCrossings {
  public:
   SkinCrossings() = default;
   /// \param skin    Vertices of the skin, ascending.
-  /// \param extent  Diagonal of the skin's bounding box; about the same for template and faces.
+  /// \param extent  Diagonal of the skin's bounding box; the faces have about the same extent as
+  ///                the template.
   SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin, double extent,
                 const HeadAxes& axes);
 
@@ -32,7 +33,7 @@ class SkinCrossings {
     CrossingSearch search;
     /// #triangles of `search`: whether the triangle takes part in an intersection on the template
     std::vector<bool> is_excused;
-    /// #V: 1 for the upper and −1 for the lower lid of an eye that the shape closes, 0 for other
+    /// #V: 1 for the upper lid and −1 for the lower lid if the shape closes this eye, 0 for other
     /// skin; empty if the shape closes no eye.
     std::vector<signed char> lid_sides;
     std::vector<ShapeRow> rows;  ///< rows of the shape that are skin
@@ -54,12 +55,14 @@ class SkinCrossings {
   /// \param neutral  Template at rest, #V by 3.
   CrossingSearch watch_all(const Positions& neutral,
                            std::span<const CrossingSearch* const> searches) const;
-  /// Returns #V: whether each vertex belongs to an intersecting triangle of a face at rest.
+  /// Returns one value for each vertex: whether the vertex belongs to an intersecting triangle of a
+  /// face at rest.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& search) const;
 
   struct Face {
     const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
-    /// #V, from crossing_at_rest: vertices of intersections that the shape did not cause
+    /// #V, from crossing_at_rest: whether each vertex belongs to an intersection that the shape did
+    /// not cause
     const std::vector<bool>& crosses_at_rest;
     const RigidMotion& face_motion;  ///< motion from the template to the face
   };
@@ -71,14 +74,14 @@ class SkinCrossings {
 
   using ExtraCost = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
-  /// over skin that is close at rest, so that the skin keeps its front-to-back order. Lids
-  /// are pushed apart, or get the order that they have on the template.
+  /// over skin that is close together at rest, so that the skin keeps its front-to-back order.
+  /// Eyelids are pushed apart, or get the front-to-back order of the template's lids.
   ///
   /// \param mesh   The face at rest; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
   /// \param extra_cost  Cost of displacements in addition to intersections, in units of one
   ///                    intersecting triangle. The round with the lowest total cost is kept.
-  /// \return       Number of triangles that still intersect others.
+  /// \return       Number of triangles that still intersect other triangles.
   Index repair(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
                const ExtraCost& extra_cost = {}) const;
 

@@ -20,7 +20,7 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. kDepth: target depth of a covered
-// vertex below the skin; the template's depth if this is less.
+// vertex below the skin. If the vertex is less deep on the template, that depth is the target.
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
 // largest distance of a vertex behind the skin; vertices farther behind need no check
@@ -33,8 +33,9 @@ constexpr double kFrontCell = 0.0025;
 constexpr double kTooNear = 0.25;
 // smallest cosine between the skin's normal and the front; excludes the rims of the lips
 constexpr double kFacesFront = 0.5;
-/// On a face, a triangle near the template's cover may cover the vertex instead. Candidates are the
-/// triangles within kSlides of the cover, but at least kMinRings and at most kMaxRings rings.
+/// On a face, the triangle in front of a vertex may differ from the template's covering triangle.
+/// Candidates are the triangles within kSlides of the covering triangle, but at least kMinRings and
+/// at most kMaxRings rings.
 constexpr double kMinRings = 2, kMaxRings = 12;
 constexpr double kSlides = 0.007;
 constexpr int kFrontRounds = 6;
@@ -145,7 +146,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
   const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kMinRings, kMaxRings));
   const FrontView view(shaped, around, axes, kFrontReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
-  // Find the vertices that the skin covers in the shape, one per cell.
+  // Find the vertices that the skin covers in the template's shape, at most one per cell.
   for (const std::uint32_t v : inner) {
     const Eigen::Vector3d point = row3(shaped, v);
     const auto cell = [&](Index c) {
@@ -160,7 +161,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
     if (facing < kFacesFront || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
     taken.insert(at);
-    // Collect the rings of triangles that may be in front on a face.
+    // Collect the rings of triangles that may be in front of this vertex on a face.
     std::vector<std::uint32_t> near = {numbers[hit->triangle]};
     for (int ring = 0; ring < rings; ++ring) {
       std::vector<std::uint32_t> wider;
@@ -184,7 +185,8 @@ void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& face
                                   std::span<const ShapeRow> rows, Positions& mesh,
                                   Displacements& shape) const {
   shape.add_to(mesh);
-  // largest remaining push for each covered vertex: at most the shape's own movement
+  // #covered: largest distance by which each covered vertex may still push skin, at most the
+  // shape's own movement
   std::vector<double> most;
   for (const CoveredVertex& covered : covered_vertices_) {
     double least = HUGE_VAL;

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// A row of a shape's displacements, and the vertex that this row moves.
+/// The index of a row in a shape's displacements, and the vertex that this row moves.
 struct ShapeRow {
   std::uint32_t row, vertex;
 };
@@ -30,7 +30,8 @@ class SkinOverParts {
                 std::span<const std::uint32_t> inner_vertices,
                 std::span<const std::uint32_t> moved_vertices, const HeadAxes& axes, double extent);
 
-  /// Pushes skin outwards until it covers the same vertices on the face as on the template.
+  /// Pushes skin outwards until the skin covers the same vertices of gums and teeth on the face as
+  /// on the template.
   ///
   /// \param rest   The mesh to which the shape is added, #V by 3.
   /// \param face_motion  Motion from the template to the face.
@@ -41,8 +42,8 @@ class SkinOverParts {
                      std::span<const ShapeRow> rows, Positions& mesh, Displacements& shape) const;
 
  private:
-  /// A vertex under the skin. `covering_triangle` is the skin in front of this vertex, on the
-  /// template in the shape.
+  /// A vertex under the skin. `covering_triangle` is the skin in front of this vertex on the
+  /// template with the shape applied.
   struct CoveredVertex {
     std::uint32_t vertex;
     Triangle covering_triangle;

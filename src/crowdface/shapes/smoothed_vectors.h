@@ -34,7 +34,7 @@ class SmoothedVectors {
     std::uint32_t index;
     Eigen::Vector3d displacement;
   };
-  /// Returns the changes of the samples nearer than `outer_radius` to a centre.
+  /// Returns the changes for all samples whose distance to a centre is less than `outer_radius`.
   ///
   /// \param samples  Only samples at positions for which `affects` is true.
   std::vector<Change> changes(std::span<const Sample> samples) const;

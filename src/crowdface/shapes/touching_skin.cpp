@@ -16,16 +16,18 @@ namespace {
 // this far apart in the template's shape may touch on a narrower face.
 constexpr double kMeetingReach = 0.02;
 constexpr double kMeetingReachEdges = 1.6;  // the same limit in edge lengths
-/// Skin at two vertices may touch if the distance of the vertices in the shape is at most kOfMove
-/// times the larger movement plus kOfDifference times the difference of both movements.
+/// Skin at two vertices may touch if the distance between the vertices in the shape is at most
+/// kOfMove · a + kOfDifference · b. Here a is the length of the larger displacement, and b is the
+/// length of the difference of both displacements.
 constexpr double kOfMove = 4, kOfDifference = 10;
-// an edge folds if its ends move differently by more than this fraction of its length
+// the skin folds at an edge if the displacements of the edge's ends differ by more than this
+// fraction of the edge's length
 constexpr double kFolds = 0.5;
 // Of the vertices in a cell of this size that have similar normals, only one is checked.
 constexpr double kMeetingCell = 0.003;
 
-/// Returns, for each vertex of the skin, a vertex in the same cell with a similar normal; kNoIndex
-/// for other vertices.
+/// Returns, for each vertex of the skin, one vertex that represents all vertices with similar
+/// normals in the same cell. Returns kNoIndex for vertices that are not skin.
 std::vector<std::uint32_t> representatives(const SkinTriangles& skin, const Positions& shaped,
                                            const Positions& normals, double cell) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t, Index, bool>;

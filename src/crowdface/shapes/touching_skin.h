@@ -17,8 +17,8 @@ struct SkinTriangles {
   CompressedRows<std::uint32_t> vertex_triangles;  ///< #V: triangles at each vertex
 };
 
-/// Returns #V: whether a shape folds the skin at a vertex or brings it near other skin, on the
-/// template or possibly on a face.
+/// Returns one value for each vertex: whether a shape folds the skin there, or brings this skin so
+/// near to other skin that both may touch on some face.
 ///
 /// \param neutral  Template at rest, #V by 3.
 /// \param shaped   Template in the shape, #V by 3.
