@@ -31,14 +31,29 @@ def comments():
 
 
 def identifiers():
-    """Declarations in headers, with their file."""
+    """Declarations in headers: file, enclosing classes, and the whole declaration."""
     declaration = re.compile(r"^\s*(?:class|struct|enum class|[\w:<>,&*\s\[\]]+?[\s&*])(\w{3,})\s*[({=;]")
+    scope_start = re.compile(r"^(\s*)(?:class|struct|enum class) (\w+)[^;]*\{$")
     for path in sources(".h"):
-        for line in path.read_text().split("\n"):
-            code = line.split("//")[0].rstrip()
-            match = declaration.match(code)
+        scopes = []  # (indentation, name) of the classes around the line
+        lines = [line.split("//")[0].rstrip() for line in path.read_text().split("\n")]
+        for number, code in enumerate(lines):
+            indentation = len(code) - len(code.lstrip())
+            while code and scopes and indentation <= scopes[-1][0] and code.lstrip().startswith("}"):
+                scopes.pop()
+            before = lines[number - 1] if number else ""
+            begins = not before or before.endswith((";", "{", "}", ":", ">"))  # no second line of a declaration
+            match = declaration.match(code) if begins else None
             if match and not code.lstrip().startswith(("#", "namespace", "return", "using", "}", "if", "for", "static_assert")):
-                yield f"{path.relative_to(ROOT)}: {code.strip()}"
+                whole = code.strip()
+                for following in lines[number + 1 : number + 6]:
+                    if whole.endswith((";", "{", "}")):
+                        break
+                    whole += " " + following.strip()
+                scope = "::".join(name for _, name in scopes)
+                yield f"{path.relative_to(ROOT)}: {f'[in {scope}] ' if scope else ''}{whole}"
+            if start := scope_start.match(code):
+                scopes.append((len(start[1]), start[2]))
 
 
 def sentences():
@@ -48,7 +63,7 @@ def sentences():
         for paragraph in re.split(r"\n\s*\n", prose):
             if re.match(r"\s*[#|!<]", paragraph):
                 continue
-            text = " ".join(line.strip(" -*") for line in paragraph.split("\n"))
+            text = re.sub(r"^\d+\. |\*\*", "", " ".join(line.strip(" -*") for line in paragraph.split("\n")))
             for sentence in re.split(r"(?<=[.!?]) +(?=[A-Z`\[])", text):
                 if len(sentence.split()) > 4:
                     yield f"{path.relative_to(ROOT)}: {sentence}"
