@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
   const SmoothingOperator smoothing(build_adjacency(heads.topology), Boundary::kFixed,
                                     OperatorKind::kUmbrella);
   const Positions face = blend_exact(heads, ChebyshevFilter(smoothing, target.positions),
-                                     whole_head(heads.topology), {0, {whole}});
+                                     whole_head_weights(heads.topology), {0, {whole}});
   write_obj_like(target, heads.topology, face, argv[3]);
   std::cout << argv[3] << ": a face of " << face.rows() << " vertices\n";
 } catch (const Error& error) {

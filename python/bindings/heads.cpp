@@ -198,7 +198,7 @@ class Smoothing {
     for (const Head& head : heads_.heads) names.heads.push_back(head.name);
     names.regions = regions;
     const FacePlan face = parse_plan_line(recipe, names, "recipe").face;
-    RegionWeights weights = whole_head(heads_.topology);
+    RegionWeights weights = whole_head_weights(heads_.topology);
     if (masks) weights.alpha = std::move(*masks);
     if (weights.alpha.rows() != filter_.vertex_count() ||
         static_cast<std::size_t>(weights.alpha.cols()) != regions.size()) {

@@ -64,7 +64,7 @@ class PythonJob {
                          : load_job(source.file, source.overrides, cache_)) {}
 
   const Job& job() const { return job_; }
-  Index vertex_count() const { return job_.inputs.faces.topology.vertex_count; }
+  Index vertex_count() const { return job_.inputs.head_set.topology.vertex_count; }
 
   std::vector<std::string> cast() {
     FindMeshDefects defects;
@@ -200,7 +200,7 @@ void bind_job(py::module_& module) {
            }),
            py::arg("source"), py::arg("cache"), py::arg("progress"))
       .def_property_readonly(
-          "heads", [](const PythonJob& job) -> const HeadSet& { return job.job().inputs.faces; },
+          "heads", [](const PythonJob& job) -> const HeadSet& { return job.job().inputs.head_set; },
           py::return_value_policy::reference_internal)
       .def_property_readonly("regions",
                              [](const PythonJob& job) { return job.job().names.regions; })
@@ -270,7 +270,7 @@ void bind_job(py::module_& module) {
         GenerateOptions options;
         options.cache = cache;
         options.replace = force ? Replace::kForce : Replace::kRefuse;
-        options.memory = memory;
+        options.memory_bytes = memory;
         options.shard = {shard.first, shard.second};
         fs::path folder;
         long_call(progress, [&] { folder = run(source, options, only_plan); });

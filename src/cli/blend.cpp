@@ -74,20 +74,21 @@ void blend(const BlendOptions& options) {
   }
   const std::filesystem::path file = checked_output_path(options.out);
   const Job job =
-      load_job(options.config.config, options.config.overrides, options.config.cache_path());
+      load_job(options.config.config_file, options.config.overrides, options.config.cache_path());
   refuse_to_write_over(input_files(job.config), {file});
   const PlanLine line = find_recipe(options.recipe, job.names);
-  if (line.settings != job.settings.hex() && !options.any_settings) {
+  if (line.settings_hash != job.settings.hex() && !options.any_settings) {
     throw InvalidInput(concat(options.recipe, ": planned with other settings: expected ",
                               job.settings.hex(), " (heads, masks and smoothing of ",
-                              options.config.config, "), found ", line.settings,
+                              options.config.config_file, "), found ", line.settings_hash,
                               "; use --any-settings to blend the face anyway"));
   }
-  if (job.config.smoothing.levels != Levels::kExact)
+  if (job.config.smoothing.levels != LevelRepresentation::kExact)
     check_levels(line.face.recipe, job, options.recipe);
   Prepared prepared;
-  if (job.config.smoothing.levels == Levels::kExact) {  // the exact filter needs no prepared heads
-    prepared.filter.emplace(job.smoothing, job.inputs.faces.heads.front().positions);
+  // the exact filter needs no prepared heads
+  if (job.config.smoothing.levels == LevelRepresentation::kExact) {
+    prepared.filter.emplace(job.smoothing, job.inputs.head_set.heads.front().positions);
   } else {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.config.cache_path());
   }

@@ -39,13 +39,14 @@ void describe(const Job& job) {
   const std::uint64_t sampled = job.config.crowd.count, by_hand = job.config.recipes.size();
   print(concat(
       job.config.file.string(), " is fine\n", "heads       ", job.names.heads.size(), ": ",
-      join(job.names.heads), "\ntopology    ", inputs.faces.topology.vertex_count, " vertices, ",
-      inputs.faces.topology.face_count(), " faces, ", inputs.components.count(), " components, ",
+      join(job.names.heads), "\ntopology    ", inputs.head_set.topology.vertex_count, " vertices, ",
+      inputs.head_set.topology.face_count(), " faces, ", inputs.components.count(), " components, ",
       std::ranges::count(boundary, true), " boundary vertices\n", "edges       ",
       format_fixed(inputs.edge_length_mm, 3), " mm (rms, on the skin)\n", "smoothing   up to ",
       inputs.max_level, " iterations, a size of ",
       format_fixed(
-          size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm), 1),
+          wavelength_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm),
+          1),
       " mm\n", "parts       ", describe_parts(job.config, inputs), "\nsymmetry    ",
       describe_mirror(job.config, find_mirror(job.config, inputs)), "\nregions     ",
       join(job.names.regions), "\n",
@@ -77,7 +78,7 @@ VertexColours painted_colours(const Config::Regions& regions, Index count) {
 
 /// Writes one image for each region. The image shows the mask of the region on the mean head.
 void write_masks(const Job& job, const std::filesystem::path& directory) {
-  const Positions mean = mean_head(job.inputs.faces);
+  const Positions mean = mean_head(job.inputs.head_set);
   Config::ContactSheet sheet;
   sheet.cell = 512;
   sheet.views = {View::kFront, View::kThreeQuarter, View::kBack};
@@ -114,8 +115,8 @@ void write_landmarks(const Job& job, const HeadLandmarks& landmarks,
     }
   }
   refuse_to_write_over(input_files(job.config), {file});
-  write_file(file, landmark_picture(renders, job.inputs.faces.topology, mean_head(job.inputs.faces),
-                                    points));
+  write_file(file, landmark_picture(renders, job.inputs.head_set.topology,
+                                    mean_head(job.inputs.head_set), points));
   log_info(file.string());
 }
 
@@ -139,8 +140,8 @@ Run add_check(CLI::App& program) {
                    "Render the landmarks of the measurements on the mean head, to this PNG file");
       },
       [](const Options& options) {
-        const Job job =
-            load_job(options.config.config, options.config.overrides, options.config.cache_path());
+        const Job job = load_job(options.config.config_file, options.config.overrides,
+                                 options.config.cache_path());
         warn_about_output(job);
         describe(job);
         if (!options.masks.empty()) write_masks(job, options.masks);

@@ -90,14 +90,14 @@ OptionDescription table_of(const CLI::Option& option) {
   OptionDescription table;
   for (const std::string& name : option.get_snames()) table.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) table.names.push_back("--" + name);
-  table.argument = option.get_positional();
-  if (table.argument) table.names = {option.get_name(true)};
+  table.is_argument = option.get_positional();
+  if (table.is_argument) table.names = {option.get_name(true)};
   if (option.get_items_expected_max() > 0) table.type = option.get_type_name();
   split_words(table);
   table.default_value = option.get_default_str();
   table.help = option.get_description();
-  table.required = option.get_required();
-  table.repeated = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+  table.is_required = option.get_required();
+  table.is_repeated = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   return table;
 }
 

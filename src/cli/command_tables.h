@@ -18,7 +18,7 @@ struct OptionDescription {
   std::vector<std::string> accepted_values;  ///< empty: any value
   std::string default_value;                 ///< may be empty
   std::string help;
-  bool argument = false, required = false, repeated = false;
+  bool is_argument = false, is_required = false, is_repeated = false;
 };
 
 struct CommandDescription {

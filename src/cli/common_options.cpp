@@ -65,7 +65,7 @@ std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
   constexpr std::uint64_t kMaxThreads = 1024;
   set_log_level(quiet ? LogLevel::kQuiet : verbose ? LogLevel::kVerbose : LogLevel::kNormal);
   if (!log_file.empty()) open_log(log_file);
-  limit_image_memory(usable_memory() / 8 * 3);
+  limit_image_memory(usable_memory_bytes() / 8 * 3);
   for (const std::string& limit : limits) set_input_limit(limit);
   const std::uint64_t limit =
       threads.empty() ? 0 : parse_whole_number("--threads", threads, 1, kMaxThreads);
@@ -73,15 +73,16 @@ std::unique_ptr<ThreadLimit> CommonOptions::apply() const {
 }
 
 void CacheOption::add_to(CLI::App& command) {
-  add_option(command, "--cache", cache, "DIR", "Folder of the head cache");
+  add_option(command, "--cache", cache_folder, "DIR", "Folder of the head cache");
 }
 
 std::filesystem::path CacheOption::cache_path() const {
-  return cache.empty() ? cache_directory() : std::filesystem::path(cache);
+  return cache_folder.empty() ? cache_directory() : std::filesystem::path(cache_folder);
 }
 
 void ConfigOptions::add_to(CLI::App& command) {
-  add_option(command, "config", config, "CONFIG", "The config file (docs/config.md)").required();
+  add_option(command, "config", config_file, "CONFIG", "The config file (docs/config.md)")
+      .required();
   add_repeated(command, "--set", overrides.assignments, "KEY.PATH=VALUE",
                "Override one config value, such as smoothing.boundary=free");
   add_optional(command, "--seed", overrides.seed, "N", "Override crowd.seed");
@@ -106,7 +107,7 @@ void WriteOptions::add_to(CLI::App& command) {
            "Replace another config's crowd in the output folder; its reviews stay and apply");
   add_flag(command, "--dry-run", dry_run,
            "Check everything and report what would be written, but write nothing");
-  add_option(command, "--memory", memory, "SIZE",
+  add_option(command, "--memory", memory_limit, "SIZE",
              "Memory limit, such as \"4 GiB\" (default: three quarters of the machine's memory); "
              "sets how many faces are made at once; images use at most half of it");
 }
@@ -120,7 +121,7 @@ void WriteOptions::add_shard_to(CLI::App& command) {
 }
 
 GenerateOptions WriteOptions::generate_options(const std::filesystem::path& cache) const {
-  const std::uint64_t bytes = parse_byte_size("--memory", memory);
+  const std::uint64_t bytes = parse_byte_size("--memory", memory_limit);
   if (bytes > 0) limit_image_memory(bytes / 2);
   return {cache,
           force ? Replace::kForce : Replace::kRefuse,

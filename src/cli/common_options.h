@@ -34,16 +34,16 @@ struct CommonOptions {
 
 /// The option `--cache`, the folder of prepared heads.
 struct CacheOption {
-  std::string cache;
+  std::string cache_folder;
 
   void add_to(CLI::App& command);
-  /// Returns `cache`, or the default folder if `cache` is empty.
+  /// Returns `cache_folder`, or the default folder if `cache_folder` is empty.
   std::filesystem::path cache_path() const;
 };
 
 /// The config file, and the options that override values of the config.
 struct ConfigOptions : CacheOption {
-  std::string config;
+  std::string config_file;
   ConfigOverrides overrides;
 
   void add_to(CLI::App& command);
@@ -57,7 +57,7 @@ struct ConfigOptions : CacheOption {
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
-  std::string memory;
+  std::string memory_limit;
   std::string shard;
   bool planned = false;
 

@@ -43,7 +43,7 @@ bool is_folder_type(const OptionDescription& option) {
 std::vector<std::string> option_names(const CommandDescription& command) {
   std::vector<std::string> names;
   for (const OptionDescription& option : command.options) {
-    if (!option.argument) names.insert(names.end(), option.names.begin(), option.names.end());
+    if (!option.is_argument) names.insert(names.end(), option.names.begin(), option.names.end());
   }
   return names;
 }
@@ -52,7 +52,7 @@ std::vector<std::string> option_names(const CommandDescription& command) {
 std::string bash_case(const CommandDescription& command) {
   std::string values, words;
   for (const OptionDescription& option : command.options) {
-    if (option.argument) {
+    if (option.is_argument) {
       for (const std::string& word : option.accepted_values) words += concat(' ', word);
       continue;
     }
@@ -114,13 +114,13 @@ std::string zsh_arguments(const CommandDescription& command) {
   for (const OptionDescription& option : command.options) {
     const std::string type = escaped(option.type, ":[]");
     const std::string value = option.type.empty() ? "" : concat(':', type, ':', zsh_action(option));
-    if (option.argument) {
+    if (option.is_argument) {
       specifications += concat(" \\\n        ", in_quotes(value));
       continue;
     }
     for (const std::string& name : option.names) {
       specifications += concat(
-          " \\\n        ", in_quotes(concat(option.repeated ? "*" : "", name, '[',
+          " \\\n        ", in_quotes(concat(option.is_repeated ? "*" : "", name, '[',
                                             escaped(short_help(option.help), "[]\\"), ']', value)));
     }
   }
@@ -166,14 +166,15 @@ std::string fish_options(const CommandDescription& command, const std::string& c
   for (const OptionDescription& option : command.options) {
     std::string rest;
     for (const std::string& name : option.names) {
-      if (!option.argument) {
+      if (!option.is_argument) {
         rest += name.starts_with("--") ? concat("-l ", name.substr(2), ' ')
                                        : concat("-s ", name.substr(1), ' ');
       }
     }
     if (!option.accepted_values.empty()) {
-      rest += concat(option.argument ? "" : "-x ", "-a '", join(option.accepted_values, " "), "'");
-    } else if (option.argument) {
+      rest +=
+          concat(option.is_argument ? "" : "-x ", "-a '", join(option.accepted_values, " "), "'");
+    } else if (option.is_argument) {
       continue;  // fish completes file names
     } else if (is_folder_type(option)) {
       rest += "-x -a '(__fish_complete_directories)'";
@@ -222,7 +223,7 @@ std::string roff_options(const CommandDescription& command) {
   std::string text;
   for (const OptionDescription& option : command.options) {
     std::vector<std::string> names;
-    if (!option.argument) {
+    if (!option.is_argument) {
       for (const std::string& name : option.names) names.push_back(bold(name));
     }
     const std::string words =
@@ -232,7 +233,7 @@ std::string roff_options(const CommandDescription& command) {
         ".TP\n", join(names), names.empty() || value.empty() ? "" : " ", value, '\n',
         roff(option.help),
         option.default_value.empty() ? "" : concat(" (default: ", roff(option.default_value), ')'),
-        option.required && !option.argument ? " (required)" : "", ".\n");
+        option.is_required && !option.is_argument ? " (required)" : "", ".\n");
   }
   return text;
 }
@@ -240,9 +241,9 @@ std::string roff_options(const CommandDescription& command) {
 std::string synopsis(const CommandDescription& command) {
   std::string text = concat(".B crowdface ", command.name, "\n[\\fIoptions\\fR]");
   for (const OptionDescription& option : command.options) {
-    if (!option.argument) continue;
+    if (!option.is_argument) continue;
     const std::string name = concat("\\fI", roff(option.type), "\\fR");
-    text += option.required ? concat(' ', name) : concat(" [", name, ']');
+    text += option.is_required ? concat(' ', name) : concat(" [", name, ']');
   }
   return text + '\n';
 }

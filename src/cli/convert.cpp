@@ -36,7 +36,7 @@ struct ConvertOptions : CommonOptions {
 GlbOptions materials_of(const FileMesh& mesh, const ConvertOptions& options) {
   GlbOptions written;
   written.unit = parse_unit("--units", options.units);
-  written.colours = mesh.colours.rows() > 0;
+  written.has_colours = mesh.colours.rows() > 0;
   if (mesh.materials.empty()) return written;
   FaceMaterials materials = face_materials(mesh.materials, mesh.topology.face_count());
   for (std::string& name : materials.names) written.materials.push_back({std::move(name)});

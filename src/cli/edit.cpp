@@ -40,10 +40,10 @@ void edit(const EditorOptions& options) {
   edited.preview_vertices =
       parse_whole_number("--preview-vertices", options.preview_vertices, 100, kMaxVertices);
   if (options.benchmark) {
-    print(benchmark_edit(options.config.config, options.config.overrides, edited));
+    print(benchmark_edit(options.config.config_file, options.config.overrides, edited));
     return;
   }
-  crowdface::edit(options.config.config, options.config.overrides, edited,
+  crowdface::edit(options.config.config_file, options.config.overrides, edited,
                   [&](const std::string& address) {
                     show_page(address, options.no_browser ? Browser::kNone : Browser::kOpen);
                   });

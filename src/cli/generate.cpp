@@ -21,7 +21,7 @@ Run add_generate(CLI::App& program) {
         options.write.add_shard_to(command);
       },
       [](const Options& options) {
-        generate(options.config.config, options.config.overrides,
+        generate(options.config.config_file, options.config.overrides,
                  options.write.generate_options(options.config.cache_path()));
       });
 }

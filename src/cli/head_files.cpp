@@ -61,9 +61,9 @@ std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view t
              kAdultFrom, " years; old: ", kOldFrom, " years or more; adult: between.\n",
              "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
   for (const TaggedHead& head : heads) {
-    out += concat("    ", head.name, ": [", head.male ? "male" : "female", ", ",
-                  age_class(head.years), head.extra_tags.empty() ? "" : ", ", head.extra_tags,
-                  "]  # ", format_fixed(head.years, 0), " years\n");
+    out += concat("    ", head.name, ": [", head.is_male ? "male" : "female", ", ",
+                  age_class(head.age_years), head.extra_tags.empty() ? "" : ", ", head.extra_tags,
+                  "]  # ", format_fixed(head.age_years, 0), " years\n");
   }
   return out;
 }

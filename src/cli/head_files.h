@@ -38,8 +38,8 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
 /// The tags of a generated head, for the config's `faces.tags`.
 struct TaggedHead {
   std::string name;
-  bool male = false;
-  double years = 0;
+  bool is_male = false;
+  double age_years = 0;
   std::string extra_tags = {};  ///< further tags, separated by ", "; may be empty
 };
 

@@ -70,9 +70,10 @@ PaintedMasks masks_of(const Model& model, const ImportOptions& options,
   const Mesh& neutral = model.neutral();
   const FaceHeights heights = model.heights();
   try {
-    return paint_masks(neutral.topology, neutral.uvs,
-                       horizontal_bands(neutral.positions.col(1), heights.eyes, heights.mouth),
-                       first, kMaskSize);
+    return paint_masks(
+        neutral.topology, neutral.uvs,
+        horizontal_bands(neutral.positions.col(1), heights.eye_height, heights.mouth_height), first,
+        kMaskSize);
   } catch (const InvalidInput& error) {
     throw InvalidInput(concat(
         options.data, ": cannot find the heights of the eyes and the mouth: ", error.what()));
@@ -82,7 +83,7 @@ PaintedMasks masks_of(const Model& model, const ImportOptions& options,
 void add_masks(const PaintedMasks& masks, const std::string& kind, const HeadRequest& request,
                std::vector<HeadFile>& files) {
   const fs::path path = request.directory / concat(kind, "_bands.png");
-  for (auto& [file, bytes] : encode_masks(masks, path).files) {
+  for (auto& [file, bytes] : encode_masks(masks, path).png_files) {
     files.push_back(text_file(file, std::move(bytes)));
   }
 }

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 /// Returns whether an image is a mask of three regions.
 bool has_three_bands(const fs::path& image) {
   try {
-    return mask_channels(read_image(image)).size() == 3;
+    return mask_channel_indices(read_image(image)).size() == 3;
   } catch (const RecoverableError&) {
     throw_if_interrupted();
     return false;
@@ -130,7 +130,7 @@ void remove_odd_heads(HeadSet& set, const Components& components) {
   set.heads = std::move(kept);
 }
 
-/// Analyses the shapes of some of the heads. If it can propose no regions, logs a warning instead
+/// Analyses the shapes of some of the heads. If no regions can be proposed, logs a warning instead
 /// of failing, because a config without regions is valid.
 ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks) {
   Config::Faces faces;
@@ -164,7 +164,7 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
   try {
     const Orientation orientation = analysis.orientation.value_or(Orientation{{1, 1}, {2, 1}});
     analysis.masks = propose_masks(*set, mean, orientation, parse_bands("brow,nose,mouth"),
-                                   mask_texels(set->topology.vertex_count));
+                                   mask_side_texels(set->topology.vertex_count));
   } catch (const InvalidInput& error) {
     log_warning(concat("no regions: ", error.what()));
   }
@@ -231,8 +231,8 @@ void init(const InitOptions& options) {
   // Collect the facts about the heads that the new config states.
   StarterFacts facts;
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();
-  facts.heads = fs::absolute(heads).lexically_normal().lexically_relative(here);
-  require_storable_path(facts.heads);
+  facts.heads_folder = fs::absolute(heads).lexically_normal().lexically_relative(here);
+  require_storable_path(facts.heads_folder);
   const ShapeAnalysis analysis = analyse_shapes(files, mask.empty());
   if (!analysis.has_uvs && !mask.empty()) {
     log_warning(concat("no regions: the heads have no texture coordinates, which the mask ", mask,
@@ -245,29 +245,30 @@ void init(const InitOptions& options) {
   }
   facts.align_rigidly = analysis.stands_apart;
   for (const fs::path& head : files) {
-    facts.names.push_back(head.stem().string());
-    if (!is_name(facts.names.back())) {
-      throw InvalidInput(invalid_head_name_message(facts.names.back(), head));
+    facts.head_names.push_back(head.stem().string());
+    if (!is_name(facts.head_names.back())) {
+      throw InvalidInput(invalid_head_name_message(facts.head_names.back(), head));
     }
   }
   const auto up = analysis.first.col(facts.up.index);
   facts.head_height = up.maxCoeff() - up.minCoeff();
   guess_units(analysis, facts);
-  facts.vertices = analysis.first.rows();
+  facts.vertex_count = analysis.first.rows();
   facts.crowd_name = "crowd";
-  facts.tags = read_tags(files, facts.names);
-  if (!mask.empty()) facts.mask = (facts.heads / mask).string();
+  facts.tags = read_tags(files, facts.head_names);
+  if (!mask.empty()) facts.mask_file = (facts.heads_folder / mask).string();
   // Propose a region mask if there is no mask for the heads.
   MaskFiles proposed;
   if (analysis.masks) {
     proposed = encode_masks(*analysis.masks, here / concat(file.stem().string(), "_bands.png"));
-    for (const auto& [path, bytes] : proposed.files) refuse_existing(path, options.force);
-    facts.mask = proposed.masks[0].filename().string();
+    for (const auto& [path, bytes] : proposed.png_files) refuse_existing(path, options.force);
+    facts.mask_file = proposed.mask_paths[0].filename().string();
     facts.regions = {"brow", "nose", "mouth"};
   }
-  if (has_wearable_attachments(heads, facts)) facts.attachments = facts.heads / kAttachments;
+  if (has_wearable_attachments(heads, facts))
+    facts.attachments_folder = facts.heads_folder / kAttachments;
   // Write the files, and report the guessed values so that the user can check them.
-  for (const auto& [path, bytes] : proposed.files) write_file(path, bytes);
+  for (const auto& [path, bytes] : proposed.png_files) write_file(path, bytes);
   write_file(file, starter_config(facts));
   log_info(concat(out.string(), ": a config for ", files.size(),
                   " heads; assumed unit: ", name_of(facts.units), ", because ", facts.units_reason,
@@ -278,17 +279,17 @@ void init(const InitOptions& options) {
         "some heads are turned or moved relative to the others: the config aligns all heads with "
         "the first (faces.align: rigid)");
   }
-  if (!facts.attachments.empty()) {
+  if (!facts.attachments_folder.empty()) {
     log_info(
         "the faces get the attachments beside the heads; heads tagged female and male form "
         "separate "
         "groups of women and men");
   }
-  if (!facts.mask.empty()) {
-    log_info(concat("regions ", join(facts.regions), ": ",
-                    mask.empty()
-                        ? concat(proposed.masks[0].string(), ", proposed from the heads' shape")
-                        : (heads / mask).string()));
+  if (!facts.mask_file.empty()) {
+    log_info(concat(
+        "regions ", join(facts.regions), ": ",
+        mask.empty() ? concat(proposed.mask_paths[0].string(), ", proposed from the heads' shape")
+                     : (heads / mask).string()));
   }
 }
 

@@ -178,7 +178,7 @@ std::string item_line(const MakeHumanAttachment& item) {
   return concat("    - {name: ", item.name, ", kind: ", item.kind, ", file: ", item.name, ".obj",
                 item.tags.empty() ? "" : ", tags: [", join(item.tags), item.tags.empty() ? "" : "]",
                 item.relative_frequency == 1 ? "" : concat(", share: ", item.relative_frequency),
-                item.excludes_old ? ", without: [old]" : "",
+                item.excludes_old_people ? ", without: [old]" : "",
                 ", tint: ", item.kind == "brow" ? "brows" : item.kind, "}\n");
 }
 
@@ -187,7 +187,7 @@ std::string item_line(const MakeHumanAttachment& item) {
 MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, int max_texels)
     : package_(package),
       model_(model),
-      parts_(read_makehuman_parts(package, model.base(), model.skin_rows())),
+      parts_(read_makehuman_parts(package, model.base_positions(), model.skin_rows())),
       max_texels_(max_texels) {
   model.add_parts(parts_.clothing);
 }
@@ -196,8 +196,8 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
                                 std::uint64_t index, std::vector<HeadFile>& files) {
   const MakeHumanPerson person = random_makehuman_person(seed, index);
   const std::string colour = makehuman_eye_colour(person, seed, index);
-  tags_.insert({person.is_male ? "male" : "female", std::string(age_class(person.age_years)),
-                prevailing_ancestry(person)});
+  tag_sets_.insert({person.is_male ? "male" : "female", std::string(age_class(person.age_years)),
+                    prevailing_ancestry(person)});
   const std::string skin = concat(name, "_skin.png");
   const std::string eye = concat("\nKd 1 1 1\nmap_Kd textures/eye_", colour, ".png\n");
   files.push_back(text_file(
@@ -206,15 +206,16 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
              eye, "newmtl eyelashes\nKd 0.02 0.015 0.012\nmap_d textures/eyelashes.png\n",
              "newmtl teeth\nKd 1 1 1\nmap_Kd textures/teeth.png\n",
              "newmtl tongue\nKd 1 1 1\nmap_Kd textures/tongue.png\n")));
-  files.push_back({folder / skin, [shares = makehuman_skin(package_, person, seed, index),
-                                   tone = makehuman_skin_tone(seed, index), most = max_texels_] {
-                     return encoded(downsampled(blended_skin(shares, tone), most));
-                   }});
+  files.push_back(
+      {folder / skin, [shares = makehuman_skin_shares(package_, person, seed, index),
+                       tone = makehuman_skin_density_factor(seed, index), most = max_texels_] {
+         return encoded(downsampled(blended_skin(shares, tone), most));
+       }});
   const auto of_colour = [&](const FittedMesh::Picture& picture) { return picture.name == colour; };
-  if (eyes_.contains(colour)) return;
-  eyes_[colour] = std::ranges::find_if(parts_.eye_colours, of_colour)->path;
-  files.push_back(picture_file(folder / "textures" / concat("eye_", colour, ".png"), eyes_[colour],
-                               max_texels_));
+  if (eye_texture_of_colour_.contains(colour)) return;
+  eye_texture_of_colour_[colour] = std::ranges::find_if(parts_.eye_colours, of_colour)->path;
+  files.push_back(picture_file(folder / "textures" / concat("eye_", colour, ".png"),
+                               eye_texture_of_colour_[colour], max_texels_));
 }
 
 void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& files) const {
@@ -222,7 +223,7 @@ void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& fil
   std::vector<SkinShare> shares;
   for (const bool male : {false, true}) {
     const MakeHumanPerson person{male, kYears, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
-    for (SkinShare& share : makehuman_skin(package_, person, 0, 0)) {
+    for (SkinShare& share : makehuman_skin_shares(package_, person, 0, 0)) {
       shares.push_back({std::move(share.picture), share.share / 2});
     }
   }
@@ -259,8 +260,8 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
       return std::ranges::all_of(item.tags,
                                  [&](const std::string& tag) { return tags.contains(tag); });
     };
-    if (std::ranges::none_of(tags_, may_wear)) continue;
-    const FittedMesh mesh = read_fitted_mesh(item.file, model_.base().rows());
+    if (std::ranges::none_of(tag_sets_, may_wear)) continue;
+    const FittedMesh mesh = read_fitted_mesh(item.file, model_.base_positions().rows());
     if (!is_free(mesh.licence)) {
       log_warning(concat(item.file.string(), ": left out, because its licence is not free: ",
                          quoted(mesh.licence.licence), " by ", quoted(mesh.licence.author)));

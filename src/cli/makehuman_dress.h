@@ -45,8 +45,9 @@ class MakeHumanDress {
   MakeHumanParts parts_;
   int max_texels_;
   /// all different sets of tags that added persons have
-  std::set<std::set<std::string>> tags_;
-  std::map<std::string, std::filesystem::path> eyes_;  ///< eye textures in use, by colour
+  std::set<std::set<std::string>> tag_sets_;
+  std::map<std::string, std::filesystem::path>
+      eye_texture_of_colour_;  ///< eye textures in use, by colour
 };
 
 }  // namespace crowdface::cli

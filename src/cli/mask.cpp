@@ -94,14 +94,14 @@ void mask(const MaskOptions& options) {
   const Orientation orientation = bearing_of(options, wanted, faces->topology, mean);
   const int size =
       options.size.empty()
-          ? mask_texels(faces->topology.vertex_count)
+          ? mask_side_texels(faces->topology.vertex_count)
           : static_cast<int>(parse_whole_number("--size", options.size, kMinSize, kMaxSize));
   MaskFiles masks = encode_masks(propose_masks(*faces, mean, orientation, bands, size), out);
   std::vector<HeadFile> files;
-  for (auto& [file, bytes] : masks.files) files.push_back(text_file(file, std::move(bytes)));
+  for (auto& [file, bytes] : masks.png_files) files.push_back(text_file(file, std::move(bytes)));
   write_head_files("masks", files, options.force);
   std::vector<std::string> paths;
-  for (const fs::path& path : masks.masks) paths.push_back(write_scalar(path.string()));
+  for (const fs::path& path : masks.mask_paths) paths.push_back(write_scalar(path.string()));
   const std::string list = join(paths);
   print(concat("regions: {names: [", join(names_of(bands)),
                "], mask: ", paths.size() > 1 ? concat('[', list, ']') : list, "}\n"));

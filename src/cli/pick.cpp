@@ -53,17 +53,17 @@ void pick(const WrapCommand& options) {
   const std::vector<PickScans::Entry> entries = entries_of(options);
   const WrapInputs inputs = read_wrap_inputs(without_landmarks);
   PickScans scans(entries, [&](const PickScans::Entry& entry) {
-    FileMesh mesh = read_mesh(entry.scan);
-    Scan scan = scan_of(mesh, entry.scan);
-    ColourRows colours = colours_at_vertices(scan, ScanColours(std::move(mesh), entry.scan));
+    FileMesh mesh = read_mesh(entry.scan_file);
+    Scan scan = scan_of(mesh, entry.scan_file);
+    ColourRows colours = colours_at_vertices(scan, ScanColours(std::move(mesh), entry.scan_file));
     return PickInputs{inputs.shape,
                       inputs.file.positions * inputs.mm_per_unit,
                       inputs.file.positions,
                       std::move(scan),
                       inputs.hint,
                       options.template_file,
-                      entry.scan,
-                      entry.landmarks,
+                      entry.scan_file,
+                      entry.landmark_file,
                       options.batch.empty() ? std::string() : options.landmarks,
                       std::move(colours)};
   });

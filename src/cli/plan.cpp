@@ -29,9 +29,9 @@ Run add_plan(CLI::App& program) {
         const ConfigOptions& job = options.config;
         const std::filesystem::path cache = options.config.cache_path();
         if (options.estimate) {
-          print(estimate(job.config, job.overrides, cache));
+          print(estimate(job.config_file, job.overrides, cache));
         } else {
-          plan(job.config, job.overrides, options.write.generate_options(cache));
+          plan(job.config_file, job.overrides, options.write.generate_options(cache));
         }
       });
 }

@@ -55,8 +55,8 @@ Run add_prepare(CLI::App& program) {
       },
       [](const Options& options) {
         const Shard shard = parse_shard_option(options.shard);
-        const Job job =
-            load_job(options.config.config, options.config.overrides, options.config.cache_path());
+        const Job job = load_job(options.config.config_file, options.config.overrides,
+                                 options.config.cache_path());
         const std::filesystem::path cache = options.config.cache_path();
         make_directories(cache);
         if (!shard.is_whole_crowd()) {
@@ -65,12 +65,13 @@ Run add_prepare(CLI::App& program) {
         }
         const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
         require_heads_in_cache(prepared, job.names.heads, cache);
-        const double size = size_of_iterations(job.smoothing.kind(), job.inputs.max_level,
-                                               job.inputs.edge_length_mm);
+        const double size = wavelength_of_iterations(job.smoothing.kind(), job.inputs.max_level,
+                                                     job.inputs.edge_length_mm);
         log_info(concat("L_max is ", job.inputs.max_level, " iterations, a size of ",
                         format_fixed(size, 1), " mm on edges of ",
                         format_fixed(job.inputs.edge_length_mm, 2), " mm"));
-        if (job.config.smoothing.levels == Levels::kBasis) log_level_errors(job, prepared);
+        if (job.config.smoothing.levels == LevelRepresentation::kBasis)
+          log_level_errors(job, prepared);
       });
 }
 

@@ -42,7 +42,7 @@ void declare_submit(CLI::App& command, SubmitOptions& options) {
   add_option(command, "--memory", options.memory, "SIZE",
              "Memory per task, such as \"8 GiB\" (default: set by the engine)");
   add_option(command, "--partition", options.of_engine.partition, "NAME", "The Slurm partition");
-  add_option(command, "--time", options.of_engine.time, "TIME",
+  add_option(command, "--time", options.of_engine.time_limit, "TIME",
              "Time limit of a task in a Slurm format, such as 2:00:00");
   add_option(command, "--grace", options.grace, "SECONDS",
              "Seconds before the time limit at which a task is told to stop");
@@ -65,7 +65,8 @@ fs::path full_path(const fs::path& path) {
 /// Returns the command-line arguments that name the config and its overrides. Paths are absolute,
 /// so that the arguments are valid on every machine.
 std::vector<std::string> config_arguments(const ConfigOptions& options, const fs::path& out) {
-  std::vector<std::string> arguments = {full_path(options.config).string(), "--out", out.string()};
+  std::vector<std::string> arguments = {full_path(options.config_file).string(), "--out",
+                                        out.string()};
   const auto add = [&](const char* name, const std::string& value) {
     arguments.insert(arguments.end(), {name, value});
   };
@@ -93,13 +94,13 @@ void refuse_inapplicable_options(const SubmitOptions& options, Engine engine) {
     throw UsageError(concat(name, ": only --engine ", name_of(wanted), " supports this option"));
   };
   only_for("--partition", !of_engine.partition.empty(), Engine::kSlurm);
-  only_for("--time", !of_engine.time.empty(), Engine::kSlurm);
+  only_for("--time", !of_engine.time_limit.empty(), Engine::kSlurm);
   only_for("--host", !of_engine.hosts.empty(), Engine::kParallel);
-  if (of_engine.time.find_first_not_of("0123456789:-") != std::string::npos) {
+  if (of_engine.time_limit.find_first_not_of("0123456789:-") != std::string::npos) {
     throw UsageError(
         concat("--time: expected minutes, hours:minutes:seconds or another Slurm "
                "format, found ",
-               quoted(of_engine.time)));
+               quoted(of_engine.time_limit)));
   }
 }
 
@@ -114,19 +115,19 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   tasks.directory.root = full_path(job.config.output.directory);
   tasks.program =
       options.program.empty() ? fs::read_symlink("/proc/self/exe") : full_path(options.program);
-  tasks.config = config_arguments(options.config, tasks.directory.root);
-  tasks.limits = options.limit_arguments();
-  tasks.crowd = job.config.crowd.name;
-  tasks.cache = options.config.cache.empty() ? tasks.directory.task_folder() / "cache"
-                                             : full_path(options.config.cache);
-  tasks.scratch = options.scratch;
-  tasks.processors = parse_whole_number("--processors", options.processors, 1, kMaxProcessors);
-  tasks.memory = parse_byte_size("--memory", options.memory);
-  tasks.prepares = count_from("--prepare-tasks", options.prepares,
-                              suitable_prepare_count(job.inputs, tasks.processors));
-  tasks.shards = count_from(
+  tasks.config_arguments = config_arguments(options.config, tasks.directory.root);
+  tasks.limit_arguments = options.limit_arguments();
+  tasks.crowd_name = job.config.crowd.name;
+  tasks.cache = options.config.cache_folder.empty() ? tasks.directory.task_folder() / "cache"
+                                                    : full_path(options.config.cache_folder);
+  tasks.scratch_folder = options.scratch;
+  tasks.processor_count = parse_whole_number("--processors", options.processors, 1, kMaxProcessors);
+  tasks.memory_bytes = parse_byte_size("--memory", options.memory);
+  tasks.prepare_task_count = count_from("--prepare-tasks", options.prepares,
+                                        suitable_prepare_count(job.inputs, tasks.processor_count));
+  tasks.shard_count = count_from(
       "--shards", options.shards,
-      suitable_shard_count(job.config, job.inputs, face_count(job.config), tasks.processors));
+      suitable_shard_count(job.config, job.inputs, face_count(job.config), tasks.processor_count));
   return tasks;
 }
 
@@ -158,12 +159,12 @@ void submit(const SubmitOptions& options) {
   EngineOptions of_engine = options.of_engine;
   of_engine.grace_seconds = parse_whole_number("--grace", options.grace, 1, 65535);
   const Job job =
-      load_job(options.config.config, options.config.overrides, options.config.cache_path());
+      load_job(options.config.config_file, options.config.overrides, options.config.cache_path());
   const TaskJob tasks = tasks_of(options, job);
   check_output(job, Replace::kRefuse);
   const fs::path file = write_task_scripts(tasks, engine, of_engine);
-  log_info(concat(face_count(job.config), " faces; tasks: ", tasks.prepares,
-                  " to prepare heads, 1 to ", "plan, ", tasks.shards,
+  log_info(concat(face_count(job.config), " faces; tasks: ", tasks.prepare_task_count,
+                  " to prepare heads, 1 to ", "plan, ", tasks.shard_count,
                   " to make faces, 1 to gather; crowdface status ", tasks.directory.root.string(),
                   " shows their progress"));
   if (options.print) {

@@ -108,8 +108,8 @@ void synth(const SynthOptions& options) {
   for (std::uint64_t i = 1; i <= count; ++i) {
     const std::string name = head_name("synth", i);
     const synth::Person person = synth::random_person(seed, i);
-    tagged.push_back(
-        {name, person.male > 0, person.age, options.hair ? hair.add_head(seed, i) : std::string()});
+    tagged.push_back({name, person.maleness > 0, person.age_years,
+                      options.hair ? hair.add_head(seed, i) : std::string()});
     const std::string library = skins ? concat(name, ".mtl") : std::string();
     files.push_back({directory / concat(name, ".obj"), [&heads, &materials, library, seed, i] {
                        return encode_obj({heads.topology(), heads.positions(seed, i), heads.uvs()},

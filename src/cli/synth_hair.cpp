@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kPictureSize = 512;
-constexpr double kBald = 0.8;  // Complexion::receding above which the crown is bald
+constexpr double kBald = 0.8;  // Complexion::recession above which the crown is bald
 
 const char* form_tag(bool curly, bool bald) {
   if (bald) return "bald";
@@ -31,21 +31,21 @@ const char* form_tag(bool curly, bool bald) {
 }
 
 /// Returns the tag for a skin tone.
-/// \param tone  synth::Complexion::tone.
+/// \param tone  synth::Complexion::skin_tone.
 const char* skin_tag(double tone) {
   if (tone < 1 / 3.0) return "light_skin";
   return tone < 2 / 3.0 ? "medium_skin" : "dark_skin";
 }
 
 bool is_for(const synth::HairCut& cut, bool female, bool curly, bool bald) {
-  return cut.female == female && cut.curly == curly && cut.has_bald_crown == bald;
+  return cut.is_for_women == female && cut.is_curly == curly && cut.has_bald_crown == bald;
 }
 
 /// Returns the config text that excludes heads of one age class from a haircut, such as ", without:
 /// [old]"; empty if all age classes may wear the haircut.
 const char* age_condition(const synth::HairCut& cut) {
-  if (cut.young) return ", without: [old]";
-  return cut.receding > 0 ? ", without: [young]" : "";
+  if (cut.excludes_old_people) return ", without: [old]";
+  return cut.recession > 0 ? ", without: [young]" : "";
 }
 
 std::string picture_name(bool curly) {
@@ -84,9 +84,9 @@ bool SynthHair::is_used(const synth::HairCut& cut) const {
 
 std::string SynthHair::add_head(std::uint64_t seed, std::uint64_t index) {
   const synth::Complexion look = synth::random_complexion(seed, index);
-  const std::string skin = skin_tag(look.tone);
-  const bool bald = look.receding > kBald;
-  const HairStyle style{synth::random_person(seed, index).male < 0,
+  const std::string skin = skin_tag(look.skin_tone);
+  const bool bald = look.recession > kBald;
+  const HairStyle style{synth::random_person(seed, index).maleness < 0,
                         !bald && synth::has_curls(seed, index), bald};
   used_hair_styles_.insert(style);
   return concat(skin, ", ", synth::nearest_hair_colour(look.young_hair).name, "_hair, ",
@@ -125,12 +125,12 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     const synth::HairCut& cut = cuts[c];
     if (meshes[c] == nullptr) continue;
-    pictures.insert(cut.curly);
-    add_mesh(cut.name, meshes[c], picture_name(cut.curly));
-    section += item_line(
-        cut.name, "hair",
-        concat("tags: [", cut.female ? "female" : "male", ", ",
-               form_tag(cut.curly, cut.has_bald_crown), "]", age_condition(cut), ", tint: hair"));
+    pictures.insert(cut.is_curly);
+    add_mesh(cut.name, meshes[c], picture_name(cut.is_curly));
+    section += item_line(cut.name, "hair",
+                         concat("tags: [", cut.is_for_women ? "female" : "male", ", ",
+                                form_tag(cut.is_curly, cut.has_bald_crown), "]", age_condition(cut),
+                                ", tint: hair"));
   }
   for (const bool curly : pictures) {
     files.push_back({folder / "textures" / picture_name(curly), [curly] {
@@ -144,7 +144,7 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
   const Mesh skin = average_skin(heads);
   bool any_beard = false;
   for (const synth::FacialHair& style : synth::facial_hairs()) {
-    const auto is_of_sex = [&](const HairStyle& used) { return used.female == style.female; };
+    const auto is_of_sex = [&](const HairStyle& used) { return used.female == style.is_for_women; };
     if (std::ranges::none_of(used_hair_styles_, is_of_sex)) continue;
     any_beard = any_beard || style.is_beard;
     const auto layer =
@@ -154,10 +154,11 @@ void SynthHair::add_files(const fs::path& directory, const SyntheticHeads& heads
     files.push_back({folder / "textures" / picture, [layer] {
                        return encode_png(layer->width, layer->height, 4, layer->pixels);
                      }});
-    section += item_line(style.name, style.is_beard ? "beard" : "brows",
-                         concat("tags: [", style.female ? "female" : "male", "]",
-                                style.share == 1 ? "" : concat(", share: ", style.share),
-                                style.is_beard ? ", tint: beard" : ", tint: brows"));
+    section += item_line(
+        style.name, style.is_beard ? "beard" : "brows",
+        concat("tags: [", style.is_for_women ? "female" : "male", "]",
+               style.relative_frequency == 1 ? "" : concat(", share: ", style.relative_frequency),
+               style.is_beard ? ", tint: beard" : ", tint: brows"));
   }
   if (any_beard) section += "  none: {beard: 0.5}\n";
   files.push_back(text_file(folder / "attachments.yaml", std::move(section)));

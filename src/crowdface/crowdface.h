@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The public headers: these and all that they include. No other header is installed, and anything
-/// else may change without notice.
+/// Includes the public headers. Only the public headers and the headers that they include are
+/// installed; all other headers may change without notice.
 #pragma once
 
 #include "crowdface/blend/blend.h"

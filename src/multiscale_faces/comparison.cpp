@@ -38,7 +38,7 @@ std::vector<double> band_energies(const Topology& topology, const FrontPatch& pa
   const double edge = rms_edge_length(adjacency, components, components.largest(), positions);
   std::vector<std::uint64_t> iterations;
   for (const double size : bounds_mm) {
-    iterations.push_back(iterations_of_size(OperatorKind::kUmbrella, size, edge));
+    iterations.push_back(iterations_for_wavelength(OperatorKind::kUmbrella, size, edge));
   }
   const SmoothingOperator smoothing(adjacency, Boundary::kFixed, OperatorKind::kUmbrella);
   const ChebyshevFilter filter(smoothing, positions);
@@ -63,7 +63,8 @@ double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims,
 
 namespace {
 
-/// The two triangles at each interior edge whose two end points are both on the border.
+/// For each edge between two triangles with both end points in the border between regions: the two
+/// triangles.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_in(const FrontPatch& patch,
                                                           const std::vector<bool>& border) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> first;

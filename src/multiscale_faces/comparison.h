@@ -9,29 +9,31 @@ namespace crowdface::multiscale {
 
 /// Distances between two faces `a` and `b`.
 struct Differences {
-  double rms = 0, largest = 0;  ///< distances between the same vertices of both faces
-  double rms_to_surface = 0;    ///< rms distance of `b`'s vertices from the surface of `a`
+  /// between the same vertices of both faces
+  double rms_distance = 0, largest_distance = 0;
+  /// from the vertices of `b` to the surface of `a`
+  double rms_distance_to_surface = 0;
 };
-/// \param a, b  #P by 3, in the patch's numbers.
+/// \param a, b  #P by 3: one row per vertex of the patch.
 Differences differences(const FrontPatch& patch, const Positions& a, const Positions& b);
 
-/// The energy of each wavelength band of a head, on the patch: Σ over its vertices of the squared
-/// length of S(finer bound) − S(coarser bound), where S is Laplacian smoothing (Eq. 1).
+/// Returns the energy of each wavelength band of a head: the sum of |S(finer bound) − S(coarser
+/// bound)|² over the vertices of the patch. S is Laplacian smoothing (Eq. 1) of the whole head.
 /// \param positions  #V by 3 of whole heads, in millimetres.
-/// \param bounds_mm  half-amplitude wavelengths, ascending. The first band contains the wavelengths
-///                   below the first bound.
+/// \param bounds_mm  upper bounds of the bands (half-amplitude wavelengths), ascending.
 std::vector<double> band_energies(const Topology& topology, const FrontPatch& patch,
                                   const Positions& positions, const std::vector<double>& bounds_mm);
 
-/// The largest distance between corresponding vertices of two faces `a` and `b`, over the vertices
-/// on the given rims (boundary loops).
+/// Returns the largest distance between corresponding vertices of two faces `a` and `b`. Considers
+/// only the vertices on the given rims (boundary loops).
 double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
                             const Positions& b);
 
-/// Returns by how many degrees a face's creases exceed the creases of the heads that it is made
-/// from. At an edge, the crease is the angle between the normals of both triangles, and the excess
-/// is the face's crease minus the largest crease of any head at this edge. Returns the largest
-/// excess over the edges inside of region borders, or 0.
+/// Returns by how many degrees a face's creases exceed the creases of its source heads. At an edge,
+/// the crease is the angle between the normals of the two triangles, and the excess is the face's
+/// crease minus the largest crease of any source head. Returns the largest excess of all edges in
+/// the border between regions, or 0.
+/// \param heads   source heads, #P by 3 each.
 /// \param border  #P: whether a vertex lies in the border between regions.
 double largest_new_crease(const FrontPatch& patch, const Positions& face,
                           const std::vector<Positions>& heads, const std::vector<bool>& border);

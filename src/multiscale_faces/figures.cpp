@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr double kMmPerUnit = 10;  // the figures' heads are in centimetres
 constexpr double kScaleMm = 6;     // end of the colour scale
-// The coarsest base surface whose normals intersect the face at more than 99 % of the samples, on
-// synthetic and ICT heads.
+// Level of the base surface: the coarsest level at which more than 99 % of the normals intersect
+// the face, on synthetic and ICT heads.
 constexpr int kBase = 2;
 const std::vector<double> kBounds = {8, 16, 32, 64, 128};  // mm
 
@@ -48,7 +48,7 @@ class Heads {
   const FrontPatch& patch() const { return patch_; }
   const ObjFile& first() const { return first_; }
 
-  /// #V by 3, in millimetres. Heads are numbered from 1.
+  /// Returns the vertices of a head, #V by 3, in millimetres. Heads are numbered from 1.
   const Positions& head(int number) {
     return kept(heads_, number, [&] { return read(file(number)); });
   }
@@ -57,7 +57,7 @@ class Heads {
     MultiscaleFace& face = kept(faces_, number, [&] {
       return multiscale_face(patch_, patch_.rows_of(head(number)), base);
     });
-    if (face.base != base) face = with_base(std::move(face), base);
+    if (face.base_level != base) face = with_base_level(std::move(face), base);
     return face;
   }
   /// Returns a head whose front is replaced by `front`.
@@ -70,7 +70,8 @@ class Heads {
   }
   Rgb8Image picture(const Positions& head, const VertexColours* colours = nullptr) const {
     const FaceRenderer renderer(first_.topology, {.size_px = 288}, surfaces_);
-    const Camera camera = fit_camera(std::vector{&head}, {}, View::kFront, {.cut_below = 0.25});
+    const Camera camera =
+        fit_camera(std::vector{&head}, {}, View::kFront, {.bottom_cut_fraction = 0.25});
     return renderer.render(head, camera, colours);
   }
 
@@ -90,7 +91,8 @@ class Heads {
   std::map<int, MultiscaleFace> faces_;
 };
 
-/// A head, and the levels whose detail a face takes from this head, in a region or everywhere.
+/// A head that lends detail to a face: the weight of each level of detail, and optionally a weight
+/// for each vertex.
 struct Lender {
   int head;
   std::vector<double> level_weights;
@@ -99,7 +101,7 @@ struct Lender {
 
 /// Builds a face with the method of Yoon, Lewis and Rhee. \return the whole head, #V by 3.
 Positions make_face(Heads& heads, int target, int base, const std::vector<Lender>& lenders) {
-  std::vector<Details> details;
+  std::vector<WeightedSource> details;
   for (const Lender& of : lenders) heads.face(of.head, base);
   for (const Lender& of : lenders) {
     details.push_back({&heads.face(of.head, base), of.level_weights, of.vertex_weights});
@@ -108,12 +110,12 @@ Positions make_face(Heads& heads, int target, int base, const std::vector<Lender
 }
 
 std::vector<double> everywhere(int base, double weight) {
-  return std::vector<double>(static_cast<std::size_t>(kLevels - 1 - base), weight);
+  return std::vector<double>(static_cast<std::size_t>(kLevelCount - 1 - base), weight);
 }
 
-/// The face of the other method that is nearest to a given face of ours, over all base levels, with
-/// a weight for each level, which target and lenders share. \param regions  #lenders: weight of
-/// each vertex of the patch, or empty.
+/// The face by Yoon, Lewis and Rhee's method that is nearest to a given face of ours. The search
+/// covers base levels 0 to 3 and one weight w per level: each lender gets w, the target gets 1 − w.
+/// \param regions  #lenders: the lender's weight at each vertex of the patch; or empty.
 struct Nearest {
   Positions face;
   int base = 0;
@@ -154,7 +156,8 @@ Nearest nearest_face(Heads& heads, int target, const std::vector<int>& lenders,
     }
     const Positions face = face_of(weights);
     const double rms =
-        differences(heads.patch(), heads.patch().rows_of(ours), heads.patch().rows_of(face)).rms;
+        differences(heads.patch(), heads.patch().rows_of(ours), heads.patch().rows_of(face))
+            .rms_distance;
     if (rms < best_rms) best = {face, base, weights}, best_rms = rms;
   }
   return best;
@@ -176,9 +179,10 @@ class Report {
     const Differences d = differences(patch, a, b);
     table_ << std::fixed;
     table_.precision(2);
-    table_ << "| " << name << " | " << settings << " | " << d.rms << " | " << d.rms_to_surface
-           << " | " << d.largest << " | " << largest_rim_distance(patch.holes, a, before) << ", "
-           << largest_rim_distance(patch.holes, b, before) << " | "
+    table_ << "| " << name << " | " << settings << " | " << d.rms_distance << " | "
+           << d.rms_distance_to_surface << " | " << d.largest_distance << " | "
+           << largest_rim_distance(patch.hole_rims, a, before) << ", "
+           << largest_rim_distance(patch.hole_rims, b, before) << " | "
            << largest_rim_distance({patch.border}, a, before) << ", "
            << largest_rim_distance({patch.border}, b, before) << " | " << kept(ours, lender)
            << " | " << kept(theirs, lender) << " |\n";
@@ -201,8 +205,8 @@ class Report {
   }
 
  private:
-  /// Energy of each band of a face, in percent of the energy of the same band of the head that
-  /// lends its detail.
+  /// Returns, for each wavelength band, the energy of the face in percent of the energy of the
+  /// lender.
   std::string kept(const Positions& face, int lender) {
     const Topology& topology = heads_.first().topology;
     const std::vector<double> of_face = band_energies(topology, heads_.patch(), face, kBounds);
@@ -305,15 +309,15 @@ void how_exact_and_how_fast(Heads& heads, Report& report) {
   Positions again;
   const double prepare = seconds_of([&] { face = multiscale_face(patch, front, kBase); });
   const double blend = seconds_of([&] {
-    const Details own{&face, everywhere(kBase, 1)};
+    const WeightedSource own{&face, everywhere(kBase, 1)};
     again = synthesize(face, {&own, 1});
   });
   const Differences d = differences(patch, front, again);
   std::ostringstream text;
   text << "front: " << patch.vertex_count() << " of " << heads.head(2).rows() << " vertices, "
-       << patch.holes.size() << " holes. A head from its own maps: " << d.rms << " mm rms, "
-       << d.rms_to_surface << " to the surface, " << d.largest
-       << " at most; normals that miss: " << 100 * face.missed_share
+       << patch.hole_rims.size() << " holes. A head from its own maps: " << d.rms_distance
+       << " mm rms, " << d.rms_distance_to_surface << " to the surface, " << d.largest_distance
+       << " at most; normals that miss: " << 100 * face.missed_normal_share
        << " %. Preparing a head: " << prepare << " s, a face: " << blend << " s";
   report.line(text.str());
 }

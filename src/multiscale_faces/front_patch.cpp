@@ -106,8 +106,8 @@ FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up,
   if (rims.empty()) throw InvalidInput("the front of the heads has no border");
   std::ranges::sort(rims, {}, [](const auto& rim) { return -static_cast<Index>(rim.size()); });
   patch.border = std::move(rims.front());
-  patch.holes.assign(std::make_move_iterator(rims.begin() + 1),
-                     std::make_move_iterator(rims.end()));
+  patch.hole_rims.assign(std::make_move_iterator(rims.begin() + 1),
+                         std::make_move_iterator(rims.end()));
 
   // Choose as corners of the square the border vertices that are farthest along the diagonals, seen
   // from the front.
@@ -123,10 +123,10 @@ FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up,
     const auto farthest = std::ranges::max_element(patch.border, {}, [&](std::uint32_t v) {
       return kDiagonals[i][0] * along(across, v) + kDiagonals[i][1] * along(up.index, v);
     });
-    patch.corners[i] = static_cast<std::size_t>(farthest - patch.border.begin());
+    patch.corners_in_border[i] = static_cast<std::size_t>(farthest - patch.border.begin());
   }
   // Sort the corners in the order of the border.
-  std::ranges::sort(patch.corners);
+  std::ranges::sort(patch.corners_in_border);
   return patch;
 }
 

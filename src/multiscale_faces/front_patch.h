@@ -15,21 +15,21 @@ namespace crowdface::multiscale {
 /// The front of a head as one connected surface, with its own vertex numbers. Its longest boundary
 /// loop (rim) is the border; every other rim is the rim of a hole, such as an eye.
 struct FrontPatch {
-  std::vector<std::uint32_t> head_vertices;       ///< #P: the head's vertex of each patch vertex
-  std::vector<Triangle> triangles;                ///< indices of patch vertices
-  std::vector<std::uint32_t> border;              ///< patch vertices around the border, in order
-  std::vector<std::vector<std::uint32_t>> holes;  ///< patch vertices around each hole, in order
-  /// Positions in `border` of the vertices that become the corners of the unit square, in the order
-  /// of the border.
-  std::array<std::size_t, 4> corners{};
+  std::vector<std::uint32_t> head_vertices;  ///< #P: the head's vertex of each patch vertex
+  std::vector<Triangle> triangles;           ///< indices of patch vertices
+  std::vector<std::uint32_t> border;         ///< patch vertices around the border, in order
+  std::vector<std::vector<std::uint32_t>> hole_rims;  ///< patch vertices around each hole, in order
+  /// Indices into `border`, ascending: the vertices that become the corners of the unit square.
+  std::array<std::size_t, 4> corners_in_border{};
 
   Index vertex_count() const { return static_cast<Index>(head_vertices.size()); }
-  /// The patch's rows of an array with one row for each vertex of the head.
+  /// Selects the rows of the patch's vertices from an array with one row for each vertex of the
+  /// head.
   Positions rows_of(const Positions& head) const;
 };
 
-/// Cuts out the skin in front of the head's middle (FaceArea::kFront) that faces the front, so that
-/// eye sockets and the inside of the mouth become holes. Omits triangles where a rim touches itself
+/// Selects the skin in the front half of the head (FaceArea::kFront) whose normals point forwards.
+/// Eye sockets and the inside of the mouth become holes. Omits triangles where a rim touches itself
 /// and triangles whose corners all lie on rims.
 /// \param mean   #V by 3, the mean of all heads.
 /// \param up     axis towards the top of the head.

@@ -39,9 +39,9 @@ void place_border(const FrontPatch& patch, const Positions& positions, TextureCo
   const std::array<Eigen::RowVector2d, 5> square = {
       Eigen::RowVector2d(0, 0), {1, 0}, {1, 1}, {0, 1}, {0, 0}};
   for (std::size_t side = 0; side < 4; ++side) {
-    const std::size_t begin = patch.corners[side];
+    const std::size_t begin = patch.corners_in_border[side];
     const std::size_t count =
-        (patch.corners[(side + 1) % 4] + border.size() - begin - 1) % border.size() + 1;
+        (patch.corners_in_border[(side + 1) % 4] + border.size() - begin - 1) % border.size() + 1;
     std::vector<double> length = {0};
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t a = border[(begin + i) % border.size()],

@@ -17,8 +17,8 @@
 namespace crowdface::multiscale {
 namespace {
 
-/// Points of a surface at the points of a regular grid on the square; only grid points that
-/// triangles cover.
+/// Samples of a surface on a regular grid of the unit square. Grid points that no triangle covers
+/// have no sample.
 struct Samples {
   TextureCoordinates uvs;  ///< #S by 2
   Columns points;          ///< #S by 3
@@ -113,14 +113,14 @@ void add_displacements(MultiscaleFace& face) {
   grid /= static_cast<double>(side - 1);
 
   face.displacements.clear();
-  const SplineLattice& base = face.surfaces[static_cast<std::size_t>(face.base)];
+  const SplineLattice& base = face.surfaces[static_cast<std::size_t>(face.base_level)];
   Columns before = Columns::Zero(grid.rows(), 1);
-  // (u, v) at which each sample's normal meets the surface of the previous level. The search on this
-  // level's surface starts there.
+  // For each sample: the (u, v) at which the sample's normal meets the surface of the previous
+  // level. The search on the surface of the current level starts at this (u, v).
   TextureCoordinates met = grid;
   std::vector<char> missed(static_cast<std::size_t>(grid.rows()));
-  for (std::size_t level = static_cast<std::size_t>(face.base) + 1; level < face.surfaces.size();
-       ++level) {
+  for (std::size_t level = static_cast<std::size_t>(face.base_level) + 1;
+       level < face.surfaces.size(); ++level) {
     const SplineLattice& surface = face.surfaces[level];
     Columns distances(grid.rows(), 1);
     parallel_for_each(grid.rows(), kRowsPerTask, [&](Index s) {
@@ -132,42 +132,44 @@ void add_displacements(MultiscaleFace& face) {
                             : from.normal.dot(surface.value(grid.row(s)).transpose() - from.point);
     });
     face.displacements.push_back(
-        approximate_by_levels(kCoarsest, surface.spans(), grid, distances - before).back());
+        approximate_by_levels(kCoarsestSpans, surface.spans(), grid, distances - before).back());
     before = std::move(distances);
   }
-  face.missed_share =
+  face.missed_normal_share =
       static_cast<double>(std::ranges::count(missed, 1)) / static_cast<double>(missed.size());
 }
 
 }  // namespace
 
-MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positions, int base) {
+MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positions,
+                               int base_level) {
   MultiscaleFace face;
   face.uvs = harmonic_map(patch, positions);
   const Samples samples = resample(patch.triangles, face.uvs, positions);
-  face.surfaces = approximate_by_levels(kCoarsest, kFinest, samples.uvs, samples.points);
-  return with_base(std::move(face), base);
+  face.surfaces = approximate_by_levels(kCoarsestSpans, kFinestSpans, samples.uvs, samples.points);
+  return with_base_level(std::move(face), base_level);
 }
 
-MultiscaleFace with_base(MultiscaleFace face, int base) {
-  require(base >= 0 && base + 1 < static_cast<int>(face.surfaces.size()), "no such base level");
-  face.base = base;
+MultiscaleFace with_base_level(MultiscaleFace face, int base_level) {
+  require(base_level >= 0 && base_level + 1 < static_cast<int>(face.surfaces.size()),
+          "no such base level");
+  face.base_level = base_level;
   add_displacements(face);
   return face;
 }
 
-Positions synthesize(const MultiscaleFace& target, std::span<const Details> details) {
-  const SplineLattice& base = target.surfaces[static_cast<std::size_t>(target.base)];
-  for (const Details& of : details) {
-    require(
-        of.face->base == target.base && of.level_weights.size() == of.face->displacements.size(),
-        "details need the target's base level and a weight for each level");
+Positions synthesize(const MultiscaleFace& target, std::span<const WeightedSource> sources) {
+  const SplineLattice& base = target.surfaces[static_cast<std::size_t>(target.base_level)];
+  for (const WeightedSource& of : sources) {
+    require(of.face->base_level == target.base_level &&
+                of.level_weights.size() == of.face->displacements.size(),
+            "details need the target's base level and a weight for each level");
   }
   Positions result(target.uvs.rows(), 3);
   parallel_for_each(target.uvs.rows(), kRowsPerTask, [&](Index v) {
     const SurfacePoint at = surface_point(base, target.uvs.row(v));
     double height = 0;
-    for (const Details& of : details) {
+    for (const WeightedSource& of : sources) {
       const double weight =
           of.vertex_weights.empty() ? 1 : of.vertex_weights[static_cast<std::size_t>(v)];
       if (weight == 0) continue;

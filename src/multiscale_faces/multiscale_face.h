@@ -10,15 +10,15 @@
 namespace crowdface::multiscale {
 
 /// Number of spline spans along each side of the coarsest and of the finest lattice. Level k has
-/// kCoarsest·2^k spans.
-inline constexpr Index kCoarsest = 4;
-inline constexpr Index kFinest = 256;
-inline constexpr int kLevels = 7;
-static_assert(kCoarsest << (kLevels - 1) == kFinest);
+/// kCoarsestSpans·2^k spans.
+inline constexpr Index kCoarsestSpans = 4;
+inline constexpr Index kFinestSpans = 256;
+inline constexpr int kLevelCount = 7;
+static_assert(kCoarsestSpans << (kLevelCount - 1) == kFinestSpans);
 
 /// Number of samples along each side of the square on which a face is resampled: two per span of
 /// the finest lattice.
-inline constexpr Index kSamplesPerSide = 2 * kFinest + 1;
+inline constexpr Index kSamplesPerSide = 2 * kFinestSpans + 1;
 
 /// A face in the method of Yoon, Lewis and Rhee (2017), as "Laplacian face blending" (Section 2.3)
 /// describes it: a smooth base surface and scalar displacements along its normals, one continuous
@@ -31,30 +31,31 @@ inline constexpr Index kSamplesPerSide = 2 * kFinest + 1;
 struct MultiscaleFace {
   TextureCoordinates uvs;               ///< #P by 2, of the patch's vertices
   std::vector<SplineLattice> surfaces;  ///< by level, coarsest first; values are positions
-  int base = 0;                         ///< the level of the base surface
+  int base_level = 0;                   ///< the level of the base surface
   std::vector<SplineLattice>
-      displacements;        ///< by level from base + 1 on: added to the previous level
-  double missed_share = 0;  ///< fraction of samples whose normals miss the finest surface
+      displacements;               ///< by level from base_level + 1 on: added to the previous level
+  double missed_normal_share = 0;  ///< fraction of samples whose normals miss the finest surface
 };
 
 /// Computes the levels of a face.
-/// \param positions  #P by 3, in the patch's numbers. \param base  0 … kLevels − 2.
-MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positions, int base);
+/// \param positions   #P by 3: one row per vertex of the patch.
+/// \param base_level  0 … kLevelCount − 2.
+MultiscaleFace multiscale_face(const FrontPatch& patch, const Positions& positions, int base_level);
 /// Returns the same face with another base level.
-MultiscaleFace with_base(MultiscaleFace face, int base);
+MultiscaleFace with_base_level(MultiscaleFace face, int base_level);
 
-/// The details that a new face takes from one source face.
-struct Details {
+/// One source face, and the weights with which a new face takes its details.
+struct WeightedSource {
   const MultiscaleFace* face = nullptr;
-  /// For each level from base + 1 on, the weight of the level's detail in the whole patch.
+  /// For each level from base_level + 1 on, the weight of the level's detail in the whole patch.
   std::vector<double> level_weights;
-  /// #P factors on `level_weights`; empty: 1 everywhere.
+  /// #P: factor on all `level_weights` at each vertex of the patch; empty: 1 everywhere.
   std::vector<double> vertex_weights = {};
 };
 
-/// Makes a new face: the base surface of `target`, displaced along its normals by the weighted sum
-/// of the details of all faces, which have the same base level.
+/// Makes a new face: the base surface of `target`, displaced along the surface's normals by the
+/// weighted sum of `sources`. All faces in `sources` must have the base level of `target`.
 /// \return #P by 3: a position for each vertex of the target's patch.
-Positions synthesize(const MultiscaleFace& target, std::span<const Details> details);
+Positions synthesize(const MultiscaleFace& target, std::span<const WeightedSource> sources);
 
 }  // namespace crowdface::multiscale

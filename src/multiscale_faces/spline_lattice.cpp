@@ -43,8 +43,8 @@ SplineSupport place_of(Index spans, const Eigen::RowVector2d& uv) {
 }  // namespace
 
 SplineLattice::SplineLattice(Index spans, Columns control)
-    : spans_(spans), control_(std::move(control)) {
-  require(spans >= 1 && control_.rows() == (spans + 3) * (spans + 3),
+    : spans_(spans), control_points_(std::move(control)) {
+  require(spans >= 1 && control_points_.rows() == (spans + 3) * (spans + 3),
           "a lattice needs (spans + 3)² control points");
 }
 
@@ -59,7 +59,7 @@ Eigen::RowVectorXd SplineLattice::value(const Eigen::RowVector2d& uv) const {
     for (Index k = 0; k < 4; ++k) {
       sum += place.u.value[static_cast<std::size_t>(k)] *
              place.v.value[static_cast<std::size_t>(l)] *
-             control_.row(place.first_row + k + l * (spans_ + 3));
+             control_points_.row(place.first_row + k + l * (spans_ + 3));
     }
   }
   return sum;
@@ -72,8 +72,8 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> SplineLattice::jet(const Eigen::RowVect
   jet.setZero();
   for (std::size_t l = 0; l < 4; ++l) {
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto point = control_.row(place.first_row + static_cast<Index>(k) +
-                                      static_cast<Index>(l) * (spans_ + 3));
+      const auto point = control_points_.row(place.first_row + static_cast<Index>(k) +
+                                             static_cast<Index>(l) * (spans_ + 3));
       jet.row(0) += place.u.value[k] * place.v.value[l] * point;
       jet.row(1) += scale * place.u.slope[k] * place.v.value[l] * point;
       jet.row(2) += scale * place.u.value[k] * place.v.slope[l] * point;
@@ -84,8 +84,8 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> SplineLattice::jet(const Eigen::RowVect
 
 SplineLattice SplineLattice::refined() const {
   const Index side = spans_ + 3, fine = 2 * spans_ + 3;
-  // Along one direction, with φ_i at row i + 1: φ'_2i = (φ_i−1 + 6 φ_i + φ_i+1)/8 and
-  // φ'_2i+1 = (φ_i + φ_i+1)/2.
+  // Refines along one direction: φ'_2i = (φ_i−1 + 6 φ_i + φ_i+1)/8 and φ'_2i+1 = (φ_i + φ_i+1)/2.
+  // In both lattices, row i + 1 contains φ_i.
   const auto combine = [](Index row, const auto& at) -> Eigen::RowVectorXd {
     const Index i = (row - 1 >= 0 ? (row - 1) / 2 : -1) + 1;  // row of φ_i in the coarse lattice
     if ((row - 1) % 2 == 0) return (at(i - 1) + 6 * at(i) + at(i + 1)) / 8;
@@ -94,7 +94,8 @@ SplineLattice SplineLattice::refined() const {
   Columns half(fine * side, components());  // refined along u
   for (Index j = 0; j < side; ++j) {
     for (Index i = 0; i < fine; ++i) {
-      half.row(i + j * fine) = combine(i, [&](Index k) { return control_.row(k + j * side); });
+      half.row(i + j * fine) =
+          combine(i, [&](Index k) { return control_points_.row(k + j * side); });
     }
   }
   Columns control(fine * fine, components());
@@ -108,13 +109,13 @@ SplineLattice SplineLattice::refined() const {
 
 SplineLattice SplineLattice::operator+(const SplineLattice& other) const {
   require(spans_ == other.spans_, "lattices of different sizes cannot be added");
-  return {spans_, control_ + other.control_};
+  return {spans_, control_points_ + other.control_points_};
 }
 
 SplineLattice approximate(Index spans, const TextureCoordinates& uvs, const Columns& values) {
   require(uvs.rows() == values.rows(), "each sample needs a place and a value");
   SplineLattice zero = SplineLattice::zero(spans, values.cols());
-  Columns control = zero.control();
+  Columns control = zero.control_points();
   Eigen::VectorXd weight_sum = Eigen::VectorXd::Zero(control.rows());
   for (Index s = 0; s < uvs.rows(); ++s) {
     const SplineSupport place = place_of(spans, uvs.row(s));

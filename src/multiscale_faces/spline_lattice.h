@@ -22,8 +22,8 @@ class SplineLattice {
   static SplineLattice zero(Index spans, Index components);
 
   Index spans() const { return spans_; }
-  Index components() const { return control_.cols(); }
-  const Columns& control() const { return control_; }
+  Index components() const { return control_points_.cols(); }
+  const Columns& control_points() const { return control_points_; }
 
   /// \param uv  in [0, 1]².
   Eigen::RowVectorXd value(const Eigen::RowVector2d& uv) const;
@@ -37,18 +37,19 @@ class SplineLattice {
 
  private:
   Index spans_;
-  Columns control_;
+  Columns control_points_;
 };
 
-/// The paper's BA algorithm: for each sample, proposes the control points with the smallest sum of
-/// squares that reproduce the sample's value; each control point is the weighted mean of these
-/// proposals (Eqs. 3 to 5), or zero without proposals.
+/// The paper's BA algorithm. Each sample proposes values for the 16 control points around it: the
+/// values that reproduce the sample and have the smallest sum of squares. Each control point
+/// becomes the weighted mean of its proposals (Eqs. 3 to 5), or zero if there are no proposals.
 /// \param uvs  #S by 2. \param values  #S by C.
 SplineLattice approximate(Index spans, const TextureCoordinates& uvs, const Columns& values);
 
 /// The paper's MBA algorithm with refinement: the functions Ψ_0, Ψ_1, … Each function adds, on a
 /// lattice with twice as many spans, an approximation of the errors of the previous function.
-/// \param coarsest, finest  spans; finest is coarsest times a power of two.
+/// \param coarsest, finest  numbers of spans of the first and the last function; `finest` is
+///                  `coarsest` times a power of two.
 std::vector<SplineLattice> approximate_by_levels(Index coarsest, Index finest,
                                                  const TextureCoordinates& uvs,
                                                  const Columns& values);

@@ -128,7 +128,7 @@ std::vector<double> heights_on(const FittedSkin& skin, const Mesh& fitted, const
   std::vector<double> heights;
   for (Index p = 0; p < points.rows(); ++p) {
     const PointGrid::NearestVertex nearest = skin.grid().nearest(row3(fitted.points, p));
-    const bool far = nearest.distance > 25 * skin.mm() + 2 * skin.spacing();
+    const bool far = nearest.distance > 25 * skin.units_per_mm() + 2 * skin.spacing();
     heights.push_back(
         far ? std::numeric_limits<double>::infinity()
             : skin.nearest_skin(face, normals, nearest.vertex, row3(points, p)).height);

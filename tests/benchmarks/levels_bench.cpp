@@ -65,10 +65,10 @@ void print_row(const char* name, const LevelFields& fields, const Levels& levels
   }
   const auto vertices = static_cast<double>(fields.vertex_count);
   std::printf("| %-22s | %2td | %4.1f | %8.4f at %-6llu | %8.5f | %3.0f | %5.2f |\n", name,
-              fields.rank, static_cast<double>(fields.numbers.size()) / (3 * vertices),
+              fields.rank, static_cast<double>(fields.quantized_values.size()) / (3 * vertices),
               kMmPerCm * largest, static_cast<unsigned long long>(where),
               kMmPerCm * std::sqrt(squares / count),
-              static_cast<double>(fields.numbers.size_bytes()) / vertices, seconds);
+              static_cast<double>(fields.quantized_values.size_bytes()) / vertices, seconds);
 }
 
 template <class Work>

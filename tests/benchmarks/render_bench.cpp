@@ -23,7 +23,7 @@ struct Subject {
 
   static Camera fit(const Positions& head) {
     const Positions* heads[] = {&head};
-    return fit_camera(heads, {}, View::kFront, {.cut_below = 0.22});
+    return fit_camera(heads, {}, View::kFront, {.bottom_cut_fraction = 0.22});
   }
 };
 
@@ -35,7 +35,7 @@ const Subject& subject() {
 void BM_Render(benchmark::State& state) {
   const Subject& s = subject();
   const ThreadLimit limit(static_cast<int>(state.range(0)));
-  const FaceRenderer renderer(s.heads.topology(), {.occlusion = state.range(1) != 0}, {},
+  const FaceRenderer renderer(s.heads.topology(), {.ambient_occlusion = state.range(1) != 0}, {},
                               state.range(2) != 0 ? &s.other : nullptr);
   renderer.render(s.positions, s.camera);
   for (auto _ : state) benchmark::DoNotOptimize(renderer.render(s.positions, s.camera).pixels);

@@ -41,7 +41,7 @@ void blend_four_textures(benchmark::State& state) {
   const Recipe recipe = recipe_of_all();
   for (auto _ : state) benchmark::DoNotOptimize(blender.blend(recipe, 0));
   state.SetItemsProcessed(state.iterations() *
-                          static_cast<std::int64_t>(sheet.texels().covered_count()));
+                          static_cast<std::int64_t>(sheet.texels().covered_texel_count()));
 }
 BENCHMARK(blend_four_textures)->Unit(benchmark::kMillisecond)->UseRealTime();
 

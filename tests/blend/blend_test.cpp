@@ -125,7 +125,7 @@ class Blend : public ::testing::Test {
   }
 
   HeadSet faces_;
-  RegionWeights one_ = whole_head(testing::grid_topology(9, 8));
+  RegionWeights one_ = whole_head_weights(testing::grid_topology(9, 8));
   RegionWeights two_;
 };
 
@@ -203,7 +203,7 @@ TEST_F(Blend, ChangingOneBandGivesTheBitsOfBlending) {
   Recipe after = banded();
   after.regions[1].finer_bands[0].weights = {{1, 1}};
   Positions face = all.blend(banded());
-  all.change(banded(), after, face);
+  all.update(banded(), after, face);
   EXPECT_EQ(face, all.blend(after));
 }
 
@@ -347,7 +347,7 @@ TEST_F(Blend, AChangedFaceHasTheBitsOfOneMadeAnew) {
   Positions face = blend.blend(steps.front());
   for (std::size_t i = 1; i < steps.size(); ++i) {
     const Positions before = face;
-    blend.change(steps[i - 1], steps[i], face);
+    blend.update(steps[i - 1], steps[i], face);
     EXPECT_EQ(face, blend.blend(steps[i])) << i;
     EXPECT_NE(face, before) << i;
   }
@@ -534,7 +534,7 @@ TEST_F(BlendPatches, ChangingOneRegionGivesTheBitsOfBlending) {
   Recipe after = recipes_[0];
   after.regions[2].iterations = 7;
   Positions face = blend.blend(recipes_[0]);
-  blend.change(recipes_[0], after, face);
+  blend.update(recipes_[0], after, face);
   EXPECT_EQ(face, blend.blend(after));
 }
 

@@ -313,7 +313,7 @@ TEST(AttachmentDraw, ChildrenHaveAParentsColourWhateverTheirHeadHas) {
                {"female", "black_hair"},
                {"female", "grey_hair", "old"},
                {"male", "bald"}};
-  draw.heads = {"ann", "bob", "cyd", "dot", "eve"};
+  draw.head_names = {"ann", "bob", "cyd", "dot", "eve"};
   const auto placed = [&](const std::string& mother, const std::string& father) {
     FacePlan child = child_of({{0, 0.1}, {2, 0.9}}, {mother, father});
     return attachments_of(draw, child);
@@ -390,7 +390,7 @@ AttachmentOptions crowd_with_hair() {
                {"female", "young", "red_hair"},
                {"female", "old", "brown_hair"},
                {"female", "old", "red_hair"}};
-  draw.heads = {"ann", "bea", "cyd", "dot"};
+  draw.head_names = {"ann", "bea", "cyd", "dot"};
   return draw;
 }
 
@@ -411,7 +411,7 @@ TEST(HairColour, IsOfFacesThatMayWearATint) {
     ASSERT_TRUE(face.hair);
     const bool red = face.recipe.target % 2 == 1;
     EXPECT_NEAR(face.hair->pheomelanin, red ? 0.8 : 0, 0.11) << face.id;
-    (face.recipe.target < 2 ? young : old) += face.hair->grey / 20;
+    (face.recipe.target < 2 ? young : old) += face.hair->grey_fraction / 20;
   }
   EXPECT_EQ(young, 0);
   EXPECT_GT(old, 0.5);
@@ -433,7 +433,7 @@ TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
     }
     choose_attachments(crowd_with_hair(), {}, crowd);
     double sum = 0;
-    for (const FacePlan& face : crowd) sum += face.hair->grey / 200;
+    for (const FacePlan& face : crowd) sum += face.hair->grey_fraction / 200;
     return sum;
   };
   EXPECT_EQ(mean_grey(0), 0);
@@ -460,7 +460,7 @@ TEST(HairColour, FollowsSharesExactlyInEachGroup) {
     } else {
       const bool is_blond = face.hair->eumelanin < 0.35;  // the others are brown
       blond += is_blond ? 1 : 0;
-      grey += face.hair->grey > 0.3 ? 1 : 0;
+      grey += face.hair->grey_fraction > 0.3 ? 1 : 0;
     }
   }
   EXPECT_NEAR(blond, 15, 1);
@@ -507,8 +507,8 @@ TEST(HairColour, ThatIsAskedForGreysWithAge) {
   for (const FacePlan& face : crowd) {
     EXPECT_NEAR(face.hair->pheomelanin, 0.8, 0.11);
     const bool is_old = face.recipe.target >= 2;
-    if (!is_old) EXPECT_EQ(face.hair->grey, 0);
-    grey += is_old && face.hair->grey > 0.5 ? 1 : 0;
+    if (!is_old) EXPECT_EQ(face.hair->grey_fraction, 0);
+    grey += is_old && face.hair->grey_fraction > 0.5 ? 1 : 0;
   }
   EXPECT_GT(grey, 10) << "of twenty";
 }
@@ -533,7 +533,7 @@ TEST(HairColour, OfAChildIsAParentsOrLiesBetween) {
 
 TEST(HairColour, OfTwinsIsTheSame) {
   AttachmentOptions draw = crowd_with_hair();
-  draw.twins = {"clan"};
+  draw.twin_families = {"clan"};
   std::vector<FacePlan> crowd(2);
   for (std::size_t i = 0; i < 2; ++i) {
     crowd[i].id = "clan_" + std::to_string(i);

@@ -80,8 +80,8 @@ TEST(CapacityForecast, TellsEarlyHowManyPointsWillFit) {
       const std::uint64_t too_near = fit.place(kWanted);
       if (too_near >= 1000) break;
       forecast.add(too_near, kWanted);
-      if (early == 0 && forecast.estimated_faces()) {
-        early = *forecast.estimated_faces();
+      if (early == 0 && forecast.estimated_face_count()) {
+        early = *forecast.estimated_face_count();
         told_at = fit.placed.size();
       }
     }
@@ -127,7 +127,7 @@ TEST(CapacityForecast, IsNotMisledByAPlaceWhereManyCrowdTogether) {
     if (too_near == 1000) break;
     forecast.add(too_near, 1);
     if (placed.size() < 512) continue;
-    if (const auto faces = forecast.estimated_faces(); faces && (!least || *faces < *least))
+    if (const auto faces = forecast.estimated_face_count(); faces && (!least || *faces < *least))
       least = faces;
   }
   const auto fitted = static_cast<double>(placed.size());
@@ -140,16 +140,16 @@ TEST(CapacityForecast, KeepsSilentWhileItHasSeenTooLittle) {
   CapacityForecast forecast;
   const auto add = [&](int face) { forecast.add(face < 128 ? 5 : 10, 5); };
   for (int i = 0; i < 255; ++i) add(i);
-  EXPECT_FALSE(forecast.estimated_faces()) << "few faces";
+  EXPECT_FALSE(forecast.estimated_face_count()) << "few faces";
   add(255);
-  ASSERT_TRUE(forecast.estimated_faces());
-  EXPECT_NEAR(*forecast.estimated_faces(), 256 + 4 * (1.0 / 3) / ((2.0 / 3 - 0.5) / 96), 1e-9);
+  ASSERT_TRUE(forecast.estimated_face_count());
+  EXPECT_NEAR(*forecast.estimated_face_count(), 256 + 4 * (1.0 / 3) / ((2.0 / 3 - 0.5) / 96), 1e-9);
   CapacityForecast level;
   for (int i = 0; i < 1000; ++i) level.add(10, 1);
-  EXPECT_FALSE(level.estimated_faces()) << "it does not get harder";
+  EXPECT_FALSE(level.estimated_face_count()) << "it does not get harder";
   CapacityForecast roomy;
   for (int i = 0; i < 100'000; ++i) roomy.add(i % 2000 == 0 ? 1 : 0, 8);
-  EXPECT_FALSE(roomy.estimated_faces()) << "nothing is too near";
+  EXPECT_FALSE(roomy.estimated_face_count()) << "nothing is too near";
   EXPECT_THROW(roomy.add(1, 0), BrokenPrecondition);
 }
 

@@ -18,7 +18,7 @@ constexpr Index kHeads = 6;
 ColourOptions six_heads() {
   ColourOptions draw;
   draw.seed = 5;
-  draw.heads = {"a", "b", "c", "d", "e", "f"};
+  draw.head_names = {"a", "b", "c", "d", "e", "f"};
   draw.tags = {{"pale", "woman"}, {"woman"}, {"woman"}, {"man", "pale"}, {"man"}, {"man"}};
   draw.tags_to_match = {"woman", "man"};
   return draw;

@@ -33,7 +33,7 @@ CastingOptions example() {
   casting.sampling.targets = {{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}};
   casting.sampling.sources = {0, 1, 2, 3, 4};
   casting.sampling.regions.resize(2);
-  casting.scale = {OperatorKind::kUmbrella, 1000, 2};
+  casting.level_scale = {OperatorKind::kUmbrella, 1000, 2};
   return casting;
 }
 
@@ -414,8 +414,8 @@ TEST(DrawRecipe, FractionsBecomeTheNearestIterations) {
     const RegionRecipe& region = r.recipe.regions[0];
     EXPECT_EQ(static_cast<double>(region.iterations), std::round(region.smoothness * 1000));
   }
-  EXPECT_EQ(iterations_of(0, casting.scale), 0U);
-  EXPECT_EQ(iterations_of(1, casting.scale), 1000U);
+  EXPECT_EQ(iterations_of(0, casting.level_scale), 0U);
+  EXPECT_EQ(iterations_of(1, casting.level_scale), 1000U);
 }
 
 TEST(DrawRecipe, IterationsStandAsDrawn) {
@@ -435,8 +435,8 @@ TEST(DrawRecipe, IterationsStandAsDrawn) {
 TEST(DrawRecipe, SizesBecomeTheirIterations) {
   for (const OperatorKind kind : {OperatorKind::kUmbrella, OperatorKind::kLazy}) {
     CastingOptions casting = example();
-    casting.scale.kind = kind;
-    const double largest = size_of_iterations(kind, casting.scale.max_level, 2);
+    casting.level_scale.operator_kind = kind;
+    const double largest = wavelength_of_iterations(kind, casting.level_scale.max_level, 2);
     std::uint64_t before = 0;
     for (const double size : {0.0, 8.0, 20.0, 50.0, largest}) {
       casting.sampling.regions[0].smoothness = {SmoothnessDistribution::Unit::kSize, {size, size}};
@@ -445,11 +445,11 @@ TEST(DrawRecipe, SizesBecomeTheirIterations) {
       before = region.iterations;
       // The nearest whole iterations: no neighbour's size is nearer.
       if (size > 0) {
-        EXPECT_EQ(region.iterations, iterations_of_size(kind, size, 2));
+        EXPECT_EQ(region.iterations, iterations_for_wavelength(kind, size, 2));
       }
       EXPECT_NEAR(region.smoothness, static_cast<double>(region.iterations) / 1000, 1e-3);
     }
-    EXPECT_EQ(before, casting.scale.max_level);
+    EXPECT_EQ(before, casting.level_scale.max_level);
   }
 }
 

@@ -52,7 +52,7 @@ class FaceSpaceTest : public ::testing::Test {
       }
       faces_.heads.push_back({std::string(1, static_cast<char>('a' + h)), positions});
     }
-    regions_ = whole_head(faces_.topology);
+    regions_ = whole_head_weights(faces_.topology);
     adjacency_ = build_adjacency(faces_.topology);
     filter_.emplace(SmoothingOperator(adjacency_, Boundary::kFixed, OperatorKind::kUmbrella),
                     faces_.heads[0].positions);
@@ -86,7 +86,7 @@ class FaceSpaceTest : public ::testing::Test {
     casting.sampling.sources = {0, 1, 2, 3};
     casting.sampling.regions.resize(1);
     casting.sampling.regions[0].extrapolation = {0.8, 1.3};
-    casting.scale = {OperatorKind::kUmbrella, kMaxLevel, 2};
+    casting.level_scale = {OperatorKind::kUmbrella, kMaxLevel, 2};
     std::vector<Recipe> crowd;
     for (std::uint64_t i = 1; i <= count; ++i) crowd.push_back(draw_any_face(casting, i).recipe);
     return crowd;
@@ -164,7 +164,7 @@ MirrorMap mirror_of_grid(std::uint32_t side, double next) {
 TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
   for (const double next : {0.0, 0.4}) {
     const MirrorMap mirror = mirror_of_grid(kSide, next);
-    samples_ = samples_and_partners(
+    samples_ = samples_and_mirror_images(
         choose_face_samples(faces_.topology, find_components(adjacency_), mean_, {2, 1}, 600),
         mirror);
     const FaceSamples traced = samples_and_mirror_corners(samples_, mirror);
@@ -297,7 +297,7 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
     cast.crowd.emplace_back().id = concat("mob_", cast.crowd.size());
     cast.points.push_back(space_->point(recipe));
   }
-  find_nearest(FaceJudge(*space_, {}, {}), cast);
+  find_nearest_neighbours(FaceJudge(*space_, {}, {}), cast);
   const auto& faces = cast.crowd;
   const auto& points = cast.points;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -331,7 +331,7 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
   const Recipe recipe = crowd(1).front();
   int asked = 0;
   SkinDefects found{{}, 0};
-  found.local.compared = 1000;
+  found.local.compared_count = 1000;
   BelievabilityOptions limits;
   limits.max_stretch = 1000;  // only what the mesh says is of interest
   limits.max_flipped = limits.max_intersecting = 0.5;
@@ -340,9 +340,9 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
     return found;
   });
   EXPECT_EQ(judge.check_skin(recipe), std::nullopt);
-  found.intersecting = 501;
+  found.intersecting_count = 501;
   EXPECT_EQ(judge.check_skin(recipe), Reason::kIntersecting);
-  found.local.flipped = 501;
+  found.local.flipped_count = 501;
   EXPECT_EQ(judge.check_skin(recipe), Reason::kFlipped);
   EXPECT_EQ(asked, 3);
   limits.max_stretch = 1;  // no face is stretched so little

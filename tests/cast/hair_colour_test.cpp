@@ -38,13 +38,13 @@ TEST(HairColour, OfTheBodyDiffersAsPeoplesDoes) {
   const HairColour brows = hair_colour_for(hair, Tint::kBrows),
                    beard = hair_colour_for(hair, Tint::kBeard);
   EXPECT_GT(brows.eumelanin, hair.eumelanin);
-  EXPECT_LT(brows.grey, hair.grey);
+  EXPECT_LT(brows.grey_fraction, hair.grey_fraction);
   // White brows on a grey man and blond ones on tanned skin looked glued on.
-  EXPECT_LT(hair_colour_for({0.5, 0, 1}, Tint::kBrows).grey, 0.7);
+  EXPECT_LT(hair_colour_for({0.5, 0, 1}, Tint::kBrows).grey_fraction, 0.7);
   EXPECT_GT(hair_colour_for({0.2, 0, 0}, Tint::kBrows).eumelanin, 0.35);
   EXPECT_GT(beard.pheomelanin, hair.pheomelanin);
   EXPECT_GT(hair_colour_for(hair, Tint::kLashes).eumelanin, brows.eumelanin);
-  EXPECT_LT(hair_colour_for({0.5, 0, 1}, Tint::kLashes).grey, 0.3);
+  EXPECT_LT(hair_colour_for({0.5, 0, 1}, Tint::kLashes).grey_fraction, 0.3);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 /// Tones 0, 10, 20, 30 of women, then of men.
 SkinOptions draw_of() {
   SkinOptions draw{3, {}, {}, {0, 10, 20, 30, 0, 10, 20, 30}, {}};
-  for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) draw.heads.push_back(name);
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) draw.head_names.push_back(name);
   for (int h = 0; h < 8; ++h) draw.tags.push_back({h < 4 ? "female" : "male"});
   draw.colour_weights = [](const Recipe& recipe) {
     std::vector<double> shares(8, 0.0);
@@ -61,7 +61,7 @@ TEST(SkinDraw, AChildLiesBetweenItsParents) {
 
 TEST(SkinDraw, TwinsHaveOneTone) {
   SkinOptions draw = draw_of();
-  draw.twins = {"clan"};
+  draw.twin_families = {"clan"};
   std::vector<FacePlan> crowd = {child_of("ona", "a", "h", 1), child_of("una", "a", "h", 2)};
   choose_skin_colours_of_children(draw, crowd);
   EXPECT_EQ(crowd[0].recipe.colours, crowd[1].recipe.colours);

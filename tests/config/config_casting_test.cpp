@@ -301,8 +301,8 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   EXPECT_TRUE(top.bands[0].weights.empty());
   EXPECT_EQ(top.bands[2].weights[0].head, 1);
   EXPECT_THAT(config->families[0].inherited_parents, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
-  EXPECT_THAT(config->review.reviews[0].marks[0].locked, ElementsAre(0, 1, 2));
-  EXPECT_THAT(config->review.reviews[0].marks[1].locked, ElementsAre(2, 3, 5, 8));
+  EXPECT_THAT(config->review.reviews[0].marks[0].locked_parts, ElementsAre(0, 1, 2));
+  EXPECT_THAT(config->review.reviews[0].marks[1].locked_parts, ElementsAre(2, 3, 5, 8));
 
   const std::string written = effective_config(*config, folder_);
   const auto again = read(written);
@@ -436,7 +436,7 @@ TEST_F(ConfigTest, ReviewsAreReadAtTheirPlaces) {
   ASSERT_EQ(review.size(), 3U);
   EXPECT_EQ(review[0].verdict, ReviewMark::Verdict::kReject);
   EXPECT_EQ(review[1].verdict, ReviewMark::Verdict::kReject);
-  EXPECT_THAT(review[1].locked, ElementsAre(0U));
+  EXPECT_THAT(review[1].locked_parts, ElementsAre(0U));
   EXPECT_EQ(review[1].note, "a: b");
   EXPECT_EQ(review[2].verdict, ReviewMark::Verdict::kKeep);
   std::ofstream(file) << "schema: 1\nfaces: {mob_0001: rejct, mob_0044: keep, mob_0002: {lock: "

@@ -123,8 +123,8 @@ TEST_F(ExampleConfigs, ThoseOfTheReferenceAreReadToo) {
 
 TEST_F(ExampleConfigs, TheStarterReadsBack) {
   StarterFacts facts;
-  facts.heads = "heads";
-  facts.names = {"ann", "bob", "cyd"};
+  facts.heads_folder = "heads";
+  facts.head_names = {"ann", "bob", "cyd"};
   facts.units = LengthUnit::kInch;
   facts.head_height = 10.5;
   facts.units_reason = "the first head is 10.50 units tall";
@@ -133,7 +133,7 @@ TEST_F(ExampleConfigs, TheStarterReadsBack) {
   const std::string text = starter_config(facts);
   const auto config = read(text);
   ASSERT_TRUE(config) << told() << text;
-  EXPECT_EQ(config->faces.names, facts.names);
+  EXPECT_EQ(config->faces.names, facts.head_names);
   EXPECT_EQ(config->faces.units, LengthUnit::kInch);
   EXPECT_EQ(config->faces.up, facts.up);
   EXPECT_EQ(config->faces.front, facts.front);
@@ -145,10 +145,10 @@ TEST_F(ExampleConfigs, TheStarterReadsBack) {
 // Without a distance, pairs at 0.9 mm passed for one person.
 TEST_F(ExampleConfigs, TheStarterKeepsPeopleApart) {
   StarterFacts facts;
-  facts.heads = "heads";
+  facts.heads_folder = "heads";
   const auto proposed = [&](std::size_t heads) {
-    facts.names.clear();
-    for (std::size_t h = 0; h < heads; ++h) facts.names.push_back(concat("head_", h));
+    facts.head_names.clear();
+    for (std::size_t h = 0; h < heads; ++h) facts.head_names.push_back(concat("head_", h));
     const auto config = read(starter_config(facts));
     return config ? config->diversity.min_distance_mm : -1;
   };
@@ -161,9 +161,9 @@ TEST_F(ExampleConfigs, TheStarterKeepsPeopleApart) {
 
 TEST_F(ExampleConfigs, TheStarterTakesAnyFolderName) {
   StarterFacts facts;
-  facts.names = {"ann", "bob"};
+  facts.head_names = {"ann", "bob"};
   for (const char* folder : {"a b", "#1", "x: y", "it's \"so\"", "ü", "yes", "-"}) {
-    facts.heads = folder;
+    facts.heads_folder = folder;
     touch(concat(folder, "/ann.obj"));
     touch(concat(folder, "/bob.obj"));
     EXPECT_TRUE(read(starter_config(facts))) << told();

@@ -30,7 +30,7 @@ TEST_F(ReadConfig, DefaultsAreThoseOfTheReference) {
   EXPECT_THAT(config->region_names(), ElementsAre("all"));
   EXPECT_EQ(config->smoothing.max_size_mm, 240);
   EXPECT_FALSE(config->smoothing.max_iterations);
-  EXPECT_EQ(config->smoothing.levels, Levels::kBasis);
+  EXPECT_EQ(config->smoothing.levels, LevelRepresentation::kBasis);
   EXPECT_EQ(config->smoothing.tolerance_mm, 0.05);
   EXPECT_EQ(config->plane.layout, Layout::kCircle);
   ASSERT_EQ(config->sampling.regions.size(), 1u);

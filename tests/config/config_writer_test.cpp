@@ -88,7 +88,7 @@ void expect_equal(const Config& a, const Config& b) {
   ASSERT_EQ(a.families.size(), b.families.size());
   for (std::size_t i = 0; i < a.families.size(); ++i) {
     EXPECT_EQ(a.families[i].name, b.families[i].name);
-    EXPECT_EQ(a.families[i].members, b.families[i].members);
+    EXPECT_EQ(a.families[i].member_count, b.families[i].member_count);
     EXPECT_EQ(a.families[i].target, b.families[i].target);
     EXPECT_EQ(a.families[i].inherited_parents, b.families[i].inherited_parents);
     EXPECT_EQ(a.families[i].parents.size(), b.families[i].parents.size());
@@ -131,7 +131,7 @@ void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.output.contact_sheet->views, b.output.contact_sheet->views);
     EXPECT_EQ(a.output.contact_sheet->labels, b.output.contact_sheet->labels);
     EXPECT_EQ(a.output.contact_sheet->order, b.output.contact_sheet->order);
-    EXPECT_EQ(a.output.contact_sheet->compare.with, b.output.contact_sheet->compare.with);
+    EXPECT_EQ(a.output.contact_sheet->compare.reference, b.output.contact_sheet->compare.reference);
     EXPECT_EQ(a.output.contact_sheet->compare.file, b.output.contact_sheet->compare.file);
     EXPECT_EQ(a.output.contact_sheet->compare.scale_mm, b.output.contact_sheet->compare.scale_mm);
     EXPECT_EQ(a.output.contact_sheet->formats, b.output.contact_sheet->formats);

@@ -38,11 +38,11 @@ TEST(Yaml, KeepsPlacesPathsAndQuotes) {
   EXPECT_EQ(list.kind, YamlNode::Kind::kList);
   EXPECT_EQ(list.place.text(), "f:3:3");
   EXPECT_EQ(list.items[0].path, "b #1");
-  EXPECT_FALSE(list.items[0].quoted);
+  EXPECT_FALSE(list.items[0].is_quoted);
   const YamlNode& deep = list.items[1].find("c")->value;
   EXPECT_EQ(deep.path, "b #2.c");
   EXPECT_EQ(deep.text, "d");
-  EXPECT_TRUE(deep.quoted);
+  EXPECT_TRUE(deep.is_quoted);
   EXPECT_EQ(deep.place.text(), "f:4:9");
 }
 

@@ -44,8 +44,8 @@ TEST(FormatBytes, NamesSizesBelowAMebibyteInSmallerUnits) {
 }
 
 TEST(MachineMemory, IsPlausible) {
-  EXPECT_GT(usable_memory(), 64ULL << 20);
-  EXPECT_LT(usable_memory(), 1ULL << 50);
+  EXPECT_GT(usable_memory_bytes(), 64ULL << 20);
+  EXPECT_LT(usable_memory_bytes(), 1ULL << 50);
 }
 
 using testing::TemporaryFolder;
@@ -55,7 +55,7 @@ using testing::TemporaryFolder;
 TEST(MemoryLimitOfGroups, IsTheLeastOfTheProcessGroupAndThoseItLiesIn) {
   const TemporaryFolder folder;
   const auto limit = [&](const std::string& groups) {
-    return control_group_memory_limit(folder.write("cgroup", groups), folder.path());
+    return control_group_memory_limit_bytes(folder.write("cgroup", groups), folder.path());
   };
   EXPECT_EQ(limit("0::/"), std::nullopt);
   std::filesystem::create_directories(folder / "slurm/job_7/step_0");
@@ -74,7 +74,7 @@ TEST(MemoryLimitOfGroups, IsTheLeastOfTheProcessGroupAndThoseItLiesIn) {
   EXPECT_EQ(limit("3:cpu:/job/step\n"), std::nullopt);
   folder.write("memory.max", "1024\n");
   EXPECT_EQ(limit("0::/slurm/job_7\n"), 1024U) << "of the outermost";
-  EXPECT_EQ(control_group_memory_limit(folder / "nothing", folder.path()), 1024U);
+  EXPECT_EQ(control_group_memory_limit_bytes(folder / "nothing", folder.path()), 1024U);
 }
 
 /// A group below that of this process, with a limit; empty where the machine allows none.
@@ -107,7 +107,7 @@ TEST(MachineMemory, IsTheLimitOfANestedGroup) {
   const pid_t child = ::fork();
   if (child == 0) {
     std::ofstream(group / "cgroup.procs") << ::getpid() << std::flush;
-    std::_Exit(usable_memory() == kLimit ? 0 : 1);
+    std::_Exit(usable_memory_bytes() == kLimit ? 0 : 1);
   }
   int status = 1;
   EXPECT_EQ(::waitpid(child, &status, 0), child);
@@ -123,7 +123,7 @@ TEST(PeakMemory, GrowsWithWhatIsHeld) {
   EXPECT_EQ(held[kMore / 2], 1);
   EXPECT_GE(peak_memory_bytes(), before);
   EXPECT_GE(peak_memory_bytes(), kMore);
-  EXPECT_LE(peak_memory_bytes(), usable_memory());
+  EXPECT_LE(peak_memory_bytes(), usable_memory_bytes());
 }
 
 // A run said that it was done although a library had caught this and drawn a sheet without letters.

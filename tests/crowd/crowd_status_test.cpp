@@ -45,15 +45,15 @@ TEST_F(Status, CountsEachShardsFacesInAllLedgers) {
   write_ledger("ledger-2of3.jsonl", {2, 2});
   write_ledger("ledger.jsonl", {3, 5});  // a whole run's, before
   const CrowdStatus found = status();
-  EXPECT_EQ(found.faces, 7U);
-  EXPECT_EQ(found.finished_faces, 5U);
+  EXPECT_EQ(found.face_count, 7U);
+  EXPECT_EQ(found.finished_face_count, 5U);
   ASSERT_EQ(found.shards.size(), 3U);
-  EXPECT_EQ(found.shards[0].faces, 3U);
-  EXPECT_EQ(found.shards[0].finished_faces, 2U);
-  EXPECT_EQ(found.shards[1].finished_faces, 2U);
+  EXPECT_EQ(found.shards[0].face_count, 3U);
+  EXPECT_EQ(found.shards[0].finished_face_count, 2U);
+  EXPECT_EQ(found.shards[1].finished_face_count, 2U);
   EXPECT_EQ(found.shards[1].state, ShardState::kDone);
-  EXPECT_EQ(found.shards[2].faces, 2U);
-  EXPECT_EQ(found.shards[2].finished_faces, 1U);
+  EXPECT_EQ(found.shards[2].face_count, 2U);
+  EXPECT_EQ(found.shards[2].finished_face_count, 1U);
   EXPECT_EQ(found.shards[2].state, ShardState::kWaiting);
   EXPECT_FALSE(found.is_gathered);
 }
@@ -63,7 +63,7 @@ TEST_F(Status, AHalfLineIsNoFace) {
   write_ledger("ledger-1of2.jsonl", {1});
   const std::string text = testing::read_text(folder_ / "ledger-1of2.jsonl");
   folder_.write("ledger-1of2.jsonl", text.substr(0, text.size() - 1));
-  EXPECT_EQ(status().finished_faces, 0U);
+  EXPECT_EQ(status().finished_face_count, 0U);
 }
 
 TEST_F(Status, PaceAndTimeLeftAreThoseOfShardsAtWork) {
@@ -113,11 +113,11 @@ TEST_F(Status, TheReasonOfAFailureIsTold) {
 
 TEST_F(Status, ANewAttemptForgetsTheLastOnesEnd) {
   const std::string failed = "=== blend 1, attempt 1\nerror: full\n=== ended with code 74\n";
-  EXPECT_EQ(parse_task_end(failed).code, 74U);
+  EXPECT_EQ(parse_task_end(failed).exit_code, 74U);
   EXPECT_EQ(parse_task_end(failed).reason, "full");
-  EXPECT_FALSE(parse_task_end(failed + "=== blend 1, attempt 2\n").code.has_value());
+  EXPECT_FALSE(parse_task_end(failed + "=== blend 1, attempt 2\n").exit_code.has_value());
   EXPECT_TRUE(parse_task_end(failed + "=== blend 1, attempt 2\n").reason.empty());
-  EXPECT_FALSE(parse_task_end("").code.has_value());
+  EXPECT_FALSE(parse_task_end("").exit_code.has_value());
 }
 
 TEST_F(Status, ATaskThatSlurmRunsAgainIsRequeued) {
@@ -141,7 +141,7 @@ TEST_F(Status, NotesOfOthersSayNothing) {
     folder_.write("progress-1of2.json", text);
     const CrowdStatus found = status();
     EXPECT_EQ(found.shards.front().state, ShardState::kWaiting) << text;
-    EXPECT_EQ(found.faces, 7U);
+    EXPECT_EQ(found.face_count, 7U);
   }
   folder_.write("submit/job.json", R"({"shards":123456789})");
   EXPECT_EQ(status().shards.size(), 2U);

@@ -150,7 +150,7 @@ TEST_F(LedgerOfAFolder, FinishedKnowsHowManyFilesOfEachKindThereAre) {
   ledger.record("sheets", {}, {"sheets/s.png", "sheets/t.png"});
   ledger.write("plan.jsonl", "plan");
   ledger.compact();
-  EXPECT_TRUE(read_ledger(own).complete);
+  EXPECT_TRUE(read_ledger(own).is_complete);
   const std::string text = testing::read_text(own);
   EXPECT_NE(text.find(R"("note":{".":1,"meshes":1,"sheets":2})"), text.npos) << text;
   EXPECT_NO_THROW(ledger.require_files());

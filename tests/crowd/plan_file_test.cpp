@@ -43,7 +43,7 @@ TEST(PlanFile, ReadsBackToTheBit) {
   const FacePlan face = example();
   const PlanLine line =
       parse_plan_line(format_plan_line(face, kNames, kSettings), kNames, "plan:1");
-  EXPECT_EQ(line.settings, kSettings.hex());
+  EXPECT_EQ(line.settings_hash, kSettings.hex());
   EXPECT_EQ(line.face.id, face.id);
   EXPECT_EQ(line.face.index, face.index);
   EXPECT_EQ(line.face.recipe.target, face.recipe.target);

@@ -105,11 +105,11 @@ Json some_recipe() {
 /// engine's. \return the largest difference over the preview's skin in mm.
 double preview_error_mm(const Editor& editor, const FacePlan& face) {
   const EditSession& session = *editor.session;
-  const Read mesh = read_answer(session.mesh());
+  const Read mesh = read_answer(session.mesh_answer());
   const auto vertices = static_cast<std::size_t>(mesh.head["vertices"]);
   const std::size_t regions = face.recipe.regions.size();
   std::vector<Read> heads;
-  for (Index h = 0; h < 4; ++h) heads.push_back(read_answer(session.head(h)));
+  for (Index h = 0; h < 4; ++h) heads.push_back(read_answer(session.head_answer(h)));
   const auto target = static_cast<std::size_t>(face.recipe.target);
   std::vector<double> points = heads[target].arrays["positions"];
   for (std::size_t k = 0; k < regions; ++k) {
@@ -119,8 +119,9 @@ double preview_error_mm(const Editor& editor, const FacePlan& face) {
     for (const SourceWeight& source : region.weights) {
       shares[static_cast<std::size_t>(source.head)] -= region.extrapolation * source.weight;
     }
-    const double step = 256 * std::sqrt(static_cast<double>(region.iterations) /
-                                        static_cast<double>(session.casting().scale.max_level));
+    const double step =
+        256 * std::sqrt(static_cast<double>(region.iterations) /
+                        static_cast<double>(session.casting().level_scale.max_level));
     const auto below = std::min<std::size_t>(static_cast<std::size_t>(step), 255);
     const double part = step - static_cast<double>(below);
     for (std::size_t h = 0; h < 4; ++h) {
@@ -137,7 +138,7 @@ double preview_error_mm(const Editor& editor, const FacePlan& face) {
       }
     }
   }
-  const std::vector<float> exact = session.points(session.build(face.recipe));
+  const std::vector<float> exact = session.preview_points(session.build(face.recipe));
   double largest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (mesh.arrays.at("part")[i / 3] != 0) continue;
@@ -162,8 +163,8 @@ TEST(EditSession, AReducedPreviewConsistsOfTheMeshesOwnVertices) {
   EXPECT_LT(preview.vertices.size(), 1500U);
   EXPECT_LT(preview_error_mm(editor, editor.face(some_recipe())), 0.1);
   const Positions face = editor.session->build(editor.face(some_recipe()).recipe);
-  const std::vector<float> normals = editor.session->normals(face);
-  const Positions expected = vertex_normals(editor.session->job().inputs.faces.topology, face);
+  const std::vector<float> normals = editor.session->preview_normals(face);
+  const Positions expected = vertex_normals(editor.session->job().inputs.head_set.topology, face);
   for (std::size_t i = 0; i < preview.vertices.size(); ++i) {
     EXPECT_EQ(preview.vertices[i], preview.vertices[preview.first_copies[i]]);
     for (int c = 0; c < 3; ++c) {
@@ -176,7 +177,7 @@ TEST(EditSession, AReducedPreviewConsistsOfTheMeshesOwnVertices) {
 TEST(EditSession, TextureCoordinatesAreThoseOfTheMesh) {
   const Editor editor("basis");
   const PreviewMesh& preview = editor.session->preview();
-  const HeadSet& head_set = editor.session->job().inputs.faces;
+  const HeadSet& head_set = editor.session->job().inputs.head_set;
   std::map<std::uint32_t, std::vector<std::array<float, 2>>> known;
   for (std::size_t c = 0; c < head_set.topology.corner_uvs.size(); ++c) {
     const std::uint32_t row = head_set.topology.corner_uvs[c];
@@ -354,7 +355,7 @@ TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
   const Positions before = session.build(face.recipe);
   RegionPainting painting(session, editor.strokes());
   const std::vector<float> masks = painting.masks();
-  painting.stroke(stroke_on(session, "paint"));
+  painting.apply_stroke(stroke_on(session, "paint"));
   EXPECT_TRUE(painting.differs_from_config());
   const std::vector<float> painted = painting.masks();
   ASSERT_EQ(painted.size(), masks.size());
@@ -366,11 +367,11 @@ TEST(RegionPainting, FacesAreBlendedWithWhatIsPaintedAndTakenBackExactly) {
   }
   EXPECT_NE(more, 0);
   EXPECT_EQ(session.build(face.recipe), before) << "not before it is applied";
-  painting.apply();
+  painting.apply_masks();
   EXPECT_NE(session.build(face.recipe), before);
   EXPECT_LT(preview_error_mm(editor, face), 0.1);
   painting.undo();
-  painting.apply();
+  painting.apply_masks();
   EXPECT_FALSE(painting.differs_from_config());
   EXPECT_EQ(painting.masks(), masks);
   EXPECT_EQ(session.build(face.recipe), before);
@@ -380,10 +381,10 @@ TEST(RegionPainting, ImagesReadBackAsWhatIsPainted) {
   Editor editor("basis");
   EditSession& session = *editor.session;
   RegionPainting painting(session, editor.strokes());
-  painting.stroke(stroke_on(session, "paint"));
-  painting.apply();
-  const auto files = painting.save(painting.regions({}), editor.folder / "masks.png");
-  const HeadSet& head_set = session.job().inputs.faces;
+  painting.apply_stroke(stroke_on(session, "paint"));
+  painting.apply_masks();
+  const auto files = painting.save(painting.changed_regions({}), editor.folder / "masks.png");
+  const HeadSet& head_set = session.job().inputs.head_set;
   const RegionWeights read =
       region_weights(head_set.topology, head_set.uvs, {files.begin(), files.end()}, 3);
   const RegionWeights::Alpha& alpha = session.masks().alpha;
@@ -406,8 +407,8 @@ TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
   {
     RegionPainting painting(session, editor.strokes());
     masks = painting.masks();
-    painting.stroke(stroke_on(session, "paint"));
-    painting.stroke(stroke_on(session, "grow"));
+    painting.apply_stroke(stroke_on(session, "paint"));
+    painting.apply_stroke(stroke_on(session, "grow"));
     painting.undo();
     painted = painting.masks();
   }
@@ -416,7 +417,7 @@ TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
   {
     RegionPainting painting(session, editor.strokes());
     EXPECT_EQ(painting.masks(), painted);
-    painting.stroke(stroke_on(session, "smooth"));
+    painting.apply_stroke(stroke_on(session, "smooth"));
     painting.undo();
   }
   {
@@ -434,7 +435,7 @@ TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
   EXPECT_FALSE(RegionPainting(session, editor.strokes()).differs_from_config());
 
   RegionPainting painting(session, editor.strokes());
-  painting.stroke(stroke_on(session, "paint"));
+  painting.apply_stroke(stroke_on(session, "paint"));
   painting.delete_stored_strokes();
   EXPECT_FALSE(RegionPainting(session, editor.strokes()).differs_from_config());
 }
@@ -442,20 +443,20 @@ TEST(RegionPainting, OutlivesTheEditorUntilMasksHoldIt) {
 TEST(RegionPainting, RegionsAreAddedRemovedAndProposed) {
   Editor editor("basis");
   RegionPainting painting(*editor.session, editor.strokes());
-  painting.stroke(stroke_on(*editor.session, "paint"));
-  const PaintedRegions now = painting.regions({});
+  painting.apply_stroke(stroke_on(*editor.session, "paint"));
+  const PaintedRegions now = painting.changed_regions({});
   EXPECT_THAT(now.names, ::testing::ElementsAre("top", "middle", "bottom"));
 
-  const PaintedRegions more = painting.regions({{"add", "ears"}});
+  const PaintedRegions more = painting.changed_regions({{"add", "ears"}});
   EXPECT_THAT(more.names, ::testing::ElementsAre("top", "middle", "bottom", "ears"));
   EXPECT_EQ(more.alpha.leftCols(3), now.alpha);
   EXPECT_TRUE(more.alpha.col(3).isZero(0));
 
-  const PaintedRegions fewer = painting.regions({{"remove", "middle"}});
+  const PaintedRegions fewer = painting.changed_regions({{"remove", "middle"}});
   EXPECT_THAT(fewer.names, ::testing::ElementsAre("top", "bottom"));
-  EXPECT_EQ(painting.regions({}).alpha, now.alpha) << "only asked for";
+  EXPECT_EQ(painting.changed_regions({}).alpha, now.alpha) << "only asked for";
   const PaintedRegions proposed =
-      painting.regions({{"propose", {"brow", "nose", "mouth", "ears"}}});
+      painting.changed_regions({{"propose", {"brow", "nose", "mouth", "ears"}}});
   EXPECT_THAT(proposed.names, ::testing::ElementsAre("brow", "nose", "mouth", "ears"));
   for (const PaintedRegions* regions : {&more, &fewer, &proposed}) {
     EXPECT_GE(regions->alpha.minCoeff(), 0);
@@ -467,7 +468,7 @@ TEST(RegionPainting, RegionsAreAddedRemovedAndProposed) {
                                                  {{{"propose", "brow"}}, "propose"},
                                                  {{{"propose", {"brow", "chin"}}}, "chin"}}) {
     testing::expect_error(ExitCode::kUsage, {words},
-                          [&, &change = change] { painting.regions(change); });
+                          [&, &change = change] { painting.changed_regions(change); });
   }
 }
 
@@ -482,7 +483,7 @@ TEST(RegionPainting, RefusesWhatItCannotRead) {
                                                               {"strength", 2}}) {
     Json bad = good;
     bad[key] = value;
-    testing::expect_error(ExitCode::kUsage, {key}, [&] { painting.stroke(bad); });
+    testing::expect_error(ExitCode::kUsage, {key}, [&] { painting.apply_stroke(bad); });
   }
   testing::expect_error(ExitCode::kUsage, {"no stroke to undo"}, [&] { painting.undo(); });
 }

@@ -13,17 +13,17 @@
 namespace crowdface {
 namespace {
 
-std::shared_ptr<const Texture> plain(const Light& colour) {
-  return std::make_shared<const Texture>(Texture{32, 32, std::vector<Light>(1024, colour)});
+std::shared_ptr<const Texture> plain(const LinearRgb& colour) {
+  return std::make_shared<const Texture>(Texture{32, 32, std::vector<LinearRgb>(1024, colour)});
 }
 
-const Light kRed(1, 0, 0), kGreen(0, 1, 0), kBlue(0, 0, 1);
+const LinearRgb kRed(1, 0, 0), kGreen(0, 1, 0), kBlue(0, 0, 1);
 
 /// Three quads in three tiles side by side; the first head has a picture for each, the second one for the
 /// last two, the third none.
 Inputs three_tiles() {
   Inputs inputs;
-  HeadSet& head_set = inputs.faces;
+  HeadSet& head_set = inputs.head_set;
   head_set.uvs.resize(12, 2);
   for (std::uint32_t tile = 0; tile < 3; ++tile) {
     const std::uint32_t first = 4 * tile;
@@ -44,16 +44,17 @@ Inputs three_tiles() {
 class TextureAtlasTest : public ::testing::Test {
  protected:
   /// What a page shows in the middle and near the corners of a face.
-  void expect_colour(Index head, Index face, const Light& colour) {
+  void expect_colour(Index head, Index face, const LinearRgb& colour) {
     const testing::TemporaryFolder folder;
     ImageLimits limits;
-    limits.jpeg = true;
+    limits.allows_jpeg = true;
     const Image picture =
-        read_image(folder.write("atlas.jpg", *TextureAtlas(inputs_).picture(head)), limits);
+        read_image(folder.write("atlas.jpg", *TextureAtlas(inputs_).head_jpeg(head)), limits);
     const TextureCoordinates uvs = TextureAtlas(inputs_).coordinates();
     Eigen::RowVector2d middle = Eigen::RowVector2d::Zero();
-    for (const std::uint32_t uv : inputs_.faces.topology.face_uvs(face)) middle += uvs.row(uv) / 4;
-    for (const std::uint32_t uv : inputs_.faces.topology.face_uvs(face)) {
+    for (const std::uint32_t uv : inputs_.head_set.topology.face_uvs(face))
+      middle += uvs.row(uv) / 4;
+    for (const std::uint32_t uv : inputs_.head_set.topology.face_uvs(face)) {
       for (const double way : {0.0, 0.9}) {
         const Eigen::RowVector2d at = middle + way * (uvs.row(uv) - middle);
         for (int c = 0; c < 3; ++c) {
@@ -79,16 +80,16 @@ TEST_F(TextureAtlasTest, AHeadWithOtherFilesHasThemAtTheSamePlaces) {
 
 TEST_F(TextureAtlasTest, AHeadWithoutTexturesHasNoPicture) {
   const TextureAtlas atlas(inputs_);
-  EXPECT_TRUE(atlas.has(1));
-  EXPECT_FALSE(atlas.has(2));
-  EXPECT_FALSE(atlas.picture(2));
+  EXPECT_TRUE(atlas.has_textures_of(1));
+  EXPECT_FALSE(atlas.has_textures_of(2));
+  EXPECT_FALSE(atlas.head_jpeg(2));
 }
 
 TEST_F(TextureAtlasTest, OnePictureStaysAsItIs) {
   inputs_.textures.texture_sets = {{{{plain(kBlue)}, {0, 0, 0}}}};
-  EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.faces.uvs);
+  EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.head_set.uvs);
   inputs_.textures.texture_sets.clear();
-  EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.faces.uvs);
+  EXPECT_EQ(TextureAtlas(inputs_).coordinates(), inputs_.head_set.uvs);
 }
 
 }  // namespace

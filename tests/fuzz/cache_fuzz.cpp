@@ -26,9 +26,9 @@ void read_all(const PreparedHead& head, const HeadCacheSizes& shape) {
   for (Index p = 0; p < fields.rank; ++p) {
     for (Index v = 0; v < fields.vertex_count; ++v) all += fields.value(p, v, 0);
   }
-  for (const std::int16_t number : fields.numbers) all += number;
+  for (const std::int16_t number : fields.quantized_values) all += number;
   all += head.levels.mixing.sum() + head.trajectory.sum();
-  if (fields.rank > shape.nodes) std::abort();
+  if (fields.rank > shape.node_count) std::abort();
   if (all == 1e300) std::abort();  // keeps the sum from being left out
 }
 
@@ -51,7 +51,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     std::ofstream(cache_entry(folder, entry_key), std::ios::binary) << bytes;
   };
-  for (const Levels levels : {Levels::kBasis, Levels::kExact, Levels::kCubic}) {
+  for (const LevelRepresentation levels :
+       {LevelRepresentation::kBasis, LevelRepresentation::kExact, LevelRepresentation::kCubic}) {
     const HeadCacheSizes shape = {8, 4, 3, 5, 60, levels};
     write(prepared_key(key));
     if (const auto head = find_prepared(folder, key, shape)) read_all(*head, shape);

@@ -15,11 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   config.points = folder.write("points.yaml", crowdface::fuzz::text_of(data, size));
   config.shapes.neutral = folder.write("neutral.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   crowdface::Inputs inputs;
-  crowdface::Topology& topology = inputs.faces.topology;
+  crowdface::Topology& topology = inputs.head_set.topology;
   topology.vertex_count = 3;
   topology.add_face(std::vector<std::uint32_t>{0, 1, 2});
   for (const char* name : {"ann", "bob"}) {
-    inputs.faces.heads.push_back({name, crowdface::Positions::Identity(3, 3)});
+    inputs.head_set.heads.push_back({name, crowdface::Positions::Identity(3, 3)});
   }
   crowdface::Problems problems;
   crowdface::load_points(config, inputs, problems);

@@ -10,8 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const crowdface::fuzz::InputFile file(data, size);
     const crowdface::GltfRig rig = crowdface::read_gltf_rig(file.path());
-    const auto points = static_cast<std::size_t>(rig.points.rows());
-    if (!rig.points.allFinite()) std::abort();
+    const auto points = static_cast<std::size_t>(rig.positions.rows());
+    if (!rig.positions.allFinite()) std::abort();
     if (rig.influences.group_count() != points) std::abort();
     for (const crowdface::Influence& one : rig.influences.items) {
       if (one.joint >= rig.joints.size() || !(one.weight >= 0 && one.weight <= 1)) std::abort();

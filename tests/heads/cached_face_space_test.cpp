@@ -156,7 +156,7 @@ TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
   EXPECT_TRUE(FaceSpace::tables_fit(space.tables(), heads));
   EXPECT_FALSE(FaceSpace::tables_fit(FaceSpaceTables(), heads));
   FaceSpaceTables fewer = space.tables();
-  fewer.metrics.pop_back();
+  fewer.region_metrics.pop_back();
   EXPECT_FALSE(FaceSpace::tables_fit(fewer, heads));
   FaceSpaceTables narrower = space.tables();
   narrower.directions = narrower.directions.leftCols(3).eval();

@@ -32,8 +32,8 @@ class KeptStatistics : public ::testing::Test {
           value = static_cast<float>(random() % 1000);
         }
       }
-      statistics.pairs = heads * (heads + 1) / 2;
-      for (std::size_t i = 0; i < kMeshVertices * statistics.pairs; ++i) {
+      statistics.pair_count = heads * (heads + 1) / 2;
+      for (std::size_t i = 0; i < kMeshVertices * statistics.pair_count; ++i) {
         statistics.covariances.push_back(static_cast<float>(random() % 1000));
       }
       if (broken_) statistics.covariances[7] = std::numeric_limits<float>::infinity();
@@ -42,7 +42,7 @@ class KeptStatistics : public ::testing::Test {
   }
   static bool alike(const SurfaceStatistics& a, const SurfaceStatistics& b) {
     return a.coarse_values == b.coarse_values && a.covariances == b.covariances &&
-           a.pairs == b.pairs;
+           a.pair_count == b.pair_count;
   }
 
   testing::TemporaryFolder folder_;
@@ -109,7 +109,7 @@ TEST(StatisticsKey, IsAnotherOfWhateverChangesThem) {
   EXPECT_TRUE(is_new()) << "where a corner lies";
   topology.corner_uvs = {0, 2, 1};
   EXPECT_TRUE(is_new()) << "which corner lies there";
-  textures.layout.of_face = {kNoIndex};
+  textures.layout.picture_of_face = {kNoIndex};
   EXPECT_TRUE(is_new()) << "a face without a picture";
   scale.detail_iterations = 5;
   EXPECT_TRUE(is_new()) << "what counts as detail";

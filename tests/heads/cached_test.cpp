@@ -162,7 +162,7 @@ TEST_F(Cached, NoForgedHeaderIsFollowedOutOfTheFile) {
 // Rows were made for as many vertices as a component said to have.
 TEST_F(Cached, ComponentsOfOtherSizesThanTheyHaveAreNotTaken) {
   Inputs inputs;
-  inputs.faces.topology = large_topology();
+  inputs.head_set.topology = large_topology();
   inputs.cache = folder_.path();
   find_neighbours(inputs);
   const std::vector<std::uint32_t> sizes = {kSide * kSide};
@@ -176,8 +176,8 @@ TEST_F(Cached, ComponentsOfOtherSizesThanTheyHaveAreNotTaken) {
 
 TEST_F(Cached, PlacesOnTheOtherSideLieInTheirTriangles) {
   Inputs inputs;
-  inputs.faces.topology = large_topology();
-  inputs.mean = large_positions();
+  inputs.head_set.topology = large_topology();
+  inputs.mean_head = large_positions();
   find_neighbours(inputs);
   inputs.cache = folder_.path();
   const Eigen::Vector3d side(1, 0, 0);
@@ -192,11 +192,11 @@ TEST_F(Cached, PlacesOnTheOtherSideLieInTheirTriangles) {
 
 TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
   Inputs inputs;
-  inputs.faces.topology = testing::cube_topology();
-  inputs.faces.heads = {{"cube", testing::cube_positions()}};
-  inputs.mean = testing::cube_positions();
+  inputs.head_set.topology = testing::cube_topology();
+  inputs.head_set.heads = {{"cube", testing::cube_positions()}};
+  inputs.mean_head = testing::cube_positions();
   inputs.materials.material_of_face.assign(
-      static_cast<std::size_t>(inputs.faces.topology.face_count()), 0);
+      static_cast<std::size_t>(inputs.head_set.topology.face_count()), 0);
   find_neighbours(inputs);
   Config config;
   config.output.lods = {50};
@@ -213,9 +213,9 @@ TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
     EXPECT_EQ(found.level.vertices, made.level.vertices);
     EXPECT_EQ(found.level.topology.corner_vertices, made.level.topology.corner_vertices);
     EXPECT_EQ(found.level.topology.face_offsets, made.level.topology.face_offsets);
-    EXPECT_EQ(found.level.faces, made.level.faces);
-    EXPECT_EQ(found.heads.max, made.heads.max);
-    EXPECT_EQ(found.heads.root_mean_square, made.heads.root_mean_square);
+    EXPECT_EQ(found.level.source_faces, made.level.source_faces);
+    EXPECT_EQ(found.heads_error.max, made.heads_error.max);
+    EXPECT_EQ(found.heads_error.root_mean_square, made.heads_error.root_mean_square);
   };
   expect_same(level());
   write_file(entry(), testing::forged_array(kept, "vertices", 0, std::uint32_t{8}));

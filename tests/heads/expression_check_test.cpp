@@ -27,13 +27,13 @@ HeadSet synthetic_heads(std::uint64_t count, Index vertices = 5000) {
 }
 
 std::string warnings_of(const HeadSet& head_set) {
-  return join(odd_expressions(head_set, shape_of_mean(head_set).skin, HeadAxes(), 10));
+  return join(odd_expressions(head_set, shape_of_mean(head_set).is_skin, HeadAxes(), 10));
 }
 
 /// Lets the jaw drop by 2 cm.
 void open_mouth(const FaceMarks& marks, Positions& head) {
   for (Index v = 0; v < head.rows(); ++v) {
-    if (head(v, 2) > 3 && head(v, 1) < marks.mouth) head(v, 1) -= 2;
+    if (head(v, 2) > 3 && head(v, 1) < marks.mouth_height) head(v, 1) -= 2;
   }
 }
 
@@ -41,8 +41,9 @@ void open_mouth(const FaceMarks& marks, Positions& head) {
 void smile(const FaceMarks& marks, Positions& head) {
   for (Index v = 0; v < head.rows(); ++v) {
     if (head(v, 2) < 3) continue;
-    const double side = head(v, 0) < marks.middle ? -1 : 1;
-    const double x = side * (head(v, 0) - marks.middle) - 2.5, y = head(v, 1) - marks.mouth;
+    const double side = head(v, 0) < marks.symmetry_offset ? -1 : 1;
+    const double x = side * (head(v, 0) - marks.symmetry_offset) - 2.5,
+                 y = head(v, 1) - marks.mouth_height;
     const double share = std::exp(-(x * x + y * y) / 2);
     head(v, 0) += 0.8 * side * share;
     head(v, 1) += 0.8 * share;
@@ -53,7 +54,8 @@ void smile(const FaceMarks& marks, Positions& head) {
 void close_lids(const FaceMarks& marks, Positions& head) {
   for (Index v = 0; v < head.rows(); ++v) {
     if (head(v, 2) < 3) continue;
-    const double x = std::abs(head(v, 0) - marks.middle) - 3.2, y = head(v, 1) - marks.eyes - 0.4;
+    const double x = std::abs(head(v, 0) - marks.symmetry_offset) - 3.2,
+                 y = head(v, 1) - marks.eyes_height - 0.4;
     head(v, 1) -= 0.9 * std::exp(-(x * x + 4 * y * y) / 1.5);
   }
 }

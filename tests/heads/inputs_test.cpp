@@ -158,8 +158,8 @@ TEST(Inputs, PermutedFacesArePutInOrder) {
     std::swap(lines[f], lines[f + 1]);
   });
   const auto after = load_job(folder.config(), {});
-  for (std::size_t h = 0; h < before.inputs.faces.heads.size(); ++h) {
-    EXPECT_EQ(after.inputs.faces.heads[h].positions, before.inputs.faces.heads[h].positions);
+  for (std::size_t h = 0; h < before.inputs.head_set.heads.size(); ++h) {
+    EXPECT_EQ(after.inputs.head_set.heads[h].positions, before.inputs.head_set.heads[h].positions);
   }
 }
 
@@ -249,8 +249,8 @@ TEST(Inputs, RenumberedTextureCoordinatesAndNormalsAreTaken) {
   });
   for (const bool kept : {false, true}) {
     const auto job = load_job(folder.config(), {}, kept ? folder.cache() : fs::path());
-    EXPECT_EQ(job.inputs.faces.topology.corner_uvs, plain.faces.topology.corner_uvs);
-    EXPECT_EQ(job.inputs.faces.uvs, plain.faces.uvs);
+    EXPECT_EQ(job.inputs.head_set.topology.corner_uvs, plain.head_set.topology.corner_uvs);
+    EXPECT_EQ(job.inputs.head_set.uvs, plain.head_set.uvs);
     EXPECT_EQ(job.inputs.head_digests, plain.head_digests);
   }
 }

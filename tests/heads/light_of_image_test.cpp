@@ -17,10 +17,10 @@ Image image_of(int channels) {
 }
 
 void expect_same_with_and_without_densities(const Image& image) {
-  LightRows light = light_of(image);
-  ASSERT_TRUE(light.densities);
+  ImageRows light = light_of(image);
+  ASSERT_TRUE(light.read_densities);
   const TextureMap quick = make_texture_map(image.width, image.height, light);
-  light.densities = nullptr;
+  light.read_densities = nullptr;
   const TextureMap plain = make_texture_map(image.width, image.height, light);
   EXPECT_EQ(quick.planes, plain.planes);
 }
@@ -35,10 +35,10 @@ TEST(LightOfImage, WholeNumbersGiveTheDensitiesThatTheirLightHas) {
 
 TEST(LightOfImage, OfFloatsLightIsAsItStands) {
   const Image image{2, 1, 3, -1, std::vector<float>{0.25F, 0.5F, 1.5F, -1, 0, 0.125F}};
-  const LightRows light = light_of(image);
-  EXPECT_FALSE(light.densities);
+  const ImageRows light = light_of(image);
+  EXPECT_FALSE(light.read_densities);
   std::vector<Eigen::Array3f> row(2);
-  light.row(0, row);
+  light.read_row(0, row);
   EXPECT_TRUE((row[0] == Eigen::Array3f(0.25F, 0.5F, 1.5F)).all());
   EXPECT_TRUE((row[1] == Eigen::Array3f(0, 0, 0.125F)).all());
 }

@@ -489,7 +489,7 @@ TEST(RightSideOut, TurnsFacesInTheTextToo) {
   EXPECT_EQ(turned.file.bytes(), vertices +
                                      "g left\r\nf 1/1 3/3 2/2\r\nf 1 2 4\r\nf 1 4 3\r\n"
                                      "f -3/1 -2/3 -1/2");
-  EXPECT_EQ(winding(turned.topology, turned.positions), 1);
+  EXPECT_EQ(winding_sign(turned.topology, turned.positions), 1);
   EXPECT_TRUE(turned.is_mended);
   EXPECT_EQ(turned.notes.size(), 1U);
   const auto outward = folder.write("out.obj", turned.file.bytes());

@@ -156,7 +156,7 @@ TEST(GlbTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
   const std::string png = encode_png(1, 1, 3, std::vector<std::uint8_t>{200, 100, 50});
   mesh.options.overlay.emplace(GlbOverlay{png, {}});
   for (std::uint16_t v = 0; v < 8; ++v) {
-    mesh.options.overlay->places.push_back({v, static_cast<std::uint16_t>(65535 - v)});
+    mesh.options.overlay->uvs.push_back({v, static_cast<std::uint16_t>(65535 - v)});
   }
   const Positions positions = testing::random_positions(8, 1);
   const GlbTemplate form(mesh.topology, mesh.uvs, mesh.options);
@@ -247,7 +247,7 @@ TEST(GlbTemplate, HasTheSameBytesForAnyNumberOfThreads) {
     const EncodedFile file = form.encode(positions, normals, "grid");
     if (first.empty()) first = file.text();
     EXPECT_TRUE(file.text() == first) << threads << " threads";
-    EXPECT_GT(form.memory_bytes() + form.encode_bytes(), first.size() - 100);
+    EXPECT_GT(form.memory_bytes() + form.encoding_memory_bytes(), first.size() - 100);
   }
   // The container: its length, a JSON chunk, a binary chunk, both in fours.
   testing::BinaryReader file(first);

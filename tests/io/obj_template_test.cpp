@@ -123,7 +123,7 @@ TEST_P(ObjLayouts, AreFilledInLineByLine) {
       ASSERT_TRUE(encoded.text() == expected) << threads << " threads";
       EXPECT_EQ(encoded.size(), expected.size());
       EXPECT_EQ(encoded.digest(), hash_bytes(expected));
-      EXPECT_LE(encoded.size(), form.encode_bytes() + file.file.bytes().size());
+      EXPECT_LE(encoded.size(), form.encoding_memory_bytes() + file.file.bytes().size());
     }
   }
 }

@@ -62,7 +62,7 @@ TEST(PlyTemplate, HasTheSameBytesForAnyNumberOfThreads) {
   }
   const std::size_t faces = 17 * 60000, vertices = 12 * 301 * 201;
   EXPECT_EQ(form.memory_bytes(), faces);
-  EXPECT_EQ(form.encode_bytes(), (12 + 12 + 3) * 301 * 201) << "with normals and colours";
+  EXPECT_EQ(form.encoding_memory_bytes(), (12 + 12 + 3) * 301 * 201) << "with normals and colours";
   EXPECT_EQ(first.size(), first.find("end_header\n") + 11 + vertices + faces);
 }
 

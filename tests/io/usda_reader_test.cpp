@@ -38,7 +38,7 @@ TEST(ParseUsda, ReadsWhatWeWrite) {
     uvs.row(c) << c / 32.0, 1 - c / 64.0;
   }
   GlbOptions options;
-  options.colours = true;
+  options.has_colours = true;
   options.materials = {{"skin"}, {"eyes"}};
   for (Index f = 0; f < topology.face_count(); ++f) options.face_materials.push_back(f < 2 ? 0 : 1);
   const Positions positions = cube_positions();

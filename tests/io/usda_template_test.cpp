@@ -109,8 +109,8 @@ TEST(UsdaTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
   Scene scene;
   scene.options.materials[1] = {"eye", {0.7F, 0.7F, 0.6F, 1}, std::nullopt, true};
   scene.options.overlay.emplace();
-  for (std::uint16_t v = 0; v < 8; ++v) scene.options.overlay->places.push_back({v, 65535});
-  scene.options.overlay->places[3] = {65535, 0};
+  for (std::uint16_t v = 0; v < 8; ++v) scene.options.overlay->uvs.push_back({v, 65535});
+  scene.options.overlay->uvs[3] = {65535, 0};
   const std::string text = scene.text();
   EXPECT_THAT(numbers_of(text, "int[] primvars:st1:indices"), ElementsAre(0, 2, 1, 3, 4, 0, 0, 0))
       << "of the second face alone";
@@ -171,8 +171,8 @@ TEST(UsdaTemplate, HoldsFurtherMeshesWithMaterialsOfTheirOwn) {
   triangle.vertex_count = 3;
   triangle.add_face(std::vector<std::uint32_t>{0, 1, 2});
   UsdaSurface surface;
-  surface.picture = "./strands.png";
-  surface.holes = "./holes.png";
+  surface.colour_map = "./strands.png";
+  surface.opacity_map = "./holes.png";
   const UsdaPart part("hair", triangle, {}, {{"a b", surface}}, {0}, {"smile-L", "smile.L"});
   const Positions positions = testing::random_positions(3, 5);
   const std::vector<Displacements> moves = {{{2}, testing::random_positions(1, 6)}, {{}, {}}};

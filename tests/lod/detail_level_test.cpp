@@ -81,7 +81,7 @@ TEST(DetailLevels, KeepRimsSeamsAndBordersOfLooks) {
       const Eigen::Vector3d b = row3(positions, corners[2]) - row3(positions, corners[0]);
       const double twice = a.x() * b.y() - a.y() * b.x();
       EXPECT_GE(twice, 0) << "turned over";
-      area[looks[level.faces[static_cast<std::size_t>(t)]]] += twice / 2;
+      area[looks[level.source_faces[static_cast<std::size_t>(t)]]] += twice / 2;
       const Eigen::RowVector2d u = level.uvs.row(uvs[1]) - level.uvs.row(uvs[0]);
       const Eigen::RowVector2d v = level.uvs.row(uvs[2]) - level.uvs.row(uvs[0]);
       EXPECT_NEAR(u.x(), a.x() / 100, 1e-12) << "reaches over the tear";

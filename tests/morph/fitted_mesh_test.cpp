@@ -78,7 +78,7 @@ TEST_F(Wardrobe, FilesThatAreNotWholeAreRefused) {
 TEST_F(Wardrobe, DressedHeadsKeepTheirSkinToTheBit) {
   MakeHumanHeads naked(folder_.path()), dressed(folder_.path());
   const MakeHumanParts parts =
-      read_makehuman_parts(folder_.path(), dressed.base(), dressed.skin_rows());
+      read_makehuman_parts(folder_.path(), dressed.base_positions(), dressed.skin_rows());
   dressed.add_parts(parts.clothing);
   const auto skin = static_cast<Index>(naked.skin_rows().size());
   const Positions expected = naked.positions(3, 2), found = dressed.positions(3, 2);
@@ -105,14 +105,15 @@ TEST_F(Wardrobe, PartsWithoutFreeLicenceAreNotUsed) {
   eyes.replace(eyes.find("AGPL3"), 5, "XYZZY");
   folder_.write("public/data/proxies/eyes/HighPolyEyes/HighPolyEyes.json", eyes);
   const MakeHumanHeads heads(folder_.path());
-  expect_error(ExitCode::kBadData, {"HighPolyEyes.json", "free licence", "XYZZY"},
-               [&] { read_makehuman_parts(folder_.path(), heads.base(), heads.skin_rows()); });
+  expect_error(ExitCode::kBadData, {"HighPolyEyes.json", "free licence", "XYZZY"}, [&] {
+    read_makehuman_parts(folder_.path(), heads.base_positions(), heads.skin_rows());
+  });
 }
 
 TEST_F(Wardrobe, SkinsAreMixedByAgeAndAncestry) {
   MakeHumanPerson person{true, 37.5, {0.25, 0, 0.75}, 0.5, 0.5};
   double sum = 0, african = 0, young = 0;
-  for (const SkinShare& share : makehuman_skin(folder_.path(), person, 1, 1)) {
+  for (const SkinShare& share : makehuman_skin_shares(folder_.path(), person, 1, 1)) {
     const std::string name = share.picture.filename().string();
     sum += share.share;
     EXPECT_EQ(name.find("female"), std::string::npos);
@@ -127,8 +128,8 @@ TEST_F(Wardrobe, SkinsAreMixedByAgeAndAncestry) {
   int brown = 0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     brown += makehuman_eye_colour(person, 1, i) == "brown" ? 1 : 0;
-    EXPECT_GE(makehuman_skin_tone(1, i), 0.75);
-    EXPECT_LE(makehuman_skin_tone(1, i), 1.25);
+    EXPECT_GE(makehuman_skin_density_factor(1, i), 0.75);
+    EXPECT_LE(makehuman_skin_density_factor(1, i), 1.25);
   }
   EXPECT_NEAR(brown / 400.0, 0.25 * 0.9 + 0.75 * 0.25, 0.07);
 }

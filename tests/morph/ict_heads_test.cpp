@@ -32,8 +32,8 @@ TEST(IctHeads, AreTheNeutralPlusWeightedModes) {
     EXPECT_NEAR(moved(v, 1), sum, 1e-12);
     EXPECT_NEAR(moved(v, 2), -sum, 1e-12);
   }
-  EXPECT_DOUBLE_EQ(heads.heights().eyes, 3.5);
-  EXPECT_DOUBLE_EQ(heads.heights().mouth, 0.5);
+  EXPECT_DOUBLE_EQ(heads.heights().eye_height, 3.5);
+  EXPECT_DOUBLE_EQ(heads.heights().mouth_height, 0.5);
 }
 
 TEST(IctHeads, AMeshWithoutEyesOrTeethIsRefusedByName) {

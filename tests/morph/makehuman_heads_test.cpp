@@ -45,8 +45,8 @@ TEST_F(StandIn, HeadAndEyesAreCutFromTheRest) {
   EXPECT_DOUBLE_EQ(heads.neutral().uvs.maxCoeff(), 0.95);
   // Half-way between the eyes is the origin, in centimetres.
   EXPECT_NEAR(heads.neutral().positions.bottomRows(4).colwise().mean().x(), 3, 1e-12);
-  EXPECT_NEAR(heads.heights().eyes, 0, 1e-12);
-  EXPECT_NEAR(heads.heights().mouth, -6.5, 1e-12);
+  EXPECT_NEAR(heads.heights().eye_height, 0, 1e-12);
+  EXPECT_NEAR(heads.heights().mouth_height, -6.5, 1e-12);
 }
 
 TEST_F(StandIn, HeadsAreTheWeightedSumOfTargets) {
@@ -63,7 +63,7 @@ TEST_F(StandIn, HeadsAreTheWeightedSumOfTargets) {
       for (Index axis = 0; axis < 3; ++axis) {
         expected(i, axis) +=
             target.weight *
-            MakeHumanStandIn::thousandths(t, mesh.rows[static_cast<std::size_t>(i)],
+            MakeHumanStandIn::thousandths(t, mesh.head_rows[static_cast<std::size_t>(i)],
                                           static_cast<std::size_t>(axis)) /
             1000.0;
       }

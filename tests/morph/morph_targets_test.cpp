@@ -21,13 +21,13 @@ TEST(MorphTargets, AreThousandthsInTheOrderOfTheirNames) {
                              {"data/targets/b.target", "data/targets/a.target"}, 2);
   Positions out = Positions::Zero(2, 3);
   const std::vector<std::uint32_t> rows = {0, 1};
-  targets.add({"a", 2}, rows, out);
+  targets.add_displacements({"a", 2}, rows, out);
   EXPECT_EQ(out, (Positions(2, 3) << 0.002, 0.004, 0.006, -0.002, -0.004, -0.006).finished());
   out.setZero();
-  targets.add({"b", 1}, rows, out);
+  targets.add_displacements({"b", 1}, rows, out);
   EXPECT_EQ(out, (Positions(2, 3) << 1, 0, 0, 0, -1, -32.768).finished());
   Positions one = Positions::Ones(1, 3);
-  targets.add({"a", 1}, std::vector<std::uint32_t>{1}, one);
+  targets.add_displacements({"a", 1}, std::vector<std::uint32_t>{1}, one);
   EXPECT_EQ(one, (Positions(1, 3) << 0.999, 0.998, 0.997).finished());
 }
 
@@ -40,7 +40,7 @@ TEST(MorphTargets, WhatDoesNotFitIsRefused) {
   const MorphTargets targets(file, {"a", "b"}, 2);
   Positions out = Positions::Zero(2, 3);
   expect_error(ExitCode::kBadData, {"t.bin", "\"c\""}, [&] {
-    targets.add({"c", 1}, std::vector<std::uint32_t>{0}, out);
+    targets.add_displacements({"c", 1}, std::vector<std::uint32_t>{0}, out);
   });
 }
 

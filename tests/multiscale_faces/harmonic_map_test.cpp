@@ -21,7 +21,7 @@ TEST(FrontPatch, IsOneSurfaceWithABorderAndHoles) {
   }
   EXPECT_EQ(patch.vertex_count() - static_cast<Index>(edges.size()) +
                 static_cast<Index>(patch.triangles.size()),
-            1 - static_cast<Index>(patch.holes.size()));
+            1 - static_cast<Index>(patch.hole_rims.size()));
 }
 
 TEST(HarmonicMap, FillsTheSquareWithoutFolds) {

@@ -12,20 +12,21 @@ namespace crowdface::multiscale {
 namespace {
 
 std::vector<double> all_levels(double weight) {
-  return std::vector<double>(kLevels - 1, weight);
+  return std::vector<double>(kLevelCount - 1, weight);
 }
 
 TEST(MultiscaleFace, IsMadeAgainFromItsOwnMaps) {
   const TestHeads heads;
   const MultiscaleFace face = multiscale_face(heads.patch, heads.fronts[0], 2);
   const auto error = [&](double weight) {
-    const Details own{&face, std::vector<double>(face.displacements.size(), weight)};
-    return differences(heads.patch, heads.fronts[0], synthesize(face, {&own, 1})).rms_to_surface;
+    const WeightedSource own{&face, std::vector<double>(face.displacements.size(), weight)};
+    return differences(heads.patch, heads.fronts[0], synthesize(face, {&own, 1}))
+        .rms_distance_to_surface;
   };
   // In centimetres. Without displacements, only the base surface is left.
   EXPECT_LT(error(1), 0.05);
   EXPECT_GT(error(0), 4 * error(1));
-  EXPECT_LT(face.missed_share, 0.01);
+  EXPECT_LT(face.missed_normal_share, 0.01);
 }
 
 TEST(MultiscaleFace, IsLinearInTheWeightsOfDetails) {
@@ -33,22 +34,23 @@ TEST(MultiscaleFace, IsLinearInTheWeightsOfDetails) {
   const MultiscaleFace a = multiscale_face(heads.patch, heads.fronts[0], 0),
                        b = multiscale_face(heads.patch, heads.fronts[1], 0);
   const auto face = [&](double of_a, double of_b) {
-    const std::vector<Details> details = {{&a, all_levels(of_a)}, {&b, all_levels(of_b)}};
+    const std::vector<WeightedSource> details = {{&a, all_levels(of_a)}, {&b, all_levels(of_b)}};
     return synthesize(a, details);
   };
   const Positions middle = face(0.5, 0.5);
   EXPECT_NEAR((middle - (face(1, 0) + face(0, 1)) / 2).rowwise().norm().maxCoeff(), 0, 1e-9);
   // Weights of vertices do the same.
   const std::vector<double> half(static_cast<std::size_t>(heads.patch.vertex_count()), 0.5);
-  const std::vector<Details> details = {{&a, all_levels(1), half}, {&b, all_levels(1), half}};
+  const std::vector<WeightedSource> details = {{&a, all_levels(1), half},
+                                               {&b, all_levels(1), half}};
   EXPECT_NEAR((synthesize(a, details) - middle).rowwise().norm().maxCoeff(), 0, 1e-9);
 }
 
 TEST(MultiscaleFace, RefusesDetailsOfAnotherBase) {
   const TestHeads heads;
   const MultiscaleFace a = multiscale_face(heads.patch, heads.fronts[0], 0);
-  const MultiscaleFace b = with_base(a, 1);
-  const Details other{&b, all_levels(1)};
+  const MultiscaleFace b = with_base_level(a, 1);
+  const WeightedSource other{&b, all_levels(1)};
   EXPECT_THROW(synthesize(a, {&other, 1}), BrokenPrecondition);
 }
 

@@ -85,7 +85,7 @@ TEST(SplineLattice, GivesTheValueOfOneSampleWithTheSmallestControlPoints) {
   const SplineLattice lattice = approximate(4, uv, value);
   EXPECT_NEAR(lattice.value(uv.row(0))[0], 5, 1e-13);
   // Any other solution adds a vector across the 16 weights and is longer.
-  Columns other = lattice.control();
+  Columns other = lattice.control_points();
   Eigen::VectorXd weights(other.rows());
   for (Index row = 0; row < other.rows(); ++row) {
     Columns one = Columns::Zero(other.rows(), 1);

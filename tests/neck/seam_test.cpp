@@ -47,16 +47,16 @@ class NeckOfATube : public ::testing::Test {
 
 TEST_F(NeckOfATube, BendsTheRimExactly) {
   Positions fitted = mesh_;
-  seam().fit(fitted);
+  seam().bend_to_seam(fitted);
   EXPECT_EQ(fitted(tube_.rim(), kAllColumns), goal_);
   const Positions once = fitted;
-  seam().fit(fitted);
+  seam().bend_to_seam(fitted);
   EXPECT_EQ(fitted, once) << "a fitted neck stays as it is";
 }
 
 TEST_F(NeckOfATube, FadesSmoothlyToZeroAtTheFalloff) {
   Positions fitted = mesh_;
-  seam().fit(fitted);
+  seam().bend_to_seam(fitted);
   const Positions by = fitted - mesh_;
   const double row_mm = tube_.height / tube_.rows;
   const auto last = static_cast<Index>(kFalloff / row_mm);
@@ -77,7 +77,7 @@ TEST_F(NeckOfATube, HasNoCrease) {
   goal_ = mesh_(tube_.rim(), kAllColumns);
   goal_.col(0).array() += 6;
   Positions fitted = mesh_;
-  seam().fit(fitted);
+  seam().bend_to_seam(fitted);
   const Positions by = fitted - mesh_;
   const auto at = [&](Index row) { return by(row * tube_.around, 0); };
   double before = 0;
@@ -96,9 +96,9 @@ TEST_F(NeckOfATube, ARigidShiftOfRimAndGoalChangesNothingElse) {
   shifted.rowwise() += Eigen::RowVector3d(1, 2, 3);
   Positions a = mesh_, b = shifted;
   const Seam own = seam();
-  own.fit(a);
+  own.bend_to_seam(a);
   goal_.rowwise() += Eigen::RowVector3d(1, 2, 3);
-  seam().fit(b);
+  seam().bend_to_seam(b);
   EXPECT_LT((b - a - (shifted - mesh_)).cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -121,7 +121,7 @@ TEST_F(NeckOfATube, HoldsShapesStillAtTheRim) {
        mesh_(tube_.rim(), kAllColumns),
        {},
        NeckBend(topology_, adjacency_, mesh_, tube_.rim(), kFalloff)}
-      .fit(bent);
+      .bend_to_seam(bent);
   EXPECT_LT((bent - after).cwiseAbs().maxCoeff(), 1e-9);
 }
 

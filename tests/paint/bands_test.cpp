@@ -53,10 +53,10 @@ TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
     if (std::abs(x) < 4) {
       EXPECT_LT(alpha(v, 3), 0.02) << "no ear so near the middle";
     }
-    if (y > marks->tip) {
+    if (y > marks->tip_height) {
       EXPECT_LT(alpha(v, 4), 0.02) << "no neck beside the nose";
     }
-    if (y < marks->chin - 2) {
+    if (y < marks->chin_height - 2) {
       EXPECT_EQ(alpha(v, 4), 1);
     }
   }
@@ -75,7 +75,7 @@ TEST(Bands, AHeadWithoutEarsOrNeckHasNoSuchBands) {
   ASSERT_TRUE(marks);
   for (Index v = 0; v < head.positions.rows(); ++v) {
     head.positions(v, 0) = std::clamp(head.positions(v, 0), -5.0, 5.0);
-    head.positions(v, 1) = std::max(head.positions(v, 1), marks->chin);
+    head.positions(v, 1) = std::max(head.positions(v, 1), marks->chin_height);
   }
   for (const auto& [band, phrase] : {std::pair{Band::kEars, "ears"}, {Band::kNeck, "neck"}}) {
     const std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth, band};

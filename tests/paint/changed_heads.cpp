@@ -38,7 +38,7 @@ Changed thinned(const char* what, const Topology& topology, const HeadShape& hea
     const Eigen::RowVector3d p = head.positions.row(v);
     const double cell = cell_at(p);
     const std::array<int, 3> key = {static_cast<int>(std::floor(p.x() / cell)) +
-                                        (head.skin[static_cast<std::size_t>(v)] ? 0 : 1000),
+                                        (head.is_skin[static_cast<std::size_t>(v)] ? 0 : 1000),
                                     static_cast<int>(std::floor(p.y() / cell)),
                                     static_cast<int>(std::floor(p.z() / cell))};
     const auto at = cells.try_emplace(key, static_cast<std::uint32_t>(cells.size())).first->second;
@@ -46,7 +46,7 @@ Changed thinned(const char* what, const Topology& topology, const HeadShape& hea
     if (at == sums.size()) {
       sums.emplace_back(0, 0, 0);
       counts.push_back(0);
-      result.head.skin.push_back(head.skin[static_cast<std::size_t>(v)]);
+      result.head.is_skin.push_back(head.is_skin[static_cast<std::size_t>(v)]);
     }
     sums[at] += p;
     ++counts[at];
@@ -91,11 +91,11 @@ Changed refined(const Topology& topology, const HeadShape& head) {
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> of_edge;
   Changed result{"refined", {}, head};
   const auto middle_of_edge = [&](std::uint32_t a, std::uint32_t b) {
-    const auto next = static_cast<std::uint32_t>(head.skin.size() + middles.size());
+    const auto next = static_cast<std::uint32_t>(head.is_skin.size() + middles.size());
     const auto [place, is_new] = of_edge.try_emplace({std::min(a, b), std::max(a, b)}, next);
     if (is_new) {
       middles.emplace_back((head.positions.row(a) + head.positions.row(b)) / 2);
-      result.head.skin.push_back(head.skin[a]);
+      result.head.is_skin.push_back(head.is_skin[a]);
     }
     return place->second;
   };
@@ -106,9 +106,9 @@ Changed refined(const Topology& topology, const HeadShape& head) {
     triangles.insert(triangles.end(),
                      {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
   }
-  result.head.positions.conservativeResize(static_cast<Index>(result.head.skin.size()), 3);
+  result.head.positions.conservativeResize(static_cast<Index>(result.head.is_skin.size()), 3);
   for (std::size_t m = 0; m < middles.size(); ++m) {
-    result.head.positions.row(static_cast<Index>(head.skin.size() + m)) = middles[m];
+    result.head.positions.row(static_cast<Index>(head.is_skin.size() + m)) = middles[m];
   }
   result.topology = topology_of(triangles, result.head.positions.rows());
   return result;
@@ -147,7 +147,7 @@ std::vector<Changed> changes_of(const Topology& topology, const HeadShape& head)
   }));
   all.push_back(cut("without skull", topology, head,
                     [](const Eigen::Vector3d& p) { return p.z() > 2 && p.y() < 7; }));
-  for (Changed& one : all) one.head.eyeballs.clear();
+  for (Changed& one : all) one.head.eyeball_centres.clear();
   return all;
 }
 
@@ -168,9 +168,9 @@ Eigen::Vector3d place_at(const Positions& samples, double height) {
 std::vector<MarkError> mark_errors(const Topology& topology, const HeadShape& head) {
   constexpr Index kDense = 400'000;
   std::vector<MarkError> errors;
-  const auto before = find_face_marks(topology, {head.positions, head.skin, {}}, {});
+  const auto before = find_face_marks(topology, {head.positions, head.is_skin, {}}, {});
   if (!before) return errors;
-  const Positions samples = sample_skin(topology, head.positions, head.skin, kDense);
+  const Positions samples = sample_skin(topology, head.positions, head.is_skin, kDense);
   for (const Changed& one : changes_of(topology, head)) {
     const auto marks = find_face_marks(one.topology, one.head, {});
     const auto add = [&](const char* mark, double FaceMarks::*height) {
@@ -181,9 +181,9 @@ std::vector<MarkError> mark_errors(const Topology& topology, const HeadShape& he
       }
       errors.push_back(error);
     };
-    add("tip", &FaceMarks::tip);
-    add("eyes", &FaceMarks::eyes);
-    add("mouth", &FaceMarks::mouth);
+    add("tip", &FaceMarks::tip_height);
+    add("eyes", &FaceMarks::eyes_height);
+    add("mouth", &FaceMarks::mouth_height);
   }
   return errors;
 }
@@ -192,10 +192,10 @@ bool put_at_origin(const Topology& topology, HeadShape& head) {
   constexpr double kCmPerMm = 0.1, kInFrontCm = 7;
   const auto face = find_face(topology, head, {});
   if (!face) return false;
-  head.positions.rowwise() -= Eigen::RowVector3d(face->between_eyes.transpose());
+  head.positions.rowwise() -= Eigen::RowVector3d(face->eye_midpoint.transpose());
   head.positions *= kCmPerMm / face->scale;
   head.positions.col(2).array() += kInFrontCm;
-  head.eyeballs.clear();
+  head.eyeball_centres.clear();
   return true;
 }
 

@@ -9,7 +9,7 @@ namespace {
 TEST(DepthMap, WithoutSurfaceAgreesWithNoFace) {
   DepthMap map(Positions(0, 3), {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY()}, 2);
   map.smooth();
-  EXPECT_EQ(map.fit(0, 0, 1).agreement, -1);
+  EXPECT_EQ(map.fit(0, 0, 1).correlation, -1);
 }
 
 }  // namespace

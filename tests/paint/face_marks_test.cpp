@@ -24,17 +24,18 @@ TEST(FaceMarks, LieWhereASyntheticHeadHasThemAtAnyResolution) {
   for (const Index vertices : {5000, 20000}) {
     const HeadSet faces = synth_heads(vertices);
     HeadShape head = shape_of_mean(faces);
-    EXPECT_EQ(head.eyeballs.size(), 2U);
+    EXPECT_EQ(head.eyeball_centres.size(), 2U);
     const auto marks = find_face_marks(faces.topology, head, {});
     ASSERT_TRUE(marks);
-    EXPECT_NEAR(marks->middle, 0, 0.2);
-    EXPECT_NEAR(marks->eyes, 0, 0.3);
-    EXPECT_NEAR(marks->mouth, -7, 0.4);
-    EXPECT_GT(marks->bridge, marks->tip + 2);
-    EXPECT_GT(marks->tip, marks->mouth + 2);
-    EXPECT_NEAR(marks->chin, -11.3, 1);
-    head.eyeballs.clear();
-    EXPECT_NEAR(find_face_marks(faces.topology, head, {})->eyes, 0, 0.6) << "told by the nose";
+    EXPECT_NEAR(marks->symmetry_offset, 0, 0.2);
+    EXPECT_NEAR(marks->eyes_height, 0, 0.3);
+    EXPECT_NEAR(marks->mouth_height, -7, 0.4);
+    EXPECT_GT(marks->bridge_height, marks->tip_height + 2);
+    EXPECT_GT(marks->tip_height, marks->mouth_height + 2);
+    EXPECT_NEAR(marks->chin_height, -11.3, 1);
+    head.eyeball_centres.clear();
+    EXPECT_NEAR(find_face_marks(faces.topology, head, {})->eyes_height, 0, 0.6)
+        << "told by the nose";
   }
 }
 
@@ -63,7 +64,7 @@ HeadShape merged(Topology& topology, const HeadShape& head, double cell) {
   for (Index f = 0; f < topology.face_count(); ++f) {
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t v : topology.face(f)) {
-      if (head.skin[v] && std::ranges::find(corners, row[v]) == corners.end())
+      if (head.is_skin[v] && std::ranges::find(corners, row[v]) == corners.end())
         corners.push_back(row[v]);
     }
     if (corners.size() < 3) continue;
@@ -154,9 +155,9 @@ TEST(FaceMarks, WhatIsNoHeadHasNoFace) {
   HeadShape cube{cube_positions(), std::vector<bool>(8, true), {}};
   EXPECT_FALSE(find_face_marks(cube_topology(), cube, {}));
   EXPECT_FALSE(find_orientation(cube_topology(), cube));
-  cube.skin.assign(8, false);
+  cube.is_skin.assign(8, false);
   EXPECT_FALSE(find_orientation(cube_topology(), cube));
-  cube.skin.assign(8, true);
+  cube.is_skin.assign(8, true);
   cube.positions.setZero();
   EXPECT_FALSE(find_orientation(cube_topology(), cube));
 }

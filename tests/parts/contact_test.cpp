@@ -25,13 +25,13 @@ struct BoxBehindWall {
       static_cast<std::uint32_t>(skin + 4), static_cast<std::uint32_t>(skin + 5),
       static_cast<std::uint32_t>(skin + 6), static_cast<std::uint32_t>(skin + 7)};
 
-  Contact contact(const std::vector<Head>& heads) const {
+  PartContact contact(const std::vector<Head>& heads) const {
     std::vector<std::uint32_t> wall(static_cast<std::size_t>(skin));
     std::iota(wall.begin(), wall.end(), 0U);
     return {mesh.topology, faces, mesh.positions, PointGrid(mesh.positions, wall), wall,
             front,         0.6,   heads};
   }
-  Contact contact() const { return contact({{"ann", mesh.positions}}); }
+  PartContact contact() const { return contact({{"ann", mesh.positions}}); }
   /// The wall pushed back, and tilted about the up axis.
   Positions pushed(double by, double tilt = 0) const {
     Positions after = mesh.positions;
@@ -51,7 +51,7 @@ struct BoxBehindWall {
 
 TEST(Contact, KnowsHeightsWhicheverWayFacesLook) {
   const BoxBehindWall scene;
-  const Contact contact = scene.contact();
+  const PartContact contact = scene.contact();
   ASSERT_EQ(contact.size(), 4U);
   for (std::size_t i = 0; i < contact.size(); ++i) {
     const Eigen::Vector3d point = scene.mesh.positions.row(scene.front[i]).transpose();
@@ -90,7 +90,7 @@ TEST(Contact, TurnsAPartBehindATiltedWall) {
 TEST(Contact, AllowsWhatAHeadHas) {
   const BoxBehindWall scene;
   const Positions through = scene.pushed(0.3);
-  const Contact contact = scene.contact({{"ann", scene.mesh.positions}, {"bob", through}});
+  const PartContact contact = scene.contact({{"ann", scene.mesh.positions}, {"bob", through}});
   EXPECT_EQ(contact.keep_out_of_skin(through, {}, through, kMargin).moved_pivot.norm(), 0);
   const RigidMotion motion =
       contact.keep_out_of_skin(scene.mesh.positions, {}, scene.pushed(0.4), kMargin);

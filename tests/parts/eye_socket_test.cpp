@@ -31,7 +31,7 @@ struct LidsAroundBall {
       mesh.positions.row(ball + i) = (kRadius + gap(i)) * direction.transpose();
       lids.vertices.push_back(static_cast<std::uint32_t>(ball + i));
       lids.rim.push_back(static_cast<std::uint32_t>(i));
-      lids.upper.push_back(direction.y() > 0);
+      lids.is_upper.push_back(direction.y() > 0);
     }
   }
   /// One in seven is inside.
@@ -139,7 +139,7 @@ TEST(EyeSocket, LetsNoLidInThatIsInsideInNoHead) {
   for (const bool upper : {false, true}) {
     double change = 0, count = 0;
     for (std::size_t i = 0; i < gaps.size(); ++i) {
-      if (scene.lids.upper[i] != upper) continue;
+      if (scene.lids.is_upper[i] != upper) continue;
       change += gaps[i] - before[i];
       count += 1;
     }
@@ -163,7 +163,7 @@ TEST(FindLids, TakesTheSkinNearestToTheAxis) {
     const std::uint32_t v = lids.vertices[lids.rim[i]];
     EXPECT_LT(v, half);
     EXPECT_GT(mesh.positions(v, 2), 0.3 * 1.3);
-    EXPECT_EQ(lids.upper[i], mesh.positions(v, 1) > 0);
+    EXPECT_EQ(lids.is_upper[i], mesh.positions(v, 1) > 0);
   }
 }
 

@@ -149,7 +149,7 @@ TEST(FindMirror, EyesChangePlaces) {
 TEST(FindMirror, WhatIsOnOneSideOnlyKeepsItsForm) {
   const BowlWithCubes head({{-3, 2, 8}});
   const FoundMirror found = found_on(head.topology, head.mean);
-  EXPECT_EQ(found.map.unpaired.size(), 8U);
+  EXPECT_EQ(found.map.unpaired_vertices.size(), 8U);
   EXPECT_EQ(found.mutual_vertex_count, head.mean.rows() - 8);
   const Positions moved = mirrored(found.map, head.mean) - head.mean;
   // But for the reach within which nothing is kept.

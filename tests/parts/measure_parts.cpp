@@ -417,7 +417,7 @@ void paint_bands(const std::filesystem::path& folder, const std::string& prefix)
   const auto bands =
       horizontal_bands(faces.heads[0].positions.col(1), height_of(true), height_of(false));
   const PaintedMasks masks = paint_masks(faces.topology, faces.uvs, bands, {}, kSize);
-  for (const auto& [file, bytes] : encode_masks(masks, prefix + ".png").files) {
+  for (const auto& [file, bytes] : encode_masks(masks, prefix + ".png").png_files) {
     write_file(file, bytes);
   }
 }

@@ -77,8 +77,8 @@ TEST(SkinContacts, AreAsWideAsTheyWereMade) {
   for (const auto& [head, gap] : {std::pair{0, 0.04}, {1, 0.08}, {2, 0.12}}) {
     for (const double found : contacts.head_gaps(head)) EXPECT_NEAR(found, gap, 1e-9);
   }
-  EXPECT_NEAR(contacts.max_excess(slotted_roller(0.5).positions), 0.38, 1e-9);
-  EXPECT_EQ(contacts.max_excess(slotted_roller(0.1).positions), 0);
+  EXPECT_NEAR(contacts.max_gap_excess(slotted_roller(0.5).positions), 0.38, 1e-9);
+  EXPECT_EQ(contacts.max_gap_excess(slotted_roller(0.1).positions), 0);
 }
 
 TEST(SkinContacts, AreBroughtIntoTheirRanges) {
@@ -118,7 +118,7 @@ TEST(SkinContacts, AreBroughtIntoTheirRangesFromFarWhereWallsAreWaves) {
   }
   Positions face = waves(1);
   contacts.fit_gaps(ranges, face);
-  EXPECT_LT(contacts.max_excess(face), 2e-3);
+  EXPECT_LT(contacts.max_gap_excess(face), 2e-3);
 }
 
 // Places closer than skin bends were pulled apart and together by turns, until lips were an S.

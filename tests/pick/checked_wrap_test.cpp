@@ -32,7 +32,7 @@ class CheckedWrap : public ::testing::Test {
     for (WrapLandmark& landmark : landmarks_) {
       const bool is_mouth = landmark.name.starts_with("mouth") || landmark.name.starts_with("lip");
       landmark.is_found_by_shape = is_found_by_shape;
-      if (is_mouth) landmark.place.y() -= 17;
+      if (is_mouth) landmark.scan_position.y() -= 17;
     }
     std::erase_if(landmarks_,
                   [](const WrapLandmark& landmark) { return landmark.name.starts_with("chin"); });
@@ -45,8 +45,8 @@ class CheckedWrap : public ::testing::Test {
   }
 
   double agreement(const WrapResult& result, const std::string& name) const {
-    const auto feature = std::ranges::find(result.features, name, &FeatureAgreement::name);
-    return feature == result.features.end() ? -1 : feature->agreement;
+    const auto feature = std::ranges::find(result.features, name, &FeatureCheck::name);
+    return feature == result.features.end() ? -1 : feature->relief_correlation;
   }
 
   WrapResult wrapped() const {
@@ -65,8 +65,8 @@ class CheckedWrap : public ::testing::Test {
 TEST_F(CheckedWrap, RightLandmarksGiveFeaturesThatAgree) {
   const WrapResult result = wrapped();
   ASSERT_GE(features_.size(), 4U);
-  for (const FeatureAgreement& feature : result.features) {
-    EXPECT_GT(feature.agreement, 0.75) << feature.name;
+  for (const FeatureCheck& feature : result.features) {
+    EXPECT_GT(feature.relief_correlation, 0.75) << feature.name;
   }
   EXPECT_TRUE(wrap_doubts(shape_, result).empty());
   EXPECT_TRUE(result.dropped_landmarks.empty());
@@ -88,7 +88,7 @@ TEST_F(CheckedWrap, PickedLandmarksStayAndTheWrongMouthIsNamed) {
   const WrapResult result = wrapped();
   EXPECT_GT(lips_off(result), 5);
   EXPECT_TRUE(result.dropped_landmarks.empty());
-  EXPECT_LT(agreement(result, "mouth"), kDoubtfulAgreement);
+  EXPECT_LT(agreement(result, "mouth"), kMinReliefCorrelation);
   EXPECT_THAT(wrap_doubts(shape_, result), Contains(HasSubstr("the mouth is doubtful")));
 }
 

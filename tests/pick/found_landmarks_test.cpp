@@ -37,7 +37,7 @@ TEST_F(FoundLandmarksTest, LieWhereTheTemplatesOwnVerticesWouldOnThatHead) {
   const Positions same_head = truth_.apply(10 * some_head(1));
   std::vector<double> off;
   for (const WrapLandmark& landmark : found) {
-    off.push_back(1000 * (row3(same_head, landmark.vertex) - landmark.place).norm());
+    off.push_back(1000 * (row3(same_head, landmark.vertex) - landmark.scan_position).norm());
     EXPECT_LT(off.back(), 9) << landmark.name;
   }
   std::ranges::sort(off);

@@ -25,19 +25,19 @@ TEST(LandmarkText, ReadsBackAsTheSame) {
   EXPECT_EQ(file.template_places.size(), 4U);
   EXPECT_EQ(file.scan_places.size(), 4U);
   for (const PickedLandmark& landmark : landmarks) {
-    if (landmark.vertex) {
+    if (landmark.template_vertex) {
       ASSERT_TRUE(file.template_places.contains(landmark.name)) << landmark.name;
       EXPECT_TRUE(file.template_places.at(landmark.name).is_vertex);
-      EXPECT_EQ(file.template_places.at(landmark.name).vertex, *landmark.vertex);
+      EXPECT_EQ(file.template_places.at(landmark.name).vertex, *landmark.template_vertex);
     }
-    if (!landmark.point) continue;
+    if (!landmark.scan_point) continue;
     ASSERT_TRUE(file.scan_places.contains(landmark.name)) << landmark.name;
     const LandmarkFile::Place& place = file.scan_places.at(landmark.name);
     EXPECT_EQ(place.is_vertex, landmark.scan_vertex.has_value());
     if (place.is_vertex) {
       EXPECT_EQ(place.vertex, *landmark.scan_vertex);
     } else {
-      EXPECT_EQ(place.point, *landmark.point);
+      EXPECT_EQ(place.point, *landmark.scan_point);
     }
   }
 }
@@ -68,13 +68,13 @@ TEST(LandmarkNames, SidesAreMirrored) {
     EXPECT_FALSE(mirrored_name(name)) << name;
   }
   std::size_t sided = 0;
-  for (const LandmarkName& known : suggested_landmarks()) {
+  for (const LandmarkDefinition& known : suggested_landmarks()) {
     const auto other = mirrored_name(known.name);
     if (!other) continue;
     ++sided;
     EXPECT_EQ(mirrored_name(*other), known.name);
     EXPECT_TRUE(std::any_of(suggested_landmarks().begin(), suggested_landmarks().end(),
-                            [&](const LandmarkName& one) { return one.name == *other; }))
+                            [&](const LandmarkDefinition& one) { return one.name == *other; }))
         << *other;
   }
   EXPECT_EQ(sided, 28U);

@@ -77,14 +77,15 @@ TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
   const LandmarkFile saved = read_landmarks(file_);
   EXPECT_TRUE(saved.template_places.contains("a: b"));
   const auto matched =
-      match_landmarks(saved, session_.inputs().file_positions, session_.inputs().scan);
+      match_landmarks(saved, session_.inputs().template_file_positions, session_.inputs().scan);
   ASSERT_EQ(matched.size(), 2U);
   EXPECT_EQ(matched[0].name, "corner");
-  EXPECT_EQ(matched[0].place, row3(session_.inputs().scan.positions, 12));
+  EXPECT_EQ(matched[0].scan_position, row3(session_.inputs().scan.positions, 12));
   EXPECT_EQ(matched[1].vertex, tip);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(matched[1].place[c], on_scan["point"][static_cast<std::size_t>(c)].get<double>());
-    EXPECT_NEAR(matched[1].place[c], session_.inputs().scan.positions(tip, c), 2e-4);
+    EXPECT_EQ(matched[1].scan_position[c],
+              on_scan["point"][static_cast<std::size_t>(c)].get<double>());
+    EXPECT_NEAR(matched[1].scan_position[c], session_.inputs().scan.positions(tip, c), 2e-4);
   }
 
   // A page that is opened later gets them, and gives the same file.
@@ -103,8 +104,8 @@ TEST_F(PickApiTest, TheNextScanOfAFolderTakesOverWhatWasPickedOnTheTemplate) {
   const std::filesystem::path first = folder_ / "a.yaml", second = folder_ / "b.yaml";
   PickScans scans({{"a.obj", first}, {"b.obj", second}}, [&](const PickScans::Entry& entry) {
     PickInputs of_one = inputs();
-    of_one.scan_file = entry.scan;
-    of_one.landmarks = entry.landmarks;
+    of_one.scan_file = entry.scan_file;
+    of_one.landmark_file = entry.landmark_file;
     return of_one;
   });
   PickApi api(scans, std::nullopt, 100);
@@ -123,8 +124,9 @@ TEST_F(PickApiTest, TheNextScanOfAFolderTakesOverWhatWasPickedOnTheTemplate) {
   EXPECT_TRUE(job["landmarks"][0]["scan"].is_null());
   EXPECT_FALSE(std::filesystem::exists(second));
   // Opened again, it begins with the first that is not done.
-  EXPECT_EQ(PickScans(scans.entries(), [&](const PickScans::Entry&) { return inputs(); }).number(),
-            1U);
+  EXPECT_EQ(
+      PickScans(scans.entries(), [&](const PickScans::Entry&) { return inputs(); }).current_index(),
+      1U);
 }
 
 TEST_F(PickApiTest, FewerTrianglesAreShownThanArePicked) {

@@ -102,7 +102,7 @@ TEST_F(SuggestedPlacesTest, TheOtherHalfIsSuggestedOnTheTemplate) {
   const PickedLandmark left = {"mole_left", proposals_.at("eye_inner_left"), std::nullopt, {}};
   const auto places = suggest_places({left}, template_, scan_, plane_, {});
   ASSERT_EQ(places.template_places.size(), 1U);
-  const Eigen::Vector3d expected = plane_.mirrored(row3(shape_.positions, *left.vertex));
+  const Eigen::Vector3d expected = plane_.mirrored(row3(shape_.positions, *left.template_vertex));
   EXPECT_LT((places.template_places.at("mole_right").point - expected).norm(), 5);
   EXPECT_TRUE(places.scan_places.empty());
   EXPECT_FALSE(places.pose);
@@ -142,7 +142,7 @@ TEST_F(SuggestedPlacesTest, AMisplacedPairIsToldAndLeftOut) {
                           "eye_inner_right", "lip_upper"});
   const auto good = fit_pose_to_picked(landmarks, template_.positions());
   for (const auto& [name, residual] : good->residuals) EXPECT_FALSE(residual.is_outlier) << name;
-  landmarks[3].point = *landmarks[3].point + Eigen::Vector3d(0.06, 0, 0);
+  landmarks[3].scan_point = *landmarks[3].scan_point + Eigen::Vector3d(0.06, 0, 0);
   const auto bad = fit_pose_to_picked(landmarks, template_.positions());
   for (const auto& [name, residual] : bad->residuals)
     EXPECT_EQ(residual.is_outlier, name == "chin");

@@ -17,7 +17,7 @@ using testing::TemporaryFolder;
 /// A skin of two squares, and a card of one; each has all of its texture.
 Inputs skin_and_card(const TemporaryFolder& folder, const std::string& card) {
   Inputs inputs;
-  Topology& topology = inputs.faces.topology;
+  Topology& topology = inputs.head_set.topology;
   topology.vertex_count = 10;
   const std::array<std::uint32_t, 4> corners = {0, 1, 2, 3};
   for (const auto& face :
@@ -25,14 +25,14 @@ Inputs skin_and_card(const TemporaryFolder& folder, const std::string& card) {
         std::array<std::uint32_t, 4>{6, 7, 8, 9}}) {
     topology.add_face(face, corners);
   }
-  inputs.faces.uvs.resize(4, 2);
-  inputs.faces.uvs << 0, 0, 1, 0, 1, 1, 0, 1;
+  inputs.head_set.uvs.resize(4, 2);
+  inputs.head_set.uvs << 0, 0, 1, 0, 1, 1, 0, 1;
   inputs.adjacency = build_adjacency(topology);
   inputs.components = find_components(inputs.adjacency);
   inputs.materials = {{"paint", "Material25"}, {0, 0, 1}};
-  inputs.files.emplace_back();
-  inputs.files[0].path = folder / "head.obj";
-  inputs.files[0].material_libraries = {"head.mtl"};
+  inputs.head_files.emplace_back();
+  inputs.head_files[0].path = folder / "head.obj";
+  inputs.head_files[0].material_libraries = {"head.mtl"};
   folder.write("head.mtl", "newmtl paint\nmap_d holes.png\nnewmtl Material25\n" + card);
   std::vector<std::uint8_t> stripes;
   for (int i = 0; i < 16 * 16; ++i) stripes.insert(stripes.end(), 3, i % 4 == 0 ? 255 : 0);

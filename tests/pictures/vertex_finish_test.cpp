@@ -29,11 +29,11 @@ Positions corners_of_square() {
   return positions;
 }
 
-TextureLayer evenly(const Light& light) {
+TextureLayer evenly(const LinearRgb& light) {
   TextureLayer layer;
-  layer.of_face = {0};
+  layer.texture_of_face = {0};
   layer.textures.push_back(
-      std::make_shared<const Texture>(Texture{8, 8, std::vector<Light>(64, light)}));
+      std::make_shared<const Texture>(Texture{8, 8, std::vector<LinearRgb>(64, light)}));
   return layer;
 }
 
@@ -44,7 +44,7 @@ TEST(VertexFinish, NormalsLeanAsTheMapSays) {
   EXPECT_EQ(tilted_normal(texture_set, square().topology, square().uvs, kMiddle,
                           corners_of_square(), {0, 0, 1}),
             Vector3d(0, 0, 1));
-  texture_set.slopes = evenly(Light(0.5F, -0.25F, 0));
+  texture_set.slopes = evenly(LinearRgb(0.5F, -0.25F, 0));
   const Vector3d lean = tilted_normal(texture_set, square().topology, square().uvs, kMiddle,
                                       corners_of_square(), {0, 0, 1});
   EXPECT_LT((lean - Vector3d(0.5, -0.25, 1).normalized()).norm(), 1e-12);
@@ -61,9 +61,10 @@ TEST(VertexFinish, NormalsLeanAsTheMapSays) {
 /// What is finer than a reduced mesh is no grain on it.
 TEST(VertexFinish, FineReliefIsEvenedOut) {
   Texture stripes{512, 1, {}};
-  for (int x = 0; x < 512; ++x) stripes.texels.push_back(Light(x % 2 == 0 ? 1.0F : -1.0F, 0, 0));
+  for (int x = 0; x < 512; ++x)
+    stripes.texels.push_back(LinearRgb(x % 2 == 0 ? 1.0F : -1.0F, 0, 0));
   TextureSet texture_set;
-  texture_set.slopes.of_face = {0};
+  texture_set.slopes.texture_of_face = {0};
   texture_set.slopes.textures.push_back(std::make_shared<const Texture>(std::move(stripes)));
   const TexturePlace on_stripe{0, {256.5F / 512, 0.5F}};
   const Vector3d lean = tilted_normal(texture_set, square().topology, square().uvs, on_stripe,
@@ -74,9 +75,9 @@ TEST(VertexFinish, FineReliefIsEvenedOut) {
 TEST(VertexFinish, RoughnessIsTheMaps) {
   TextureSet texture_set;
   EXPECT_FALSE(roughness_at(texture_set, kMiddle));
-  texture_set.roughness = evenly(Light(0.3F, 0, 0));
+  texture_set.roughness = evenly(LinearRgb(0.3F, 0, 0));
   EXPECT_FLOAT_EQ(roughness_at(texture_set, kMiddle).value(), 0.3F);
-  texture_set.roughness.of_face = {TextureLayer::kNone};
+  texture_set.roughness.texture_of_face = {TextureLayer::kNone};
   EXPECT_FALSE(roughness_at(texture_set, kMiddle));
 }
 

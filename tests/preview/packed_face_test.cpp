@@ -73,7 +73,7 @@ TEST(PackedFace, ComesBackWithinHalfAStepAndAHundredthOfADegree) {
     const std::uint32_t vertex = mesh.vertices[i];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<Index>(axis);
-      EXPECT_NEAR(frame.low[a] + frame.step * number_at(bytes, 3 * i + axis),
+      EXPECT_NEAR(frame.low_corner[a] + frame.step * number_at(bytes, 3 * i + axis),
                   ball.positions(vertex, a), 0.501 * frame.step);
     }
     const Eigen::Vector3d normal =
@@ -87,9 +87,9 @@ TEST(PackedFace, FrameLeavesAQuarterAroundTheHeads) {
   head << 0, 0, 0, 8, 2, 4;
   const std::array heads = {static_cast<const Positions*>(&head)};
   const PackingFrame frame = PackingFrame::enclosing(heads);
-  EXPECT_DOUBLE_EQ(frame.low.x(), -2);
-  EXPECT_DOUBLE_EQ(frame.low.y(), -5);
-  EXPECT_DOUBLE_EQ(frame.low.x() + 65535 * frame.step, 10);
+  EXPECT_DOUBLE_EQ(frame.low_corner.x(), -2);
+  EXPECT_DOUBLE_EQ(frame.low_corner.y(), -5);
+  EXPECT_DOUBLE_EQ(frame.low_corner.x() + 65535 * frame.step, 10);
   EXPECT_THROW(PackingFrame::enclosing({}), BrokenPrecondition);
 }
 

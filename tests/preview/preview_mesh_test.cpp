@@ -105,8 +105,8 @@ TEST(PreviewMesh, LooksFollowOneAnotherAndKeepTheirBorder) {
     EXPECT_EQ(left >= kMiddle, t >= mesh.material_starts[1]);
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t v = mesh.triangles[3 * t + c];
-      EXPECT_EQ(looks[mesh.faces[v]], t >= mesh.material_starts[1] ? 7U : 3U);
-      const auto face = sheet.topology.face(mesh.faces[v]);
+      EXPECT_EQ(looks[mesh.face_of_vertex[v]], t >= mesh.material_starts[1] ? 7U : 3U);
+      const auto face = sheet.topology.face(mesh.face_of_vertex[v]);
       EXPECT_NE(std::ranges::find(face, mesh.vertices[v]), face.end());
     }
   }

@@ -85,13 +85,13 @@ TEST(MaskPainting, ReadsBackAsItWasPaintedOverSeamsAndTiles) {
   const TemporaryFolder folder;
   const MaskFiles masks = encode_masks(paint_masks(sheet.topology, sheet.uvs, alpha, {}, 256),
                                        folder.path() / "mask.png");
-  EXPECT_THAT(masks.masks, ::testing::ElementsAre(folder.path() / "mask.<UDIM>.png",
-                                                  folder.path() / "mask_2.<UDIM>.png"));
+  EXPECT_THAT(masks.mask_paths, ::testing::ElementsAre(folder.path() / "mask.<UDIM>.png",
+                                                       folder.path() / "mask_2.<UDIM>.png"));
   std::vector<MaskSource> sources;
-  for (const auto& mask : masks.masks) sources.emplace_back(mask.string());
-  for (const auto& [file, bytes] : masks.files) write_file(file, bytes);
+  for (const auto& mask : masks.mask_paths) sources.emplace_back(mask.string());
+  for (const auto& [file, bytes] : masks.png_files) write_file(file, bytes);
   const auto read = region_weights(sheet.topology, sheet.uvs, sources, 5);
-  EXPECT_EQ(read.uncovered_vertices, 0);
+  EXPECT_EQ(read.uncovered_vertex_count, 0);
   EXPECT_LT((read.alpha - alpha).cwiseAbs().maxCoeff(), 2.0 / 255);
 }
 
@@ -105,7 +105,7 @@ TEST(MaskPainting, WhereFacesShareAPlaceTheFirstCounts) {
   };
   EXPECT_LT(red_on_top({true, true, true, true, false, false}), 100);
   EXPECT_EQ(encode_masks(paint_masks(mesh.topology, mesh.uvs, from_below(), {}, 8), "a/m.png")
-                .masks.at(0),
+                .mask_paths.at(0),
             "a/m.png");
 }
 

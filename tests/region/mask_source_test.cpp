@@ -22,9 +22,9 @@ TEST(MaskSource, TileNumberReplacesEveryMark) {
 }
 
 TEST(MaskSource, AlphaIsNoMask) {
-  EXPECT_THAT(mask_channels({1, 1, 4, 3, {}, {}}), ElementsAre(0, 1, 2));
-  EXPECT_THAT(mask_channels({1, 1, 2, 1, {}, {}}), ElementsAre(0));
-  EXPECT_THAT(mask_channels({1, 1, 3, -1, {}, {}}), ElementsAre(0, 1, 2));
+  EXPECT_THAT(mask_channel_indices({1, 1, 4, 3, {}, {}}), ElementsAre(0, 1, 2));
+  EXPECT_THAT(mask_channel_indices({1, 1, 2, 1, {}, {}}), ElementsAre(0));
+  EXPECT_THAT(mask_channel_indices({1, 1, 3, -1, {}, {}}), ElementsAre(0, 1, 2));
 }
 
 TEST(MaskSource, NegativeValueIsNamedUnlessAlpha) {

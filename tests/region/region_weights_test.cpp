@@ -96,7 +96,7 @@ TEST(SampleBilinear, FirstRowLiesAtTheTop) {
 TEST(RegionWeights, WholeHeadIsAllOnes) {
   const auto weights = region_weights(three().topology, {}, {}, 1);
   EXPECT_EQ(weights.alpha, RegionWeights::Alpha::Ones(3, 1));
-  EXPECT_EQ(weights.uncovered_vertices, 0);
+  EXPECT_EQ(weights.uncovered_vertex_count, 0);
 }
 
 TEST(RegionWeights, ConstantMasksAreScaledToOne) {
@@ -143,7 +143,7 @@ TEST(RegionWeights, UncoveredVerticesGoToTheLastRegionAndAreCounted) {
   Strip strip({{0.1, 0.5}, {0.9, 0.5}, {0.8, 0.5}, {0.2, 0.5}});
   strip.topology.vertex_count = 5;  // the last is in no face
   const auto weights = region_weights(strip.topology, strip.uvs, {mask}, 2);
-  EXPECT_EQ(weights.uncovered_vertices, 2);
+  EXPECT_EQ(weights.uncovered_vertex_count, 2);
   EXPECT_EQ(weights.alpha.row(0), Eigen::RowVector2d(1, 0));
   EXPECT_EQ(weights.alpha.row(1), Eigen::RowVector2d(0, 1));
   EXPECT_EQ(weights.alpha.row(4), Eigen::RowVector2d(0, 1));
@@ -243,8 +243,8 @@ TEST(RegionWeights, RowsOfVerticesNeedNoTextureCoordinates) {
   EXPECT_EQ(weights("w.csv", "rest,face\n0,1\n.5,.5\n3,1\n").alpha, plain.alpha);
   EXPECT_EQ(weights("w.csv", "\xEF\xBB\xBFrest;face\r\n0;1\r\n0,5;0,5\r\n3;1\r\n").alpha,
             plain.alpha);
-  EXPECT_EQ(plain.uncovered_vertices, 0);
-  EXPECT_EQ(weights("w.txt", "1 0\n0 0\n0 0\n").uncovered_vertices, 2);
+  EXPECT_EQ(plain.uncovered_vertex_count, 0);
+  EXPECT_EQ(weights("w.txt", "1 0\n0 0\n0 0\n").uncovered_vertex_count, 2);
   for (const char* bad : {"1 0\n1 0\n", "1 0\n1\n1 0\n", "1 0\n-1 0\n1 0\n", "1 0\nnan 0\n1 0\n"}) {
     EXPECT_THROW(weights("bad.txt", bad), RecoverableError) << bad;
   }
@@ -332,7 +332,7 @@ TEST_F(MaskFiles, TilesThatNobodyNeedsMayLack) {
   const Strip strip({{0.5, 0.5}, {1.5, 0.5}, {0.5, 0.7}});
   const std::vector<MaskSource> masks = {MaskSource(path("m.<UDIM>.png"))};
   const auto weights = region_weights(strip.topology, strip.uvs, masks, 3, {true, false, true});
-  EXPECT_EQ(weights.uncovered_vertices, 0);
+  EXPECT_EQ(weights.uncovered_vertex_count, 0);
   EXPECT_EQ(weights.alpha(0, 1), 1);
   EXPECT_EQ(weights.alpha(1, 2), 1) << "the last region";
   EXPECT_THROW(region_weights(strip.topology, strip.uvs, masks, 3, {false, true, false}), Error);

@@ -23,9 +23,10 @@ struct TwoTiles {
       (TextureCoordinates(6, 2) << 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1).finished();
 };
 
-std::string message_of_uvs(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
+std::string message_of_uvs(const Topology& topology, const TextureCoordinates& uvs,
+                           UvTiling tiling) {
   try {
-    gather_uv_samples(topology, uvs, tiles);
+    gather_uv_samples(topology, uvs, tiling);
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -53,7 +54,7 @@ TEST(TileNumber, CountsTenColumnsARow) {
 
 TEST(UvSamples, PolygonDecidesTheTileOnABorder) {
   const TwoTiles mesh;
-  const UvSamples samples = gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kUdim);
+  const UvSamples samples = gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kUdim);
   EXPECT_THAT(tiles_of(samples), ElementsAre(1001, 1002));
   EXPECT_THAT(samples.items_of(0), ElementsAre(UvSample{1001, 0, 0}));
   EXPECT_THAT(samples.items_of(5), ElementsAre(UvSample{1002, 2, 1}));  // v = 1 is its tile's top
@@ -66,7 +67,7 @@ TEST(UvSamples, OnePictureHasOnePlaceAValue) {
   mesh.uvs.conservativeResize(7, 2);
   mesh.uvs.row(6) = mesh.uvs.row(1);
   mesh.topology.corner_uvs[4] = 6;
-  const UvSamples samples = gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne);
+  const UvSamples samples = gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne);
   EXPECT_THAT(samples.items_of(1), ElementsAre(UvSample{1001, 1, 0}));
   EXPECT_EQ(samples.items.size(), 6U);
 }
@@ -76,38 +77,38 @@ TEST(UvSamples, SeamVertexHasTwoPlaces) {
   mesh.uvs.conservativeResize(7, 2);
   mesh.uvs.row(6) << 0.5, 0.25;
   mesh.topology.corner_uvs[4] = 6;
-  EXPECT_THAT(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne).items_of(1),
+  EXPECT_THAT(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne).items_of(1),
               ElementsAre(UvSample{1001, 0.5, 0.25}, UvSample{1001, 1, 0}));
 }
 
 TEST(UvSamples, IsolatedVertexHasNone) {
   TwoTiles mesh;
   mesh.topology.vertex_count = 7;
-  EXPECT_TRUE(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kUdim).items_of(6).empty());
+  EXPECT_TRUE(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kUdim).items_of(6).empty());
 }
 
 TEST(UvSamples, MissingCoordinatesAreNamed) {
   TwoTiles mesh;
   mesh.topology.corner_uvs[5] = kNoIndex;
-  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kUdim),
+  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim),
               HasSubstr("vertex 3 of face 2 has no texture coordinate"));
   mesh.topology.corner_uvs[5] = 2;
   mesh.topology.corner_uvs[1] = kNoIndex;  // vertex 2 still has one in face 2
-  EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kUdim), "accepted");
+  EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim), "accepted");
   mesh.topology.corner_uvs.clear();
-  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kOne),
+  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kOne),
               HasSubstr("vertex 1 of face 1 has no texture coordinate"));
 }
 
 TEST(UvSamples, UnusableCoordinatesAreRefused) {
   TwoTiles mesh;
   mesh.uvs(3, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne), BrokenPrecondition);
+  EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne), BrokenPrecondition);
   mesh.uvs(3, 1) = -0.5;
-  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kUdim), HasSubstr("UDIM"));
-  EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, Tiles::kOne), "accepted");
+  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim), HasSubstr("UDIM"));
+  EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kOne), "accepted");
   mesh.topology.corner_uvs[0] = 6;
-  EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, Tiles::kOne), BrokenPrecondition);
+  EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne), BrokenPrecondition);
 }
 
 }  // namespace

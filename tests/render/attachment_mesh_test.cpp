@@ -57,7 +57,7 @@ double middle_red(const Rgb8Image& image) {
 }
 
 AttachmentMaterial black(float share) {
-  return {Light::Zero(), nullptr, nullptr, share};
+  return {LinearRgb::Zero(), nullptr, nullptr, share};
 }
 
 TEST(AttachmentMesh, CoversWhatIsBehindItAsFarAsItIsThere) {
@@ -79,7 +79,7 @@ TEST(AttachmentMesh, CoversWhatIsBehindItAsFarAsItIsThere) {
 
 TEST(AttachmentMesh, HasHolesWhereItsTextureSaysSo) {
   const Scene scene;
-  Texture left{2, 1, {Light::Ones(), Light::Zero()}};
+  Texture left{2, 1, {LinearRgb::Ones(), LinearRgb::Zero()}};
   AttachmentMaterial material = black(1);
   material.opacity = std::make_shared<const MipMap>(left);
   const Rgb8Image bare = scene.wearing({}), half = scene.render(material);
@@ -92,7 +92,7 @@ TEST(AttachmentMesh, AveragesTheOpacityBehindAPixel) {
   const Scene scene;
   Texture noise{256, 256, {}};
   for (std::uint64_t t = 0; t < 256 * 256; ++t) {
-    noise.texels.push_back(Light::Constant(random_unit({1, t, "noise"}) < 0.5 ? 1.0F : 0.0F));
+    noise.texels.push_back(LinearRgb::Constant(random_unit({1, t, "noise"}) < 0.5 ? 1.0F : 0.0F));
   }
   AttachmentMaterial material = black(1);
   material.opacity = std::make_shared<const MipMap>(std::move(noise));
@@ -107,11 +107,11 @@ TEST(AttachmentMesh, AveragesTheOpacityBehindAPixel) {
 TEST(MipMap, KeepsTheMean) {
   Texture texture{8, 6, {}};
   for (std::uint64_t t = 0; t < 48; ++t) {
-    texture.texels.push_back(Light::Constant(static_cast<float>(random_unit({2, t, "texel"}))));
+    texture.texels.push_back(LinearRgb::Constant(static_cast<float>(random_unit({2, t, "texel"}))));
   }
   const auto mean = [](const Texture& level) {
     return std::accumulate(level.texels.begin(), level.texels.end(), 0.0,
-                           [](double sum, const Light& texel) { return sum + texel[0]; }) /
+                           [](double sum, const LinearRgb& texel) { return sum + texel[0]; }) /
            static_cast<double>(level.texels.size());
   };
   const MipMap map(texture);
@@ -129,7 +129,8 @@ TEST(MipMap, KeepsTheMean) {
 TEST(AttachmentMesh, BearsTheColoursOfItsTexture) {
   const Scene scene;
   AttachmentMaterial material = black(1);
-  material.texture = std::make_shared<const Texture>(Texture{1, 1, {Light(0.8F, 0.05F, 0.05F)}});
+  material.texture =
+      std::make_shared<const Texture>(Texture{1, 1, {LinearRgb(0.8F, 0.05F, 0.05F)}});
   const Rgb8Image image = scene.render(material);
   EXPECT_GT(image.at(32, 32)[0], 2 * image.at(32, 32)[1]);
 }
@@ -171,9 +172,9 @@ TEST(AttachmentMesh, LetsLightThroughWhereItIsDark) {
   };
   const Positions card_points = at(1, 1.5), shade_points = at(1.5, 2.1),
                   behind_points = at(1, 1.49);
-  Texture hole{15, 15, std::vector<Light>(225, Light::Ones())};
+  Texture hole{15, 15, std::vector<LinearRgb>(225, LinearRgb::Ones())};
   for (const std::size_t t : {96, 97, 98, 111, 112, 113, 126, 127, 128}) {
-    hole.texels[t] = Light::Zero();
+    hole.texels[t] = LinearRgb::Zero();
   }
   AttachmentMaterial shading = black(1);
   shading.opacity = std::make_shared<const MipMap>(hole);
@@ -195,7 +196,7 @@ TEST(AttachmentMesh, IsNotBlackWhereNoLightArrives) {
   points << -0.6, -0.6, 0.05, 0.6, -0.6, 0.05, 0.6, 0.6, 0.05, -0.6, 0.6, 0.05,  //
       -0.6, -0.6, 2.4, 0.6, -0.6, 2.4, 0.6, 0.6, 2.4, -0.6, 0.6, 2.4;
   const auto red = [&](float colour) {
-    const AttachmentSurface surface(shaft, {}, {{Light::Constant(colour)}}, {0, 0, 0, 0, 0});
+    const AttachmentSurface surface(shaft, {}, {{LinearRgb::Constant(colour)}}, {0, 0, 0, 0, 0});
     return middle_red(scene.wearing({{&surface, &points}}));
   };
   EXPECT_GT(red(0.8F), 50);

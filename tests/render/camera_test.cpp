@@ -62,7 +62,7 @@ TEST(Camera, NeverCutsAChin) {
     head << -2, 0, front_of_lowest, 2, 0, front_of_lowest, 0, 1, front_of_lowest,  //
         -5, 5, 8.5, 5, 5, 8.5, 0, height_of_nose, 10, -7, 12, 0, 7, 12, 0, 0, 20, 6;
     const Positions* heads[] = {&head};
-    const Camera camera = fit_camera(heads, {}, View::kFront, {.cut_below = 0.22});
+    const Camera camera = fit_camera(heads, {}, View::kFront, {.bottom_cut_fraction = 0.22});
     return testing::project(camera, head.row(0).transpose()).y();
   };
   for (const double nose : {7.0, 9.0}) {
@@ -73,7 +73,7 @@ TEST(Camera, NeverCutsAChin) {
 
 TEST(Camera, ShowsWhatIsBesideTheHeadsUnlessItIsTooLow) {
   const auto heads = two_heads();
-  FramingOptions options = {.margin = 0.08, .cut_below = 0.2};
+  FramingOptions options = {.margin = 0.08, .bottom_cut_fraction = 0.2};
   const Camera alone = fit_camera(pointers(heads), {}, View::kFront, options);
   options.extra_points = {{0, 50, 5}};
   EXPECT_EQ(fit_camera(pointers(heads), {}, View::kFront, options).distance, alone.distance);
@@ -160,7 +160,7 @@ TEST(Camera, CutBelowGivesUpTheLowestPartOnly) {
   head << -2, 0, 3, 2, 0, 3, 0, 4, 3, 0, 5, 8.5, -5, 6, 5, 5, 6, 5, 0, 9, 10, -7, 12, 0, 7, 12, 0,
       0, 20, 6;
   const Positions* heads[] = {&head};
-  const Camera camera = fit_camera(heads, {}, View::kFront, {.cut_below = 0.22});
+  const Camera camera = fit_camera(heads, {}, View::kFront, {.bottom_cut_fraction = 0.22});
   EXPECT_LT(camera.distance, fit_camera(heads, {}, View::kFront).distance);
   for (Index i = 3; i < head.rows(); ++i) {
     const Eigen::Vector2d place = testing::project(camera, head.row(i));

@@ -22,7 +22,7 @@ TEST(Eyeballs, EachConnectedPartIsOne) {
   const Eyeballs eyeballs = find_eyeballs(mesh.topology, kinds);
   ASSERT_EQ(eyeballs.count, 2U);
   std::vector<float> points(mesh.positions.data(), mesh.positions.data() + mesh.positions.size());
-  const auto eyes = place_eyes(eyeballs, points, Eigen::Vector3f::UnitZ());
+  const auto eyes = eyeball_spheres(eyeballs, points, Eigen::Vector3f::UnitZ());
   EXPECT_TRUE(eyes[0].centre.isZero(1e-5F));
   EXPECT_NEAR(eyes[0].radius, 1, 1e-5);
   EXPECT_TRUE(eyes[1].centre.isApprox(Eigen::Vector3f(10, 0, 0), 1e-5F));
@@ -37,17 +37,17 @@ TEST(Eyeballs, SkinIsNone) {
   kinds.front() = SurfaceKind::kEye;
   const Eyeballs one = find_eyeballs(mesh.topology, kinds);
   EXPECT_EQ(one.count, 1U);
-  EXPECT_EQ(std::count(one.of_vertex.begin(), one.of_vertex.end(), 0U), 3);
+  EXPECT_EQ(std::count(one.eyeball_of_vertex.begin(), one.eyeball_of_vertex.end(), 0U), 3);
 }
 
 TEST(EyeAlbedo, PupilIsDarkestAndTheBackIsWhite) {
-  const PlacedEye eye{{1, 2, 3}, 2};
+  const EyeballSphere eye{{1, 2, 3}, 2};
   const Eigen::Vector3f gaze = Eigen::Vector3f::UnitZ();
   const auto at = [&](float sine) {
     return eye_albedo(eye, gaze,
                       eye.centre + 2 * Eigen::Vector3f(sine, 0, std::sqrt(1 - sine * sine)));
   };
-  const Light white = albedo_of(SurfaceKind::kEye);
+  const LinearRgb white = albedo_of(SurfaceKind::kEye);
   EXPECT_LT(at(0).maxCoeff(), at(0.3F).minCoeff());
   EXPECT_TRUE((at(0.3F) < white).all());
   EXPECT_TRUE(at(0.6F).isApprox(white));

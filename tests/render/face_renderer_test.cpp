@@ -53,7 +53,7 @@ TEST(FaceRenderer, SphereIsADiscOfTheRightSize) {
   const Rgb8Image image = renderer.render(sphere.positions, camera);
   // Seen from distance d, the outline of a sphere of radius r lies at the tangent r / √(d² − r²).
   const double d = camera.distance;
-  const double radius = size / 2.0 * (3 / std::sqrt(d * d - 9)) / camera.half_tangent;
+  const double radius = size / 2.0 * (3 / std::sqrt(d * d - 9)) / camera.tan_half_fov;
   EXPECT_NEAR(radius, size * 0.44, 0.5);  // the default margin is 0.06
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
@@ -186,7 +186,7 @@ TEST(FaceRenderer, TheInsideOfASurfaceIsDarker) {
 TEST(FaceRenderer, OcclusionDarkensACrevice) {
   const Mesh balls = join_meshes(make_sphere(1), make_sphere(1), {2, 0, 0});  // touching at x = 1
   const Camera camera = camera_for(balls.positions);
-  const Rgb8Image open = FaceRenderer(balls.topology, {.size_px = 64, .occlusion = false})
+  const Rgb8Image open = FaceRenderer(balls.topology, {.size_px = 64, .ambient_occlusion = false})
                              .render(balls.positions, camera);
   const Rgb8Image closed =
       FaceRenderer(balls.topology, {.size_px = 64}).render(balls.positions, camera);
@@ -210,7 +210,7 @@ TEST(FaceRenderer, SoftShadowsHaveNoGrain) {
       FaceRenderer(scene.topology, {.size_px = size}).render(scene.positions, camera);
   const Rgb8Image smooth =
       FaceRenderer(scene.topology,
-                   {.size_px = size, .samples_per_side = 12, .key_rays = 48, .sky_rays = 48})
+                   {.size_px = size, .samples_per_side = 12, .key_light_rays = 48, .sky_rays = 48})
           .render(scene.positions, camera);
   double squares = 0;
   int shadow = 255;
@@ -284,7 +284,7 @@ TEST(FaceRenderer, RefusesWhatDoesNotFit) {
   const Camera camera = camera_for(sphere.positions);
   EXPECT_THROW(FaceRenderer(sphere.topology, {.size_px = 0}), BrokenPrecondition);
   EXPECT_THROW(FaceRenderer(sphere.topology, {.samples_per_side = 0}), BrokenPrecondition);
-  EXPECT_THROW(FaceRenderer(sphere.topology, {.key_rays = 0}), BrokenPrecondition);
+  EXPECT_THROW(FaceRenderer(sphere.topology, {.key_light_rays = 0}), BrokenPrecondition);
   EXPECT_THROW(FaceRenderer(sphere.topology, {.sky_rays = 0}), BrokenPrecondition);
   EXPECT_THROW(FaceRenderer(sphere.topology, {}, {{SurfaceKind::kSkin}}), BrokenPrecondition);
   const FaceRenderer renderer(sphere.topology, {.size_px = 16});

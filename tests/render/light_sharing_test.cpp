@@ -13,7 +13,7 @@ namespace crowdface {
 namespace {
 
 constexpr float kPixel = 0.01F;
-constexpr std::size_t kFields = PointLights::kFields;
+constexpr std::size_t kFields = PointVisibility::kFields;
 
 /// Pixels of a bent surface, some empty, and points that lie about as they do.
 class LightSharing : public ::testing::Test {
@@ -22,7 +22,7 @@ class LightSharing : public ::testing::Test {
     for (int y = -1; y <= kSquareSide; ++y) {
       for (int x = -1; x <= kSquareSide; ++x) {
         if (random_() % 7 == 0) continue;
-        const std::size_t at = PixelLights::index(x, y);
+        const std::size_t at = PixelVisibility::index(x, y);
         const std::array<float, kFields> pixel = draw(x, y);
         for (std::size_t f = 0; f < kFields; ++f) pixels_.list(static_cast<int>(f))[at] = pixel[f];
       }
@@ -44,8 +44,8 @@ class LightSharing : public ::testing::Test {
     const float key = count(4), sky = count(3);
     return {at(x), at(y), 2 * kPixel * unit(), normal.x(), normal.y(), normal.z(), key, 3, sky, 2};
   }
-  PointLights points(std::size_t first = 0) const {
-    PointLights lights;
+  PointVisibility points(std::size_t first = 0) const {
+    PointVisibility lights;
     for (std::size_t f = 0; f < kFields; ++f) lights.lists[f] = lists_[f].data() + first;
     return lights;
   }
@@ -55,15 +55,15 @@ class LightSharing : public ::testing::Test {
   };
   Shares in_a_row(std::size_t count = kSquareSide) const {
     Shares shares;
-    share_lights(points(), count, pixels_, PixelLights::index(0, kRow), true, kPixel,
-                 shares.key.data(), shares.sky.data());
+    filter_visibility(points(), count, pixels_, PixelVisibility::index(0, kRow), true, kPixel,
+                      shares.key.data(), shares.sky.data());
     return shares;
   }
   /// \return key and sky
   std::pair<float, float> alone(std::size_t point, int x) const {
     Shares shares;
-    share_lights(points(point), 1, pixels_, PixelLights::index(x, kRow), false, kPixel,
-                 shares.key.data(), shares.sky.data());
+    filter_visibility(points(point), 1, pixels_, PixelVisibility::index(x, kRow), false, kPixel,
+                      shares.key.data(), shares.sky.data());
     return {shares.key[0], shares.sky[0]};
   }
   /// In plain loops.
@@ -72,21 +72,21 @@ class LightSharing : public ::testing::Test {
       return static_cast<double>(lists_[static_cast<std::size_t>(field)][point]);
     };
     double sums[4];
-    for (int f = 0; f < 4; ++f) sums[f] = 0.01 * of(PointLights::kKeyVisible + f);
+    for (int f = 0; f < 4; ++f) sums[f] = 0.01 * of(PointVisibility::kKeyVisible + f);
     for (int j = kRow - 1; j <= kRow + 1; ++j) {
       for (int i = x - 1; i <= x + 1; ++i) {
         const auto there = [&](int field) {
-          return static_cast<double>(pixels_.list(field)[PixelLights::index(i, j)]);
+          return static_cast<double>(pixels_.list(field)[PixelVisibility::index(i, j)]);
         };
         double cosine = 0, height = 0;
         for (int c = 0; c < 3; ++c) {
-          cosine += of(PointLights::kNormal + c) * there(PointLights::kNormal + c);
-          height += of(PointLights::kNormal + c) *
-                    (there(PointLights::kPoint + c) - of(PointLights::kPoint + c));
+          cosine += of(PointVisibility::kNormal + c) * there(PointVisibility::kNormal + c);
+          height += of(PointVisibility::kNormal + c) *
+                    (there(PointVisibility::kPoint + c) - of(PointVisibility::kPoint + c));
         }
         const double likeness = std::clamp((cosine - 0.7) / 0.25, 0.0, 1.0) *
                                 std::clamp(2 - std::abs(height) / kPixel, 0.0, 1.0);
-        for (int f = 0; f < 4; ++f) sums[f] += likeness * there(PointLights::kKeyVisible + f);
+        for (int f = 0; f < 4; ++f) sums[f] += likeness * there(PointVisibility::kKeyVisible + f);
       }
     }
     return {sums[0] / sums[1], sums[2] / sums[3]};
@@ -94,7 +94,7 @@ class LightSharing : public ::testing::Test {
 
   static constexpr int kRow = 5;
   std::mt19937 random_{3};
-  PixelLights pixels_;
+  PixelVisibility pixels_;
   std::array<std::vector<float>, kFields> lists_;
 };
 
@@ -133,12 +133,12 @@ TEST_F(LightSharing, IsTheSameWithAnyInstructionSet) {
 TEST_F(LightSharing, OfWhatNobodyElseShowsIsItsOwn) {
   pixels_.clear();
   for (const int field :
-       {PointLights::kKeyVisible, PointLights::kKeyTraced, PointLights::kSkyTraced}) {
+       {PointVisibility::kKeyVisible, PointVisibility::kKeyTraced, PointVisibility::kSkyTraced}) {
     lists_[static_cast<std::size_t>(field)][3] = 0;
   }
   EXPECT_EQ(alone(3, 3), std::pair(0.0F, 1.0F)) << "no ray: a dark key, an open sky";
-  lists_[PointLights::kKeyTraced][3] = 4;
-  lists_[PointLights::kKeyVisible][3] = 3;
+  lists_[PointVisibility::kKeyTraced][3] = 4;
+  lists_[PointVisibility::kKeyVisible][3] = 3;
   EXPECT_FLOAT_EQ(alone(3, 3).first, 0.75F);
 }
 

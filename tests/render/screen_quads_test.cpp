@@ -41,7 +41,7 @@ Look look(const std::vector<float>& points, const std::vector<Quad>& quads, int 
       look.hits.insert(look.hits.end(), hits.begin(), hits.end());
       for (int y = pixels.top; y < pixels.bottom; ++y) {
         for (int x = pixels.left; x < pixels.right; ++x) {
-          for (const Eigen::Vector2f& place : places.list()) {
+          for (const Eigen::Vector2f& place : places.positions()) {
             const float to_x = 2 * (static_cast<float>(x) + place.x()) / static_cast<float>(size);
             const float to_y = 2 * (static_cast<float>(y) + place.y()) / static_cast<float>(size);
             look.rays.push_back({{0, 0, kDistance}, {to_x - 1, 1 - to_y, -kDistance}});

@@ -63,10 +63,10 @@ std::vector<ShadePoint> many_points() {
   for (int i = 0; i < 77; ++i) {
     ShadePoint& point = points.emplace_back();
     point.normal = direction();
-    point.to_eye = direction();
-    point.albedo = Light(unit(), unit(), unit());
+    point.to_viewer = direction();
+    point.albedo = LinearRgb(unit(), unit(), unit());
     point.kind = static_cast<SurfaceKind>(i % 6);
-    point.inside = i % 5 == 0;
+    point.is_back = i % 5 == 0;
     point.sky_visibility = unit();
     point.key_visibility = unit();
     if (i % 3 == 0) point.roughness = unit();
@@ -76,7 +76,7 @@ std::vector<ShadePoint> many_points() {
 
 TEST(Shade, IsTheSameAloneAndInCompanyWithAnyInstructionSet) {
   const std::vector<ShadePoint> points = many_points();
-  std::vector<Light> alone;
+  std::vector<LinearRgb> alone;
   for (const ShadePoint& point : points) alone.push_back(shade(point, 0.7F));
   ShadeBatch batch;
   for (const std::string& name : instruction_sets()) {
@@ -95,7 +95,7 @@ TEST(Shade, IsTheSameAloneAndInCompanyWithAnyInstructionSet) {
 Eigen::Array3d plain_key_light(const ShadePoint& point) {
   const Material& material = material_of(point.kind);
   const Lamp& lamp = studio().key;
-  const Eigen::Vector3d n = point.normal.cast<double>(), v = point.to_eye.cast<double>();
+  const Eigen::Vector3d n = point.normal.cast<double>(), v = point.to_viewer.cast<double>();
   const Eigen::Vector3d l = lamp.direction.cast<double>(), h = (l + v).normalized();
   const Eigen::Array3d albedo = point.albedo.cast<double>(), wrap = material.wrap.cast<double>();
   const Eigen::Array3d lit = ((n.dot(l) + wrap) / (1 + wrap)).max(0.0);
@@ -119,7 +119,7 @@ Eigen::Array3d plain_key_light(const ShadePoint& point) {
 
 TEST(Shade, OfTheKeyIsTheFormulaInDoublePrecision) {
   for (ShadePoint point : many_points()) {
-    point.inside = false;
+    point.is_back = false;
     point.sky_visibility = 0;
     point.roughness = -1;
     // Dark skin and attachments reflect less; other tests check that.
@@ -141,7 +141,7 @@ TEST(Shade, IsFiniteAndNotNegativeInEveryDirection) {
                      albedo_of(SurfaceKind::kSkin)};
     for (const SurfaceKind kind : {SurfaceKind::kSkin, SurfaceKind::kEye, SurfaceKind::kIris}) {
       point.kind = kind;
-      const Light light = shade(point);
+      const LinearRgb light = shade(point);
       EXPECT_TRUE(light.isFinite().all());
       EXPECT_GE(light.minCoeff(), 0);
       EXPECT_LT(light.maxCoeff(), 20);
@@ -152,7 +152,7 @@ TEST(Shade, IsFiniteAndNotNegativeInEveryDirection) {
 TEST(Gleam, PaintedHairGleamsLessThanTheSkinAroundWhateverTheTone) {
   for (const float skin : {0.06F, 0.3F}) {
     const auto specular = [&](float share) {
-      return skin_specular(Light::Constant(share * skin), skin);
+      return skin_specular_factor(LinearRgb::Constant(share * skin), skin);
     };
     EXPECT_EQ(specular(1), 1);
     EXPECT_EQ(specular(1.5F), 1);
@@ -160,34 +160,35 @@ TEST(Gleam, PaintedHairGleamsLessThanTheSkinAroundWhateverTheTone) {
     EXPECT_LT(specular(0.1F), 0.2F);
     EXPECT_GT(specular(0.1F), 0);
   }
-  EXPECT_EQ(skin_specular(Light::Constant(0.01F), 0), 1) << "no picture";
+  EXPECT_EQ(skin_specular_factor(LinearRgb::Constant(0.01F), 0), 1) << "no picture";
   // Half of the gloss: half way to none.
-  const Eigen::Vector3f to_eye(0, 0, 1);
-  const ShadePoint point{(key_direction() + to_eye).normalized(), to_eye, Light::Constant(0.3F)};
-  const Light middle = (shade(point) + shade(point, 0)) / 2;
+  const Eigen::Vector3f to_viewer(0, 0, 1);
+  const ShadePoint point{(key_light_direction() + to_viewer).normalized(), to_viewer,
+                         LinearRgb::Constant(0.3F)};
+  const LinearRgb middle = (shade(point) + shade(point, 0)) / 2;
   EXPECT_LT((shade(point, 0.5F) - middle).abs().maxCoeff(), 1e-6);
   EXPECT_GT((shade(point) - shade(point, 0)).minCoeff(), 0.02F);
 }
 
 TEST(Gleam, SkinIsToldFromAPictureWithHairAndBlackAround) {
-  Texture picture{61, 20, std::vector<Light>(1220, Light::Constant(0.4F))};
-  std::fill_n(picture.texels.begin(), 500, Light::Constant(0.02F));
+  Texture picture{61, 20, std::vector<LinearRgb>(1220, LinearRgb::Constant(0.4F))};
+  std::fill_n(picture.texels.begin(), 500, LinearRgb::Constant(0.02F));
   EXPECT_FLOAT_EQ(skin_lightness(picture), 0.4F);
   EXPECT_EQ(skin_lightness(Texture{}), 0);
 }
 
 TEST(Shade, LessLightArrivingIsDarker) {
-  ShadePoint point{key_direction(), Eigen::Vector3f::UnitZ(), albedo_of(SurfaceKind::kSkin)};
-  const Light full = shade(point);
+  ShadePoint point{key_light_direction(), Eigen::Vector3f::UnitZ(), albedo_of(SurfaceKind::kSkin)};
+  const LinearRgb full = shade(point);
   point.key_visibility = 0;
-  const Light shadowed = shade(point);
+  const LinearRgb shadowed = shade(point);
   point.sky_visibility = 0;
-  const Light dark = shade(point);
+  const LinearRgb dark = shade(point);
   EXPECT_TRUE((shadowed < 0.6F * full).all());
   EXPECT_TRUE((dark < shadowed).all());
   EXPECT_NEAR(dark.maxCoeff(), 0, 1e-6);
   point.key_visibility = point.sky_visibility = 1;
-  point.inside = true;
+  point.is_back = true;
   EXPECT_TRUE((shade(point) < 0.5F * full).all());
 }
 

@@ -11,30 +11,30 @@ namespace {
 
 /// 2 by 1: red, then blue.
 Texture red_and_blue() {
-  return {2, 1, {Light(1, 0, 0), Light(0, 0, 1)}};
+  return {2, 1, {LinearRgb(1, 0, 0), LinearRgb(0, 0, 1)}};
 }
 
 TEST(ColourAt, IsATexelAtItsCentreAndTheMeanBetweenTwo) {
   const Texture texture = red_and_blue();
-  EXPECT_TRUE(colour_at(texture, {0.25F, 0.5F}).isApprox(Light(1, 0, 0)));
-  EXPECT_TRUE(colour_at(texture, {0.75F, 0.1F}).isApprox(Light(0, 0, 1)));
-  EXPECT_TRUE(colour_at(texture, {0.5F, 0.9F}).isApprox(Light(0.5F, 0, 0.5F)));
+  EXPECT_TRUE(colour_at(texture, {0.25F, 0.5F}).isApprox(LinearRgb(1, 0, 0)));
+  EXPECT_TRUE(colour_at(texture, {0.75F, 0.1F}).isApprox(LinearRgb(0, 0, 1)));
+  EXPECT_TRUE(colour_at(texture, {0.5F, 0.9F}).isApprox(LinearRgb(0.5F, 0, 0.5F)));
 }
 
 TEST(ColourAt, ClampsAtTheEdgeAndIsTheSameInEveryTile) {
   const Texture texture = red_and_blue();
-  EXPECT_TRUE(colour_at(texture, {0.01F, 0.5F}).isApprox(Light(1, 0, 0)));
-  EXPECT_TRUE(colour_at(texture, {3.01F, 7.5F}).isApprox(Light(1, 0, 0)));
-  EXPECT_TRUE(colour_at(texture, {-0.01F, 0.5F}).isApprox(Light(0, 0, 1)));
+  EXPECT_TRUE(colour_at(texture, {0.01F, 0.5F}).isApprox(LinearRgb(1, 0, 0)));
+  EXPECT_TRUE(colour_at(texture, {3.01F, 7.5F}).isApprox(LinearRgb(1, 0, 0)));
+  EXPECT_TRUE(colour_at(texture, {-0.01F, 0.5F}).isApprox(LinearRgb(0, 0, 1)));
 }
 
 TEST(ColourAt, TheFirstRowIsOnTop) {
-  const Texture texture{1, 2, {Light(1, 1, 1), Light(0, 0, 0)}};
+  const Texture texture{1, 2, {LinearRgb(1, 1, 1), LinearRgb(0, 0, 0)}};
   EXPECT_GT(colour_at(texture, {0.5F, 0.8F})[0], colour_at(texture, {0.5F, 0.2F})[0]);
 }
 
 TEST(SpreadColours, FillsFromTheBorderOutwardsAndLeavesWhatIsPainted) {
-  const Light red(1, 0, 0), blue(0, 0, 1), black = Light::Zero();
+  const LinearRgb red(1, 0, 0), blue(0, 0, 1), black = LinearRgb::Zero();
   Texture row{6, 1, {red, black, black, black, black, blue}};
   const std::vector<bool> painted = {true, false, false, false, false, true};
   spread_colours(row, painted, 1);
@@ -45,7 +45,7 @@ TEST(SpreadColours, FillsFromTheBorderOutwardsAndLeavesWhatIsPainted) {
   spread_colours(row, painted, 4);
   EXPECT_TRUE(row.texels[2].isApprox(red) && row.texels[3].isApprox(blue));
 
-  Texture hole{3, 3, std::vector<Light>(9, red)};
+  Texture hole{3, 3, std::vector<LinearRgb>(9, red)};
   hole.texels[4] = black;
   hole.texels[0] = blue;
   spread_colours(hole, {true, true, true, true, false, true, true, true, true}, 1);
@@ -54,24 +54,25 @@ TEST(SpreadColours, FillsFromTheBorderOutwardsAndLeavesWhatIsPainted) {
 
 TEST(ShrunkTexture, KeepsTheMeanAndWhatIsSmallAlready) {
   Texture texture{8, 4, {}};
-  for (int i = 0; i < 32; ++i) texture.texels.push_back(Light::Constant(static_cast<float>(i)));
+  for (int i = 0; i < 32; ++i) texture.texels.push_back(LinearRgb::Constant(static_cast<float>(i)));
   const auto shrunk = [](const Texture& whole, int max_px) {
-    return shrunk_texture(whole.width, whole.height, max_px, [&](int y, std::span<Light> texels) {
-      std::copy_n(whole.texels.begin() + std::ptrdiff_t{y} * whole.width, whole.width,
-                  texels.begin());
-    });
+    return shrunk_texture(whole.width, whole.height, max_px,
+                          [&](int y, std::span<LinearRgb> texels) {
+                            std::copy_n(whole.texels.begin() + std::ptrdiff_t{y} * whole.width,
+                                        whole.width, texels.begin());
+                          });
   };
   const Texture small = shrunk(texture, 4);
   EXPECT_EQ(small.width, 4);
   EXPECT_EQ(small.height, 2);
   EXPECT_FLOAT_EQ(small.texels[0][0], (0 + 1 + 8 + 9) / 4.0F);
-  Light sum = Light::Zero();
-  for (const Light& texel : small.texels) sum += texel;
+  LinearRgb sum = LinearRgb::Zero();
+  for (const LinearRgb& texel : small.texels) sum += texel;
   EXPECT_FLOAT_EQ(sum[0] / 8, 15.5F);
   for (std::size_t i = 0; i < texture.texels.size(); ++i) {
     EXPECT_TRUE((shrunk(texture, 8).texels[i] == texture.texels[i]).all());
   }
-  EXPECT_EQ(shrunk({5, 1, std::vector<Light>(5, Light::Ones())}, 4).width, 2);
+  EXPECT_EQ(shrunk({5, 1, std::vector<LinearRgb>(5, LinearRgb::Ones())}, 4).width, 2);
 }
 
 /// Two squares side by side, facing the camera, each over the whole of its texture.
@@ -103,13 +104,13 @@ TEST(FaceRenderer, TexturesColourTheFacesTheyCover) {
   for (int x = 40; x < 56; ++x) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(x, 32)[c], plain.at(x, 32)[c]) << x;
   }
-  texture_set.of_face.pop_back();
+  texture_set.texture_of_face.pop_back();
   EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &texture_set),
                BrokenPrecondition);
 }
 
 /// One texel that holds this everywhere.
-TextureLayer everywhere(const Light& texel) {
+TextureLayer everywhere(const LinearRgb& texel) {
   return {{std::make_shared<const Texture>(Texture{1, 1, {texel}})}, {0, 0}};
 }
 
@@ -117,8 +118,9 @@ TEST(FaceRenderer, SlopesTurnTheLightAsATurnedSurfaceWould) {
   const TwoSquares squares;
   Surfaces surfaces;
   surfaces.uvs = squares.uvs;
-  const FaceRenderer renderer(squares.topology, {.size_px = 64, .occlusion = false}, surfaces);
-  const auto light = [&](const Light& slopes) {
+  const FaceRenderer renderer(squares.topology, {.size_px = 64, .ambient_occlusion = false},
+                              surfaces);
+  const auto light = [&](const LinearRgb& slopes) {
     TextureSet texture_set{everywhere({0.3F, 0.3F, 0.3F})};
     texture_set.slopes = everywhere(slopes);
     const Rgb8Image image =
@@ -132,7 +134,7 @@ TEST(FaceRenderer, SlopesTurnTheLightAsATurnedSurfaceWould) {
   EXPECT_GT(light({0, 0.4F, 0}), flat + 5) << "upwards";
   EXPECT_LT(light({0, -0.4F, 0}), flat - 5) << "downwards";
   // Between the key light and the eye a smooth surface shines.
-  const Eigen::Vector3f half = (key_direction() + Eigen::Vector3f::UnitZ()).normalized();
+  const Eigen::Vector3f half = (key_light_direction() + Eigen::Vector3f::UnitZ()).normalized();
   const auto gloss = [&](float roughness) {
     TextureSet texture_set{everywhere({0.05F, 0.05F, 0.05F})};
     texture_set.slopes = everywhere({half.x() / half.z(), half.y() / half.z(), 0});

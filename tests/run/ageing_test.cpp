@@ -36,8 +36,8 @@ class TenPeople {
       const std::string name = concat("head_", 10 + h);
       encode_obj(mesh, "").write(folder_ / concat("heads/", name, ".obj"));
       const synth::Person person = synth::random_person(kSeed, h);
-      const char* age = person.age < 35 ? "young" : person.age < 55 ? "adult" : "old";
-      tags_ += concat(h > 1 ? ", " : "", name, ": [", person.male > 0 ? "male" : "female", ", ",
+      const char* age = person.age_years < 35 ? "young" : person.age_years < 55 ? "adult" : "old";
+      tags_ += concat(h > 1 ? ", " : "", name, ": [", person.maleness > 0 ? "male" : "female", ", ",
                       age, "]");
     }
   }

@@ -315,7 +315,7 @@ TEST_F(AttachmentsOfACrowd, CountForTheMemoryThatFilesTake) {
   face.attachments = {"cap"};
   for (const MeshFormat format : all_mesh_formats()) {
     const auto bytes = [&](const Job& job) {
-      return FaceEncoders(job.config, job.inputs, {format}, {&face, 1}).encode_bytes();
+      return FaceEncoders(job.config, job.inputs, {format}, {&face, 1}).encoding_memory_bytes();
     };
     const bool has_them = traits_of(format).attachments != DataStorage::kNowhere;
     const auto cap =

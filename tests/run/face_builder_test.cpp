@@ -57,9 +57,9 @@ Recipe recipe(Index target, Index source, std::uint64_t iterations, double extra
 TEST(FaceBuilder, KeepsLipsBetweenTheTargetsAndTheSourcesGap) {
   const Folder with("auto"), without("none");
   const Inputs& inputs = with.job->inputs;
-  std::vector<std::uint32_t> skin(static_cast<std::size_t>(inputs.faces.topology.vertex_count));
+  std::vector<std::uint32_t> skin(static_cast<std::size_t>(inputs.head_set.topology.vertex_count));
   for (std::uint32_t v = 0; v < skin.size(); ++v) skin[v] = v;
-  const SkinContacts contacts(inputs.faces, inputs.adjacency, skin);
+  const SkinContacts contacts(inputs.head_set, inputs.adjacency, skin);
   ASSERT_GT(contacts.size(), 0U);
   // How far the gaps of a face are outside those of its two heads.
   const auto outside = [&](const Positions& face, Index target, Index source) {
@@ -85,8 +85,9 @@ TEST(FaceBuilder, KeepsLipsBetweenTheTargetsAndTheSourcesGap) {
 TEST(FaceBuilder, FollowsTheEquationsToTheBitWithoutContacts) {
   const Folder folder("none");
   const Recipe one = recipe(0, 1, 60, 1.3);
-  EXPECT_TRUE(folder.build(one) == blend_exact(folder.job->inputs.faces, *folder.prepared->filter,
-                                               folder.job->inputs.regions, one));
+  EXPECT_TRUE(folder.build(one) == blend_exact(folder.job->inputs.head_set,
+                                               *folder.prepared->filter, folder.job->inputs.regions,
+                                               one));
 }
 
 // Lips are brought to their gaps before a face is mirrored.
@@ -107,15 +108,15 @@ TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
     const SkinDefects of_plain = defects(plain), of_image = defects(image);
     constexpr double kRounding = 1e-6;
     EXPECT_NEAR(of_plain.gap_excess_mm, of_image.gap_excess_mm, kRounding);
-    EXPECT_NEAR(of_plain.local.stretch, of_image.local.stretch, kRounding);
-    EXPECT_EQ(of_plain.intersecting, of_image.intersecting);
-    EXPECT_NEAR(of_plain.exposed_mm2, of_image.exposed_mm2, kRounding);
+    EXPECT_NEAR(of_plain.local.stretch_factor, of_image.local.stretch_factor, kRounding);
+    EXPECT_EQ(of_plain.intersecting_count, of_image.intersecting_count);
+    EXPECT_NEAR(of_plain.exposed_back_mm2, of_image.exposed_back_mm2, kRounding);
   }
 }
 
 TEST(FaceBuilder, LeavesATargetBlendedWithItselfAsItIs) {
   const Folder folder("auto");
-  EXPECT_TRUE(folder.build(recipe(2, 2, 60, 1)) == folder.job->inputs.faces.heads[2].positions);
+  EXPECT_TRUE(folder.build(recipe(2, 2, 60, 1)) == folder.job->inputs.head_set.heads[2].positions);
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ TEST(GenerateMirror, ARecipeIsMirroredWithItsParts) {
              "}, {id: even, asymmetry: 0, ", face, "}, {id: half, asymmetry: 0.5, ", face, "}]\n"),
       "out");
   const Job job = load_job(heads.folder() / "out.yaml", {});
-  ASSERT_NE(job.inputs.mirror, nullptr);
-  const MirrorMap& map = *job.inputs.mirror;
+  ASSERT_NE(job.inputs.mirror_map, nullptr);
+  const MirrorMap& map = *job.inputs.mirror_map;
   const Positions plain = mesh_of(out, "plain"), image = mesh_of(out, "image");
   constexpr double kSingle = 4e-6;  // two units in the last place of some 20 cm
   EXPECT_LT((mirrored(map, plain) - image).cwiseAbs().maxCoeff(), kSingle);
@@ -96,8 +96,9 @@ TEST(GenerateMirror, ARecipeIsMirroredWithItsParts) {
   const Positions even = mesh_of(out, "even"), half = mesh_of(out, "half");
   const Positions off = mirrored(map, even) - even;
   double skin = 0;
-  for (std::size_t v = 0; v < job.inputs.skin.component_of_vertex.size(); ++v) {
-    if (job.inputs.skin.component_of_vertex[v] != job.inputs.skin.largest()) continue;
+  for (std::size_t v = 0; v < job.inputs.skin_components.component_of_vertex.size(); ++v) {
+    if (job.inputs.skin_components.component_of_vertex[v] != job.inputs.skin_components.largest())
+      continue;
     skin = std::max(skin, off.row(static_cast<Index>(v)).norm());
   }
   EXPECT_LT(skin, 0.02) << "but for lips, which are brought to their gaps on either side";

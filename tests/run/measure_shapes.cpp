@@ -35,8 +35,9 @@ struct Counted {
 class Crossings {
  public:
   explicit Crossings(const Inputs& inputs)
-      : triangles_(triangles_of(inputs.faces.topology, inputs.skin, inputs.skin.largest())),
-        vertex_count_(inputs.faces.topology.vertex_count) {}
+      : triangles_(triangles_of(inputs.head_set.topology, inputs.skin_components,
+                                inputs.skin_components.largest())),
+        vertex_count_(inputs.head_set.topology.vertex_count) {}
 
   std::vector<TrianglePair> of(const Positions& positions) const {
     return intersecting_pairs(triangles_, positions, near_pairs(triangles_, positions, 0));
@@ -100,10 +101,10 @@ struct LidFigures {
 };
 
 /// Shapes made to be added to another are looked at where they are.
-Displacements with_companion(const std::vector<Displacements>& shapes, std::size_t shape,
-                             std::optional<std::size_t> companion) {
-  if (!companion) return shapes[shape];
-  const Displacements &one = shapes[shape], &other = shapes[*companion];
+Displacements with_prerequisite(const std::vector<Displacements>& shapes, std::size_t shape,
+                                std::optional<std::size_t> prerequisite) {
+  if (!prerequisite) return shapes[shape];
+  const Displacements &one = shapes[shape], &other = shapes[*prerequisite];
   Displacements both;
   std::set_union(one.vertices.begin(), one.vertices.end(), other.vertices.begin(),
                  other.vertices.end(), std::back_inserter(both.vertices));
@@ -198,7 +199,7 @@ int main(int argc, char** argv) try {
   std::vector<Displacements> alone, template_moves;
   for (const Shape& shape : set.shapes) alone.push_back(shape.moves);
   for (std::size_t s = 0; s < alone.size(); ++s) {
-    template_moves.push_back(with_companion(alone, s, shapes.companion(s)));
+    template_moves.push_back(with_prerequisite(alone, s, shapes.prerequisite_of(s)));
   }
   std::vector<std::vector<TrianglePair>> of_template;
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
@@ -206,21 +207,23 @@ int main(int argc, char** argv) try {
     counted[s].of_template = crossings.all(of_template[s]);
   }
   std::vector<std::uint32_t> skin;
-  for (std::uint32_t v = 0; v < job.inputs.skin.component_of_vertex.size(); ++v) {
-    if (job.inputs.skin.component_of_vertex[v] == job.inputs.skin.largest()) skin.push_back(v);
+  for (std::uint32_t v = 0; v < job.inputs.skin_components.component_of_vertex.size(); ++v) {
+    if (job.inputs.skin_components.component_of_vertex[v] == job.inputs.skin_components.largest())
+      skin.push_back(v);
   }
   std::vector<MeasuredLids> eyes;
   for (const Part& part : job.inputs.parts.parts) {
     if (!part.is_eyeball) continue;
-    eyes.emplace_back(job.inputs.faces, skin, job.inputs.parts, part, set.neutral,
+    eyes.emplace_back(job.inputs.head_set, skin, job.inputs.parts, part, set.neutral,
                       head_axes(job.config));
   }
   LidFigures lids, unchanged_lids;
-  const GapPreserver lips(job.inputs.faces, job.inputs.adjacency, skin);
+  const GapPreserver lips(job.inputs.head_set, job.inputs.adjacency, skin);
   std::vector<LipFigures> of_lips(set.shapes.size());
   std::vector<double> stretch, unchanged_stretch;
   const std::vector<Triangle> skin_triangles =
-      triangles_of(job.inputs.faces.topology, job.inputs.skin, job.inputs.skin.largest());
+      triangles_of(job.inputs.head_set.topology, job.inputs.skin_components,
+                   job.inputs.skin_components.largest());
   Index at_rest_in_all = 0;
   for (std::size_t f = 0; f < count; ++f) {
     const Recipe* recipe = &crowd_plan.crowd[f].recipe;
@@ -232,7 +235,7 @@ int main(int argc, char** argv) try {
     const std::vector<Displacements> carried_shapes = shapes.shapes_of_face(*recipe, face);
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       const Displacements& shape = template_moves[s];
-      const Displacements moves = with_companion(carried_shapes, s, shapes.companion(s));
+      const Displacements moves = with_prerequisite(carried_shapes, s, shapes.prerequisite_of(s));
       of_lips[s].add(lips, set.neutral, face, shape, moves);
       for (MeasuredLids& eye : eyes) {
         if (eye.moved(shape) < 50 * kTenthOfMm) continue;
@@ -269,7 +272,7 @@ int main(int argc, char** argv) try {
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
     const Counted& of = counted[s];
     std::cout << set.shapes[s].name;
-    if (const auto other = shapes.companion(s)) std::cout << "+" << set.shapes[*other].name;
+    if (const auto other = shapes.prerequisite_of(s)) std::cout << "+" << set.shapes[*other].name;
     std::cout << ": " << of.of_template << ' ' << mean(of.unchanged) << ' ' << mean(of.carried)
               << ' ' << of.most << ' ' << of.faces << '\n';
   }

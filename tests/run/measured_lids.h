@@ -48,10 +48,10 @@ class MeasuredLids {
       for (const std::uint32_t r : rim_) {
         nearest = std::min(nearest, (row3(neutral, v) - row3(neutral, r)).norm());
       }
-      if (nearest < kLid * ball.radius()) eye.skin.push_back(v);
+      if (nearest < kLid * ball.radius()) eye.skin_vertices.push_back(v);
     }
     std::vector<signed char> side(static_cast<std::size_t>(neutral.rows()), 0);
-    lid_sides(eye, neutral, side);
+    mark_lid_sides(eye, neutral, side);
     const std::vector<Triangle> triangles = triangles_of(head_set.topology);
     for (const Triangle& t : triangles) {
       const int sum = side[t[0]] + side[t[1]] + side[t[2]];
@@ -59,7 +59,7 @@ class MeasuredLids {
       if (sum == -3) lower_.push_back(t);
     }
     const Positions normals = vertex_normals_or_zero(triangles, neutral);
-    for (const std::uint32_t v : eye.skin) {
+    for (const std::uint32_t v : eye.skin_vertices) {
       const BallMap::Gap gap = ball.gap_at(row3(neutral, v) - ball.centre());
       if (gap.normal.dot(row3(normals, v)) > 0) outer_.push_back(v);
     }

@@ -62,7 +62,7 @@ TEST_F(NeckColour, TheTableTellsTheMeanOfTheTextureAboveTheRing) {
   paint_heads();
   const auto out = run("{body: body.obj}", kThreeRecipes);
   const Inputs inputs = std::move(load_job(folder_ / "out.yaml", {}).inputs);
-  EdgeDistances distances(inputs.adjacency, inputs.mean);
+  EdgeDistances distances(inputs.adjacency, inputs.mean_head);
   distances.search(rim_, 2);  // 20 mm
   for (const char* id : {"a", "b", "mob_0001"}) {
     const Image image = read_image(out / "meshes/blended" / concat(id, ".png"));
@@ -75,7 +75,7 @@ TEST_F(NeckColour, TheTableTellsTheMeanOfTheTextureAboveTheRing) {
         if (std::isfinite(distances.distance(corners[c]))) inside += 1;
         place += heads_.uvs().row(uvs[c]) / static_cast<double>(corners.size());
       }
-      const double area = inside * face_area_vector(heads_.topology(), f, inputs.mean).norm();
+      const double area = inside * face_area_vector(heads_.topology(), f, inputs.mean_head).norm();
       const double value = image.at(static_cast<int>(place.x() * image.width),
                                     static_cast<int>((1 - place.y()) * image.height), 0);
       sum += area * linear_of_srgb(value);

@@ -161,9 +161,9 @@ class NeckCrowd : public ::testing::Test {
         }
       }
     };
-    Positions mean = inputs.mean;
-    inputs.neck->seam.fit(mean);
-    add(inputs.faces.topology, mean, 1);
+    Positions mean = inputs.mean_head;
+    inputs.neck->seam.bend_to_seam(mean);
+    add(inputs.head_set.topology, mean, 1);
     add(body_.topology, body_.positions, body_sign_);
     Singles normals;
     for (Index i = 0; i < seam_.rows(); ++i) {

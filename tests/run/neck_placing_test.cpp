@@ -45,7 +45,7 @@ class NeckPlacing : public testing::NeckCrowd {
   }
   /// The angle of the best rotation of a face onto another above the bend, in degrees.
   static double degrees_between(const Job& job, const Positions& face, const Positions& other) {
-    const std::vector<std::uint32_t>& bent = job.inputs.neck->seam.neck.vertices();
+    const std::vector<std::uint32_t>& bent = job.inputs.neck->seam.neck_bend.vertices();
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(face.rows());
     for (const std::uint32_t v : bent) weights[v] = 0;
     for (const std::uint32_t v : job.inputs.neck->seam.rim) weights[v] = 0;
@@ -62,8 +62,8 @@ TEST_F(NeckPlacing, HeadsAreMovedButNotTiltedScaledOrBent) {
   const Job job = load_job(configure("{body: body.obj}", ""), {});
   for (std::size_t h = 0; h < kHeads; ++h) {
     const auto& [placed, turn, shift_mm, rotation_degrees, max_bend_mm] = job.inputs.neck->heads[h];
-    const Positions& head = job.inputs.faces.heads[h].positions;
-    const Positions by = head - plain.inputs.faces.heads[h].positions;
+    const Positions& head = job.inputs.head_set.heads[h].positions;
+    const Positions by = head - plain.inputs.head_set.heads[h].positions;
     const Eigen::RowVector3d shift = (placed.moved_pivot - placed.pivot).transpose();
     EXPECT_TRUE(placed.rotation.isIdentity(1e-12));
     EXPECT_TRUE(turn.isZero(0));
@@ -142,9 +142,10 @@ TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
   for (const char* id : {"a", "b", "c", "d", "e", "f", "g"}) EXPECT_LT(left("out", id), 0.5) << id;
   const auto before = testing::plan_lines(folder_ / "plain"), after = testing::plan_lines(out);
   ASSERT_EQ(before.size(), after.size());
-  std::vector<double> areas = face_vertex_areas(job.inputs.faces.topology, job.inputs.skin,
-                                                job.inputs.mean, FaceArea::kFront, {2, 1});
-  for (const std::uint32_t v : job.inputs.neck->seam.neck.vertices()) areas[v] = 0;
+  std::vector<double> areas =
+      face_vertex_areas(job.inputs.head_set.topology, job.inputs.skin_components,
+                        job.inputs.mean_head, FaceArea::kFront, {2, 1});
+  for (const std::uint32_t v : job.inputs.neck->seam.neck_bend.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   bool any_asymmetric = false;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -183,12 +184,12 @@ TEST_F(NeckPlacing, SlopingRingsTiltNoHead) {
 TEST_F(NeckPlacing, MayBeThatOfAHeadOrTheirMean) {
   const Positions head = read_obj(folder_ / "heads/head_3.obj").positions;
   const Job like = load_job(configure("{like: head_3}", ""), {});
-  EXPECT_EQ(like.inputs.faces.heads[3].positions, head);
+  EXPECT_EQ(like.inputs.head_set.heads[3].positions, head);
   EXPECT_EQ(like.inputs.neck->seam.positions, head(rim_, kAllColumns));
   for (const char* neck : {"mean", "{like: mean, falloff: 4 cm}"}) {
     const Job mean = load_job(configure(neck, ""), {});
     Positions sum = Positions::Zero(seam_.rows(), 3);
-    for (const Head& one : mean.inputs.faces.heads) sum += one.positions(rim_, kAllColumns);
+    for (const Head& one : mean.inputs.head_set.heads) sum += one.positions(rim_, kAllColumns);
     const Positions& ring = mean.inputs.neck->seam.positions;
     EXPECT_LT((sum / double{kHeads} - ring).cwiseAbs().maxCoeff(), 1e-9);
   }

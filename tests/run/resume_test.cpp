@@ -46,7 +46,7 @@ class Resume : public ::testing::Test {
   void run(Shard shard = {}, Replace replace = Replace::kRefuse) {
     GenerateOptions options{folder_.cache(), replace, false};
     options.shard = shard;
-    options.memory = memory_;
+    options.memory_bytes = memory_;
     generate(folder_.config(), overrides(), options);
   }
   static ConfigOverrides overrides() {

@@ -43,7 +43,7 @@ class RigOfACrowd : public ::testing::Test {
  protected:
   RigOfACrowd() : folder_(crowd("")) {
     const Job job = load_job(folder_.config(), {}, folder_.cache());
-    const Positions& ann = job.inputs.faces.heads.front().positions;
+    const Positions& ann = job.inputs.head_set.heads.front().positions;
     GlbOptions options = glb_options(job.config, job.inputs);
     Eigen::Matrix3d turned;
     turned << 0, -1, 0, 1, 0, 0, 0, 0, 1;
@@ -58,8 +58,8 @@ class RigOfACrowd : public ::testing::Test {
     }
     Positions joints(2, 3);
     joints << 0, -2, -0.5, 0.25, -0.5, 0.5;
-    const Topology& topology = job.inputs.faces.topology;
-    const GlbTemplate form(topology, job.inputs.faces.uvs, options);
+    const Topology& topology = job.inputs.head_set.topology;
+    const GlbTemplate form(topology, job.inputs.head_set.uvs, options);
     form.encode(ann, vertex_normals(NormalFans(topology), topology, ann), "rig", {}, {}, {}, {},
                 joints)
         .write(folder_.folder() / "rig.glb");
@@ -154,9 +154,11 @@ TEST_F(RigOfACrowd, StandsOnTheTemplateAsItWas) {
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_EQ(own.joints[j].name, given.joints[j].name);
     EXPECT_EQ(own.joints[j].parent, given.joints[j].parent);
-    EXPECT_LT((own.joints[j].rest - given.joints[j].rest).cwiseAbs().maxCoeff(), 1e-5) << j;
+    EXPECT_LT((own.joints[j].rest_transform - given.joints[j].rest_transform).cwiseAbs().maxCoeff(),
+              1e-5)
+        << j;
   }
-  EXPECT_LT((own.points - given.points).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((own.positions - given.positions).cwiseAbs().maxCoeff(), 1e-5);
 }
 
 TEST_F(RigOfACrowd, BendsFacesAsTheTemplate) {
@@ -165,21 +167,21 @@ TEST_F(RigOfACrowd, BendsFacesAsTheTemplate) {
     const fs::path file = mesh(line.at("id"));
     const GltfRig rest = read_gltf_rig(file), given = read_gltf_rig(rig());
     const GltfRig open = read_gltf_rig(with_open_jaw(file));
-    const Eigen::Vector3d pivot = rest.joints[1].rest.col(3).head<3>();
+    const Eigen::Vector3d pivot = rest.joints[1].rest_transform.col(3).head<3>();
     double moved = 0;
-    for (Index v = 0; v < rest.points.rows(); ++v) {
+    for (Index v = 0; v < rest.positions.rows(); ++v) {
       const auto of = rest.influences.items_of(v);
       ASSERT_EQ(of.size(), given.influences.items_of(v).size());
       double jaw = 0;
       for (const Influence& one : of) {
         if (one.joint == 1) jaw = static_cast<double>(one.weight);
       }
-      const Eigen::Vector3d from = row3(rest.points, v) - pivot;
+      const Eigen::Vector3d from = row3(rest.positions, v) - pivot;
       const Eigen::Vector3d turned(from.x(), std::cos(M_PI / 6) * from.y() - 0.5 * from.z(),
                                    0.5 * from.y() + std::cos(M_PI / 6) * from.z());
       const Eigen::Vector3d wanted = pivot + (1 - jaw) * from + jaw * turned;
-      EXPECT_LT((row3(open.points, v) - wanted).norm(), 1e-5);
-      moved = std::max(moved, (row3(open.points, v) - row3(rest.points, v)).norm());
+      EXPECT_LT((row3(open.positions, v) - wanted).norm(), 1e-5);
+      moved = std::max(moved, (row3(open.positions, v) - row3(rest.positions, v)).norm());
     }
     EXPECT_GT(moved, 1e-3);
   }
@@ -191,8 +193,8 @@ TEST_F(RigOfACrowd, IsFoundByPlaceWithoutVertexIds) {
   write_file(rig(), bytes);
   run();
   const GltfRig own = read_gltf_rig(mesh("herself")), given = read_gltf_rig(rig());
-  EXPECT_LT((own.points - given.points).cwiseAbs().maxCoeff(), 1e-5);
-  for (Index v = 0; v < own.points.rows(); ++v) {
+  EXPECT_LT((own.positions - given.positions).cwiseAbs().maxCoeff(), 1e-5);
+  for (Index v = 0; v < own.positions.rows(); ++v) {
     ASSERT_EQ(own.influences.items_of(v).size(), given.influences.items_of(v).size());
     EXPECT_EQ(own.influences.items_of(v)[0].weight, given.influences.items_of(v)[0].weight);
   }

@@ -27,9 +27,9 @@ TEST(ScarcityWarning, TellsOnceThatFacesAreGettingScarce) {
   few.add(Reason::kMinDistance, 3);
   many.add(Reason::kMinDistance, static_cast<std::uint64_t>(casting.diversity.max_attempts) / 5);
   add_log_file(path);
-  warning.face_joined(few);
-  warning.face_joined(many);
-  warning.face_joined(many);
+  warning.on_face_accepted(few);
+  warning.on_face_accepted(many);
+  warning.on_face_accepted(many);
   close_log_file();
   const std::string log = read_text(path);
   const auto first = log.find("candidates are getting scarce: face 2 of 10 took 200 candidates");

@@ -31,12 +31,12 @@ class Tasks : public ::testing::Test {
         folder_.write("a \"program\"", concat("#!/bin/sh\nprintf '%s|' \"$@\" >>'",
                                               (folder_ / "said").string(), "'\nexit ${CODE:-0}\n"));
     std::filesystem::permissions(job_.program, std::filesystem::perms::owner_all);
-    job_.config = {"/c o.yaml", "--set", "a='b'"};
-    job_.crowd = "mob";
+    job_.config_arguments = {"/c o.yaml", "--set", "a='b'"};
+    job_.crowd_name = "mob";
     job_.cache = folder_ / "cache";
-    job_.prepares = 2;
-    job_.shards = 7;
-    job_.processors = 3;
+    job_.prepare_task_count = 2;
+    job_.shard_count = 7;
+    job_.processor_count = 3;
   }
   int run(const std::string& before, const std::string& arguments) const {
     const std::string command = before + " bash \"" + folder_.path().string() +
@@ -50,7 +50,7 @@ class Tasks : public ::testing::Test {
 };
 
 TEST_F(Tasks, EachStageIsACommandWithItsPart) {
-  job_.memory = std::uint64_t{8} << 30U;
+  job_.memory_bytes = std::uint64_t{8} << 30U;
   write_task_scripts(job_, Engine::kSlurm, {});
   const std::string end = concat("--cache|", job_.cache.string(), "|--threads|3|");
   const std::string memory = "--memory|7340032 KiB|";
@@ -74,7 +74,7 @@ TEST_F(Tasks, EndWithTheProgramsCodeAndSaySo) {
 }
 
 TEST_F(Tasks, UseTheMachinesOwnCopyOfTheCacheIfItCanBeMade) {
-  job_.scratch = "$OWN";
+  job_.scratch_folder = "$OWN";
   folder_.write("cache/a.cfcache", "head");
   write_task_scripts(job_, Engine::kSlurm, {});
   EXPECT_EQ(run(concat("OWN=", (folder_ / "own").string()), "blend 1"), 0);
@@ -87,7 +87,7 @@ TEST_F(Tasks, UseTheMachinesOwnCopyOfTheCacheIfItCanBeMade) {
 }
 
 TEST_F(Tasks, SlurmGetsTheSitesOptionsAndChainsTheStages) {
-  job_.memory = 1'000'000'000;
+  job_.memory_bytes = 1'000'000'000;
   const auto script =
       write_task_scripts(job_, Engine::kSlurm, {"long", "2:00", 90, {}, {"--account=it's ours"}});
   const std::string text = read_text(script);

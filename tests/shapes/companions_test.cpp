@@ -75,9 +75,9 @@ TEST_F(CompanionsTest, AreFoundByHowLipsLie) {
   const GapPreserver contacts(faces_, adjacency_, skin_);
   const std::vector<std::optional<std::size_t>> expected = {std::nullopt, std::nullopt, 1,
                                                             std::nullopt};
-  EXPECT_EQ(companions_of(set_, contacts, kRollerExtent), expected);
+  EXPECT_EQ(find_prerequisites(set_, contacts, kRollerExtent), expected);
   set_.shapes.erase(set_.shapes.begin() + 1);
-  EXPECT_EQ(companions_of(set_, contacts, kRollerExtent),
+  EXPECT_EQ(find_prerequisites(set_, contacts, kRollerExtent),
             std::vector<std::optional<std::size_t>>(3, std::nullopt))
       << "none brings them back";
 }
@@ -88,8 +88,8 @@ TEST_F(CompanionsTest, LipsThatComeTogetherAgainDoNotPassThroughEachOther) {
   ASSERT_EQ(crossing(set_.neutral, open, close), 0U);
   ASSERT_GT(crossing(face, open, close), 40U);
   const ShapeTransfer transfer(faces_, adjacency_, {}, {}, set_);
-  EXPECT_EQ(transfer.companion(2), 1U);
-  EXPECT_EQ(transfer.companion(1), std::nullopt);
+  EXPECT_EQ(transfer.prerequisite_of(2), 1U);
+  EXPECT_EQ(transfer.prerequisite_of(1), std::nullopt);
   std::vector<Index> left;
   const std::vector<Displacements> moves = transfer.carry(1, face, {}, &left);
   EXPECT_EQ(left[2], 0);

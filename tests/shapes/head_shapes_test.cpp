@@ -29,10 +29,10 @@ ShapeSet sets_of(const Heads& heads) {
 }
 
 RegionWeights one_region(const Heads& heads) {
-  return whole_head(heads.faces.topology);
+  return whole_head_weights(heads.faces.topology);
 }
 
-std::vector<RegionShares> everywhere(const ShapeSet& set, const SetShares& shares) {
+std::vector<RegionShares> everywhere(const ShapeSet& set, const ShapeSetShares& shares) {
   return {set.shapes.size(), RegionShares{shares}};
 }
 

@@ -80,16 +80,16 @@ class SkinCrossingsTest : public ::testing::Test {
     return intersecting_pairs(triangles, mesh, near_pairs(triangles, mesh, 0)).size();
   }
   Displacements mended(const Positions& face, const Displacements& shape,
-                       const SkinCrossings::Watched& watched) const {
-    const std::array watching = {&watched.search};
-    const CrossingSearch all = crossings_.watch_all(face, watching);
+                       const SkinCrossings::SearchedSkin& searched_skin) const {
+    const std::array searches = {&searched_skin.search};
+    const CrossingSearch all = crossings_.merge_searches(face, searches);
     const std::vector<bool> at_rest = crossings_.crossing_at_rest(face, all);
     const SkinCrossings::Face there{face, at_rest, {}};
     Displacements result = shape;
     Positions mesh = face;
-    const Index left = crossings_.repair(there, watched, mesh, result);
+    const Index left = crossings_.repair(there, searched_skin, mesh, result);
     EXPECT_EQ(mesh, face);
-    EXPECT_EQ(crossings_.count_intersecting(there, watched, result, mesh), left);
+    EXPECT_EQ(crossings_.count_intersecting(there, searched_skin, result, mesh), left);
     EXPECT_EQ(mesh, face);
     return result;
   }
@@ -102,10 +102,10 @@ class SkinCrossingsTest : public ::testing::Test {
 TEST_F(SkinCrossingsTest, AreMendedWhereAFaceIsNarrower) {
   const Positions face = folded(0.6);
   const Displacements shape = pressed(folded(1), 0.9);
-  const auto watched = crossings_.watch(folded(1), shape, {});
+  const auto searched_skin = crossings_.find_searched_skin(folded(1), shape, {});
   ASSERT_EQ(pairs_in(folded(1), shape), 0U);
   ASSERT_GT(pairs_in(face, shape), 20U);
-  const Displacements result = mended(face, shape, watched);
+  const Displacements result = mended(face, shape, searched_skin);
   EXPECT_EQ(pairs_in(face, result), 0U);
   EXPECT_EQ(result.vertices, shape.vertices);
   EXPECT_LT(result.moves.col(1).minCoeff(), -0.3) << "the shape is left";
@@ -126,27 +126,27 @@ TEST_F(SkinCrossingsTest, AFoldOfFewEdgesIsFound) {
   ASSERT_EQ(pairs_in(flat, gentle), 0U);
   Displacements steep{shape.vertices, 1.3 * shape.moves};
   ASSERT_GT(pairs_in(flat, steep), 0U);
-  const auto watched = crossings_.watch(flat, gentle, {});
-  const Displacements result = mended(flat, steep, watched);
+  const auto searched_skin = crossings_.find_searched_skin(flat, gentle, {});
+  const Displacements result = mended(flat, steep, searched_skin);
   EXPECT_EQ(pairs_in(flat, result), 0U);
 }
 
 TEST_F(SkinCrossingsTest, FarSkinThatAFaceHasNearIsWatched) {
   const Displacements shape = pressed(folded(3), 0.9);
-  const auto watched = crossings_.watch(folded(3), shape, {});
+  const auto searched_skin = crossings_.find_searched_skin(folded(3), shape, {});
   const Positions face = folded(0.5);
   ASSERT_GT(pairs_in(face, shape), 20U);
-  EXPECT_EQ(pairs_in(face, mended(face, shape, watched)), 0U);
+  EXPECT_EQ(pairs_in(face, mended(face, shape, searched_skin)), 0U);
 }
 
 TEST_F(SkinCrossingsTest, LidsComeToLieAsOnTheTemplate) {
   std::vector<signed char> side(skin_.size(), -1);
   std::fill(side.begin() + static_cast<std::ptrdiff_t>(side.size() / 2), side.end(), 1);
   const Displacements shape = closing(folded(1), 0.9, 0.3);
-  const auto watched = crossings_.watch(folded(1), shape, std::move(side));
+  const auto searched_skin = crossings_.find_searched_skin(folded(1), shape, std::move(side));
   const Positions face = folded(0.6);
   ASSERT_GT(pairs_in(face, shape), 20U);
-  const Displacements result = mended(face, shape, watched);
+  const Displacements result = mended(face, shape, searched_skin);
   EXPECT_EQ(pairs_in(face, result), 0U);
   EXPECT_EQ(result.vertices, shape.vertices);
   const double closed = result.moves.col(1).maxCoeff() - result.moves.col(1).minCoeff();
@@ -157,15 +157,16 @@ TEST_F(SkinCrossingsTest, LidsComeToLieAsOnTheTemplate) {
 TEST_F(SkinCrossingsTest, WithoutAnyNothingChanges) {
   const Positions face = folded(1.1);
   const Displacements shape = pressed(folded(1), 0.9);
-  const Displacements result = mended(face, shape, crossings_.watch(folded(1), shape, {}));
+  const Displacements result =
+      mended(face, shape, crossings_.find_searched_skin(folded(1), shape, {}));
   EXPECT_EQ(result.moves, shape.moves);
 }
 
 TEST_F(SkinCrossingsTest, FarFromThemNothingChanges) {
   const Positions face = folded(0.6);
   Displacements shape = pressed(folded(1), 0.9);
-  const auto watched = crossings_.watch(folded(1), shape, {});
-  const Displacements result = mended(face, shape, watched);
+  const auto searched_skin = crossings_.find_searched_skin(folded(1), shape, {});
+  const Displacements result = mended(face, shape, searched_skin);
   std::size_t same = 0;
   for (Index i = 0; i < shape.moves.rows(); ++i) same += result.moves.row(i) == shape.moves.row(i);
   EXPECT_GT(same, 10U);
@@ -175,19 +176,20 @@ TEST_F(SkinCrossingsTest, FarFromThemNothingChanges) {
 TEST_F(SkinCrossingsTest, OfTheTemplateAndOfTheFaceAtRestStay) {
   const Displacements through = pressed(folded(1), 1.4);
   ASSERT_GT(pairs_in(folded(1), through), 20U);
-  const auto watched = crossings_.watch(folded(1), through, {});
-  EXPECT_EQ(mended(folded(1), through, watched).moves, through.moves);
+  const auto searched_skin = crossings_.find_searched_skin(folded(1), through, {});
+  EXPECT_EQ(mended(folded(1), through, searched_skin).moves, through.moves);
 
   Positions crossed = folded(0.6);
   through.add_to(crossed);
   Displacements little = pressed(folded(1), 0.05);
   ASSERT_GT(pairs_in(crossed, little), 20U);
-  EXPECT_EQ(mended(crossed, little, crossings_.watch(folded(1), little, {})).moves, little.moves);
+  EXPECT_EQ(mended(crossed, little, crossings_.find_searched_skin(folded(1), little, {})).moves,
+            little.moves);
 }
 
 TEST_F(SkinCrossingsTest, SkinThatAShapeDoesNotBringTogetherIsNotWatched) {
   const Displacements shape = pressed(folded(6), 0.1);
-  EXPECT_TRUE(crossings_.watch(folded(6), shape, {}).search.triangles().empty());
+  EXPECT_TRUE(crossings_.find_searched_skin(folded(6), shape, {}).search.triangles().empty());
 }
 
 }  // namespace

@@ -220,9 +220,9 @@ TEST(FilterProbes, HoldEveryTermOfTheRecurrence) {
   const Positions expected = iterate(smoothing, positions, 57);
   for (Index p = 0; p < 4; ++p) {
     Eigen::RowVector3d level = Eigen::RowVector3d::Zero();
-    for (Index k = 0; k < std::min<Index>(probes.values.rows(), static_cast<Index>(series.size()));
+    for (Index k = 0; k < std::min<Index>(probes.terms.rows(), static_cast<Index>(series.size()));
          ++k) {
-      level += series[static_cast<std::size_t>(k)] * probes.values.block<1, 3>(k, 3 * p);
+      level += series[static_cast<std::size_t>(k)] * probes.terms.block<1, 3>(k, 3 * p);
     }
     const Index vertex = probes.vertices[static_cast<std::size_t>(p)];
     EXPECT_LT((level - expected.row(vertex)).norm(), 1e-9);
@@ -237,26 +237,26 @@ TEST(Tiles, HoldEveryRingTheyNeed) {
   ASSERT_EQ(tiling.tiles.size(), 8U);
   std::uint32_t next = 0;
   for (const Tile& tile : tiling.tiles) {
-    EXPECT_EQ(tile.first, next) << "every row in one tile";
-    next += tile.count;
+    EXPECT_EQ(tile.first_row, next) << "every row in one tile";
+    next += tile.row_count;
     const auto vertex_of = [&](std::uint32_t local) {
-      return tiling
-          .vertex_of_row[local < tile.count ? tile.first + local : tile.halo[local - tile.count]];
+      return tiling.vertex_of_row[local < tile.row_count ? tile.first_row + local
+                                                         : tile.halo[local - tile.row_count]];
     };
     std::set<std::uint32_t> reached;  // the rows that two more steps can still be computed on
-    for (std::uint32_t r = 0; r < tile.count; ++r)
-      reached.insert(tiling.vertex_of_row[tile.first + r]);
+    for (std::uint32_t r = 0; r < tile.row_count; ++r)
+      reached.insert(tiling.vertex_of_row[tile.first_row + r]);
     for (std::size_t ring = 0; ring < 3; ++ring) {
       std::set<std::uint32_t> computed;
       for (std::size_t r = 0; r < tile.run_counts[ring]; ++r) {
         const ValenceRun& run = tile.runs[r];
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-          const std::uint32_t vertex = vertex_of(run.first + i);
+        for (std::uint32_t i = 0; i < run.row_count; ++i) {
+          const std::uint32_t vertex = vertex_of(run.first_row + i);
           computed.insert(vertex);
           const auto expected = smoothing.neighbours(vertex);
           ASSERT_EQ(run.valence, expected.size());
           for (std::uint32_t n = 0; n < run.valence; ++n) {
-            EXPECT_EQ(vertex_of(tile.rings[run.first_neighbour + i * run.valence + n]),
+            EXPECT_EQ(vertex_of(tile.neighbours[run.first_neighbour + i * run.valence + n]),
                       expected[n]);
           }
         }

@@ -38,13 +38,14 @@ std::vector<std::uint32_t> rows_of_grid() {
 
 /// What a field is at a patch's vertex, told from the skeleton.
 double interpolated(const FieldPatch& patch, std::size_t row, std::size_t vertex, std::size_t c) {
-  const std::int16_t* numbers = patch.numbers + row * patch.values() + c * patch.skeleton;
+  const std::int16_t* numbers =
+      patch.quantized_values + row * patch.values_per_field() + c * patch.skeleton_size;
   const auto at = [&](std::size_t j) {
     return static_cast<double>(patch.steps[row]) * static_cast<double>(numbers[j]);
   };
   if (patch.is_whole()) return at(vertex);
   double sum = 0;
-  for (std::size_t j = 0; j < patch.skeleton; ++j) {
+  for (std::size_t j = 0; j < patch.skeleton_size; ++j) {
     sum += static_cast<double>(patch.weights[j * kPatchVertices + vertex]) * at(j);
   }
   return sum;
@@ -64,7 +65,8 @@ double missed(const std::vector<HeadLevels>& heads, const FieldPatches& patches)
           for (std::size_t c = 0; c < 3; ++c) {
             double error = 0;
             for (std::size_t p = 0; p < functions.size(); ++p) {
-              const double there = p < patch.counts[h] ? interpolated(patch, row + p, v, c) : 0;
+              const double there =
+                  p < patch.field_counts[h] ? interpolated(patch, row + p, v, c) : 0;
               const double exact = heads[h].fields.value(static_cast<Index>(p), patch.vertices[v],
                                                          static_cast<Index>(c));
               error += functions[p] * (there - exact);
@@ -73,7 +75,7 @@ double missed(const std::vector<HeadLevels>& heads, const FieldPatches& patches)
           }
           most = std::max(most, std::sqrt(squared));
         }
-        row += patch.counts[h];
+        row += patch.field_counts[h];
       }
     }
   }
@@ -81,7 +83,7 @@ double missed(const std::vector<HeadLevels>& heads, const FieldPatches& patches)
 }
 
 double mean_skeleton(const FieldPatches& patches) {
-  const auto& skeletons = patches.lists().skeletons;
+  const auto& skeletons = patches.lists().skeleton_sizes;
   return std::accumulate(skeletons.begin(), skeletons.end(), 0.0) /
          static_cast<double>(patches.size());
 }
@@ -89,9 +91,10 @@ double mean_skeleton(const FieldPatches& patches) {
 bool same_lists(const FieldPatches& a, const FieldPatches& b) {
   const PatchLists &x = a.lists(), &y = b.lists();
   return std::ranges::equal(x.vertices, y.vertices) &&
-         std::ranges::equal(x.skeletons, y.skeletons) && std::ranges::equal(x.counts, y.counts) &&
+         std::ranges::equal(x.skeleton_sizes, y.skeleton_sizes) &&
+         std::ranges::equal(x.field_counts, y.field_counts) &&
          std::ranges::equal(x.steps, y.steps) && std::ranges::equal(x.weights, y.weights) &&
-         std::ranges::equal(x.numbers, y.numbers);
+         std::ranges::equal(x.quantized_values, y.quantized_values);
 }
 
 TEST(FieldPatches, MissNoLevelOfAnyHeadByMoreThanTheTolerance) {
@@ -162,7 +165,7 @@ TEST(FieldPatches, AVertexThatNothingMovesIsMovedByNothing) {
     for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
       if (patch.vertices[v] % kColumns != 0) continue;
       ++still;
-      for (std::size_t j = 0; j < patch.skeleton; ++j) {
+      for (std::size_t j = 0; j < patch.skeleton_size; ++j) {
         EXPECT_EQ(patch.weights[j * kPatchVertices + v], 0);
       }
     }
@@ -213,16 +216,16 @@ TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { v[3] = v[4]; }));
   EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { std::swap(v[3], v[4]); }));
   EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { v.pop_back(); }));
-  EXPECT_FALSE(with(&PatchLists::skeletons, [](auto& v) { v[0] = 129; }));
-  EXPECT_FALSE(with(&PatchLists::skeletons, [](auto& v) { ++v[0]; }));
-  EXPECT_FALSE(with(&PatchLists::skeletons, [](auto& v) { v.pop_back(); }));
-  EXPECT_FALSE(with(&PatchLists::counts, [](auto& v) { --v[0]; }));
-  EXPECT_FALSE(with(&PatchLists::counts, [&](auto& v) { v[0] = 1000; }));
+  EXPECT_FALSE(with(&PatchLists::skeleton_sizes, [](auto& v) { v[0] = 129; }));
+  EXPECT_FALSE(with(&PatchLists::skeleton_sizes, [](auto& v) { ++v[0]; }));
+  EXPECT_FALSE(with(&PatchLists::skeleton_sizes, [](auto& v) { v.pop_back(); }));
+  EXPECT_FALSE(with(&PatchLists::field_counts, [](auto& v) { --v[0]; }));
+  EXPECT_FALSE(with(&PatchLists::field_counts, [&](auto& v) { v[0] = 1000; }));
   EXPECT_FALSE(with(&PatchLists::steps, [](auto& v) { v[0] = 3; })) << "no power of two";
   EXPECT_FALSE(with(&PatchLists::steps, [](auto& v) { v[0] = HUGE_VALF; }));
   EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v[0] = NAN; }));
   EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v.pop_back(); }));
-  EXPECT_FALSE(with(&PatchLists::numbers, [](auto& v) { v.push_back(0); }));
+  EXPECT_FALSE(with(&PatchLists::quantized_values, [](auto& v) { v.push_back(0); }));
   EXPECT_FALSE(
       FieldPatches::from_lists(made.lists(), kVertices, std::vector<Index>{ranks[0]}).has_value());
   EXPECT_FALSE(FieldPatches::from_lists(made.lists(), kVertices + 128, ranks).has_value());

@@ -207,9 +207,11 @@ TEST(LevelBasis, HasTheSameBitsOnAnyMachine) {
     const NodeFields fields = filter_nodes(fitted.filter, fitted.nodes, fitted.positions);
     const LevelBasis basis = fit_level_basis(fitted.filter, fitted.nodes, fields, 0.01);
     EXPECT_EQ(basis.mixing, expected.mixing);
-    EXPECT_TRUE(std::ranges::equal(basis.fields.first, expected.fields.first));
+    EXPECT_TRUE(
+        std::ranges::equal(basis.fields.first_field_of_tile, expected.fields.first_field_of_tile));
     EXPECT_TRUE(std::ranges::equal(basis.fields.steps, expected.fields.steps));
-    EXPECT_TRUE(std::ranges::equal(basis.fields.numbers, expected.fields.numbers));
+    EXPECT_TRUE(
+        std::ranges::equal(basis.fields.quantized_values, expected.fields.quantized_values));
     EXPECT_EQ(basis.error.max, expected.error.max);
     EXPECT_EQ(basis.error.rms, expected.error.rms);
     EXPECT_EQ(basis.error.level, expected.error.level);
@@ -236,15 +238,16 @@ TEST(SymmetricEigen, DiagonalisesWithOrthonormalVectors) {
   for (Index i = 0; i < 81; ++i) a(i / 9, i % 9) = noise(i / 3, i % 3);
   const Eigen::MatrixXd matrix = a + a.transpose();
   const SymmetricEigen eigen = symmetric_eigen(matrix);
-  EXPECT_LT((eigen.vectors.transpose() * eigen.vectors - Eigen::MatrixXd::Identity(9, 9))
+  EXPECT_LT((eigen.eigenvectors.transpose() * eigen.eigenvectors - Eigen::MatrixXd::Identity(9, 9))
                 .cwiseAbs()
                 .maxCoeff(),
             1e-13);
-  EXPECT_LT((eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose() - matrix)
+  EXPECT_LT((eigen.eigenvectors * eigen.eigenvalues.asDiagonal() * eigen.eigenvectors.transpose() -
+             matrix)
                 .cwiseAbs()
                 .maxCoeff(),
             1e-13);
-  for (Index i = 1; i < 9; ++i) EXPECT_GE(eigen.values(i - 1), eigen.values(i));
+  for (Index i = 1; i < 9; ++i) EXPECT_GE(eigen.eigenvalues(i - 1), eigen.eigenvalues(i));
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ TEST(LevelFields, AreOffByHalfAStepAtMost) {
       const auto at = static_cast<Index>(i) % (3 * vertices);
       const std::size_t p = i / static_cast<std::size_t>(3 * vertices);
       const auto tile = static_cast<std::size_t>(at / 3) / kTileVertices;
-      const double half = 0.5 * static_cast<double>(fields.steps[fields.first[tile] + p]);
+      const double half =
+          0.5 * static_cast<double>(fields.steps[fields.first_field_of_tile[tile] + p]);
       EXPECT_LE(std::abs(fields.value(static_cast<Index>(p), at / 3, at % 3) -
                          static_cast<double>(exact[i])),
                 half);
@@ -61,8 +62,8 @@ TEST(LevelFields, HaveStepsThatAreTheLeastPowersOfTwo) {
 TEST(LevelFields, KeepTheLargestNumberAndZero) {
   const std::vector<float> values = {0, 0.25F, -0.75F};
   const LevelFields fields = quantize(values, 1);
-  EXPECT_EQ(fields.numbers[0], 0);
-  EXPECT_EQ(fields.numbers[2], -24576);
+  EXPECT_EQ(fields.quantized_values[0], 0);
+  EXPECT_EQ(fields.quantized_values[2], -24576);
   for (Index c = 0; c < 3; ++c) {
     EXPECT_EQ(fields.value(0, 0, c), static_cast<double>(values[static_cast<std::size_t>(c)]));
   }
@@ -70,13 +71,13 @@ TEST(LevelFields, KeepTheLargestNumberAndZero) {
 
 TEST(LevelFields, AreZeroPastTheLastVertex) {
   const LevelFields fields = quantize(some_fields(70), 70);
-  ASSERT_EQ(fields.numbers.size(), 2 * 3 * 3 * kTileVertices);
+  ASSERT_EQ(fields.quantized_values.size(), 2 * 3 * 3 * kTileVertices);
   std::size_t past = 0;
-  for (std::size_t i = 0; i < fields.numbers.size(); ++i) {
+  for (std::size_t i = 0; i < fields.quantized_values.size(); ++i) {
     const std::size_t vertex =
         i / (3 * 3 * kTileVertices) * kTileVertices + i % (3 * kTileVertices) / 3;
     if (vertex < 70) continue;
-    EXPECT_EQ(fields.numbers[i], 0);
+    EXPECT_EQ(fields.quantized_values[i], 0);
     ++past;
   }
   EXPECT_EQ(past, 58U * 3 * 3);
@@ -95,7 +96,7 @@ TEST(LevelFields, OfATileAreTheFirstFew) {
     EXPECT_EQ(fields.value(0, v, 1), v / Index{kTileVertices} == 1 ? 0 : 5) << v;
     EXPECT_EQ(fields.value(1, v, 2), v < 2 * Index{kTileVertices} ? 0 : 3) << v;
   }
-  EXPECT_EQ(fields.numbers.size(), 3 * kTileValues);
+  EXPECT_EQ(fields.quantized_values.size(), 3 * kTileValues);
 }
 
 /// Against the plain sum, for every number of fields kept.
@@ -141,7 +142,7 @@ TEST(LevelFields, KeepsTheFewestThatMissLittleEnough) {
                                static_cast<float>(missed[kept] * 1.001));
       EXPECT_EQ(found.kept_fields, kept);
       EXPECT_NEAR(static_cast<double>(found.squared_error), missed[kept], 1e-5 * missed[kept]);
-      EXPECT_EQ(found.level, where[kept]);
+      EXPECT_EQ(found.level_index, where[kept]);
     }
   }
   use_instruction_set(instruction_sets().front());
@@ -154,7 +155,7 @@ TEST(LevelFields, AreTheSameOnEveryInstructionSet) {
     use_instruction_set(name);
     const LevelFields fields = quantize(exact, 500);
     EXPECT_TRUE(std::ranges::equal(fields.steps, expected.steps)) << name;
-    EXPECT_TRUE(std::ranges::equal(fields.numbers, expected.numbers)) << name;
+    EXPECT_TRUE(std::ranges::equal(fields.quantized_values, expected.quantized_values)) << name;
   }
   use_instruction_set(instruction_sets().front());
 }

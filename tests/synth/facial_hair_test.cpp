@@ -46,7 +46,7 @@ double cover_near(const FacialHair& style, const Vector3d& place) {
 
 TEST(FacialHair, BeardsHaveAMoustacheThatReachesTheChinsBeard) {
   for (const FacialHair& style : facial_hairs()) {
-    if (!style.is_beard || style.chin < 1) continue;
+    if (!style.is_beard || style.chin_beard < 1) continue;
     EXPECT_GT(cover_near(style, {1.2, -5.8, 10}), 0.5) << style.name;
     EXPECT_GT(cover_near(style, {2.6, -7.6, 9}), 0.4) << style.name << ": beside the mouth";
     EXPECT_GT(cover_near(style, {2.4, -8.8, 9}), 0.4) << style.name << ": below its corner";
@@ -76,7 +76,7 @@ TEST(Complexion, MostWomenWearNoLipstickAndNoMan) {
   double women = 0, painted = 0;
   for (std::uint64_t i = 0; i < 1000; ++i) {
     const bool wears = random_complexion(1, i).lipstick > 0.1;
-    if (random_person(1, i).male > 0) {
+    if (random_person(1, i).maleness > 0) {
       EXPECT_FALSE(wears) << i;
       continue;
     }

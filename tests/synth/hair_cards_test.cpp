@@ -62,7 +62,7 @@ TEST(HairCards, BothSexesHaveStraightAndCurlyCuts) {
     for (const bool curly : {true, false}) {
       EXPECT_TRUE(std::ranges::any_of(
           hair_cuts(),
-          [&](const HairCut& cut) { return cut.female == female && cut.curly == curly; }))
+          [&](const HairCut& cut) { return cut.is_for_women == female && cut.is_curly == curly; }))
           << female << curly;
     }
   }
@@ -110,7 +110,7 @@ TEST(HairCards, EachCardShowsAStripFromRootsToTips) {
 TEST(HairCards, LieOnTheHeadAboveTheEars) {
   for (const HairCut& cut : hair_cuts()) {
     if (cut.layers > 1) continue;  // curls stand off in every direction
-    const double most = 0.8 * cut.volume + 0.9 + cut.wave;
+    const double most = 0.8 * cut.volume_factor + 0.9 + cut.wave_amplitude;
     const Mesh& hair = cards_of(cut);
     for (Index v = 0; v < hair.positions.rows(); ++v) {
       const Vector3d p = hair.positions.row(v);
@@ -130,9 +130,9 @@ TEST(HairCards, AFringeIsCutLevel) {
     const Vector3d p = hair.positions.row(v);
     if (p.z() < 5 || std::abs(p.x()) >= 4) continue;
     lowest = std::min(lowest, p.y());
-    if (p.y() < cut.fringe + 0.5) covered[static_cast<std::size_t>(std::floor(p.x() + 4))] = true;
+    if (p.y() < cut.fringe_y + 0.5) covered[static_cast<std::size_t>(std::floor(p.x() + 4))] = true;
   }
-  EXPECT_GT(lowest, cut.fringe - 0.6);
+  EXPECT_GT(lowest, cut.fringe_y - 0.6);
   EXPECT_THAT(covered, ::testing::Each(true)) << "it reaches its line everywhere";
 }
 

@@ -25,8 +25,8 @@ TEST(Hair, LeavesFaceEarsAndThroatBare) {
     for (const Vector3d& place : {kForehead, kCheek, kThroat, kEarLobe}) {
       EXPECT_EQ(hair.thickness(place), 0) << "head " << h << " at " << place.transpose();
     }
-    EXPECT_FALSE(hair.reaches(kForehead)) << h;
-    EXPECT_FALSE(hair.reaches(kCheek)) << h;
+    EXPECT_FALSE(hair.may_cover(kForehead)) << h;
+    EXPECT_FALSE(hair.may_cover(kCheek)) << h;
   }
 }
 
@@ -34,14 +34,14 @@ TEST(Hair, IsThickOnTheCrownUnlessItWentWithTheYears) {
   int bald = 0;
   for (std::uint64_t h = 0; h < kHeads; ++h) {
     const Hair hair(kSeed, h);
-    const double receding = random_complexion(kSeed, h).receding;
+    const double receding = random_complexion(kSeed, h).recession;
     if (receding > 0.9) {
       ++bald;
       EXPECT_LT(hair.thickness(kCrown), 0.05) << h;
-      EXPECT_LT(hair.cover(kCrown, 0), 0.05) << h;
+      EXPECT_LT(hair.coverage(kCrown, 0), 0.05) << h;
     } else if (receding < 0.3) {
       EXPECT_GT(hair.thickness(kCrown), 0.2) << h;
-      EXPECT_GT(hair.cover(kCrown, 0), 0.95) << h;
+      EXPECT_GT(hair.coverage(kCrown, 0), 0.95) << h;
     }
   }
   EXPECT_GT(bald, 1);
@@ -51,7 +51,7 @@ TEST(Hair, SomeWomenWearItLongAndNoMan) {
   int women = 0;
   for (std::uint64_t h = 0; h < kHeads; ++h) {
     const bool falls = Hair(kSeed, h).thickness(kBehindEar) > 1;
-    if (random_person(kSeed, h).male > 0) {
+    if (random_person(kSeed, h).maleness > 0) {
       EXPECT_FALSE(falls) << h;
     }
     women += falls ? 1 : 0;

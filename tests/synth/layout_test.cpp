@@ -56,7 +56,7 @@ TEST_P(LayoutAt, HasNearlyTheWantedSize) {
   const Layout layout = make_layout(wanted);
   EXPECT_NEAR(static_cast<double>(layout.topology.vertex_count), static_cast<double>(wanted),
               0.1 * static_cast<double>(wanted));
-  EXPECT_EQ(layout.topology.vertex_count, nearest_counts(wanted).vertices());
+  EXPECT_EQ(layout.topology.vertex_count, nearest_counts(wanted).vertex_count());
   EXPECT_EQ(layout.addresses.size(), static_cast<std::size_t>(layout.topology.vertex_count));
 }
 
@@ -141,7 +141,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, LayoutAt, ::testing::Values(5000, 20000, 80000))
 
 TEST(Layout, ReachesEverySizeWithinTenPercent) {
   for (double wanted = 5000; wanted <= 1200000; wanted *= 1.13) {
-    const auto found = static_cast<double>(nearest_counts(static_cast<Index>(wanted)).vertices());
+    const auto found =
+        static_cast<double>(nearest_counts(static_cast<Index>(wanted)).vertex_count());
     EXPECT_NEAR(found / wanted, 1, 0.1) << wanted;
   }
 }
@@ -159,7 +160,7 @@ TEST(Layout, CutsOnlyAlongTheSeams) {
     if (uvs.size() == 1) continue;
     ++split;
     const Address& a = layout.addresses[vertex];
-    EXPECT_EQ(a.sheet, Sheet::kStrip);
+    EXPECT_EQ(a.patch, SkinPatch::kStrip);
     EXPECT_TRUE(a.b == 0 || std::abs(a.a) == column_unit(kColumns - 1));
   }
   EXPECT_GT(split, 0);

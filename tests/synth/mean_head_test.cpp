@@ -31,20 +31,22 @@ TEST(Sculpture, LeftEqualsRight) {
 TEST(MeanHead, SkinIsOnTheSculpture) {
   const Layout layout = make_layout(5000);
   for (const Address& address : layout.addresses) {
-    if (address.sheet == Sheet::kEar || address.sheet == Sheet::kEarCore) continue;
-    const bool strip = address.sheet == Sheet::kStrip || address.sheet == Sheet::kCap;
+    if (address.patch == SkinPatch::kEar || address.patch == SkinPatch::kEarCore) continue;
+    const bool strip = address.patch == SkinPatch::kStrip || address.patch == SkinPatch::kCap;
     if (!strip && address.b > 1) continue;
     ASSERT_NEAR(skin_distance(mean_skin(address).position), 0, 1e-8);
   }
 }
 
 TEST(MeanHead, RingsBeginWhereTheStripEnds) {
-  for (const Sheet sheet : {Sheet::kEye, Sheet::kNostril, Sheet::kMouth, Sheet::kEar}) {
-    const Opening& opening = opening_of(sheet);
+  for (const SkinPatch patch :
+       {SkinPatch::kEye, SkinPatch::kNostril, SkinPatch::kMouth, SkinPatch::kEar}) {
+    const Opening& opening = opening_of(patch);
     // The middle of the opening's upper side: the strip at the same place.
     const double middle = (column_unit(opening.column0) + column_unit(opening.column1)) / 2;
-    const Vector3d strip = mean_skin({Sheet::kStrip, 1, middle, row_unit(opening.row0)}).position;
-    const Vector3d ring = mean_skin({sheet, 1, 3.5, 1e-9}).position;
+    const Vector3d strip =
+        mean_skin({SkinPatch::kStrip, 1, middle, row_unit(opening.row0)}).position;
+    const Vector3d ring = mean_skin({patch, 1, 3.5, 1e-9}).position;
     EXPECT_LT((strip - ring).norm(), 1e-5);
   }
 }

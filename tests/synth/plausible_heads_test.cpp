@@ -98,11 +98,12 @@ TEST_F(Plausible, LidsAndLipsStayApart) {
   std::map<std::array<double, 3>, std::array<Index, 2>> pairs;
   for (Index i = 0; i < topology_.vertex_count; ++i) {
     const synth::Address& a = layout_.addresses[static_cast<std::size_t>(i)];
-    if (a.b != 1 || (a.sheet != synth::Sheet::kEye && a.sheet != synth::Sheet::kMouth)) continue;
-    const auto sheet = static_cast<double>(a.sheet);
+    if (a.b != 1 || (a.patch != synth::SkinPatch::kEye && a.patch != synth::SkinPatch::kMouth))
+      continue;
+    const auto patch = static_cast<double>(a.patch);
     const auto across = [](double x) { return std::floor(1e6 * x + 0.5); };
-    if (a.a > 3) pairs[{sheet, a.side, across(4 - a.a)}][0] = i + 1;
-    if (a.a > 1 && a.a < 2) pairs[{sheet, a.side, across(a.a - 1)}][1] = i + 1;
+    if (a.a > 3) pairs[{patch, a.side, across(4 - a.a)}][0] = i + 1;
+    if (a.a > 1 && a.a < 2) pairs[{patch, a.side, across(a.a - 1)}][1] = i + 1;
   }
   int checked = 0;
   for (std::uint64_t h = 0; h < kHeads; ++h) {

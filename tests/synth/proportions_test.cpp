@@ -43,7 +43,7 @@ std::array<Spread, 2> spread_of(const Distance& distance) {
   for (std::uint64_t i = 0; i < kPeople; ++i) {
     const Identity identity(kPeopleSeed, i);
     const Vector3d between = identity.deform(distance.from) - identity.deform(distance.to);
-    lengths[identity.person().male > 0 ? 1 : 0].push_back(10 * between.norm());
+    lengths[identity.person().maleness > 0 ? 1 : 0].push_back(10 * between.norm());
   }
   std::array<Spread, 2> out;
   for (std::size_t sex = 0; sex < 2; ++sex) {
@@ -68,9 +68,9 @@ struct Landmarks {
   Vector3d gnathion = project_onto_skin({0, -9, 7.4}, {0, -13, 7.4});
   Vector3d subnasale = project_onto_skin({0, -3.5, 8}, {0, -4.8, 9.9});
   Vector3d alare = project_onto_skin({0, -3.9, 10}, {2, -3.9, 10});
-  Vector3d endocanthion = mean_skin({Sheet::kEye, 1, 0.5, 1}).position;
-  Vector3d exocanthion = mean_skin({Sheet::kEye, 1, 2.5, 1}).position;
-  Vector3d cheilion = mean_skin({Sheet::kMouth, 1, 2.5, 1}).position;
+  Vector3d endocanthion = mean_skin({SkinPatch::kEye, 1, 0.5, 1}).position;
+  Vector3d exocanthion = mean_skin({SkinPatch::kEye, 1, 2.5, 1}).position;
+  Vector3d cheilion = mean_skin({SkinPatch::kMouth, 1, 2.5, 1}).position;
 };
 
 // Effect sizes (Cohen's d) of adults: Kesterke et al. 2016, "Using the 3D Facial Norms Database to
@@ -133,9 +133,9 @@ TEST(Person, SexesAndAgesAreAllThere) {
   int men = 0, old = 0, young = 0;
   for (std::uint64_t i = 0; i < kPeople; ++i) {
     const Person person = random_person(kPeopleSeed, i);
-    men += person.male > 0 ? 1 : 0;
-    old += person.age >= 55 ? 1 : 0;
-    young += person.age < 35 ? 1 : 0;
+    men += person.maleness > 0 ? 1 : 0;
+    old += person.age_years >= 55 ? 1 : 0;
+    young += person.age_years < 35 ? 1 : 0;
   }
   EXPECT_NEAR(men, kPeople / 2.0, 60);
   EXPECT_GT(old, 150);

@@ -59,13 +59,13 @@ TEST(RegionMask, NoseIsMiddleMouthIsBottomForeheadIsTop) {
     const synth::Address& a = layout.addresses[layout.topology.corner_vertices[c]];
     const auto uv = layout.uvs.row(layout.topology.corner_uvs[c]);
     const auto bands = at(mask, uv.x(), uv.y());
-    if (a.sheet == synth::Sheet::kNostril) {
+    if (a.patch == synth::SkinPatch::kNostril) {
       EXPECT_GT(bands[1], 0.5);
     }
-    if (a.sheet == synth::Sheet::kMouth && a.b >= 1) {
+    if (a.patch == synth::SkinPatch::kMouth && a.b >= 1) {
       EXPECT_GT(bands[2], 0.9);
     }
-    if (a.sheet == synth::Sheet::kCap) {
+    if (a.patch == synth::SkinPatch::kCap) {
       EXPECT_EQ(bands[0], 1);
     }
   }

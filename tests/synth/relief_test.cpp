@@ -14,7 +14,7 @@ constexpr std::uint64_t kReliefSeed = 5;
 std::vector<std::uint64_t> old_heads() {
   std::vector<std::uint64_t> heads;
   for (std::uint64_t h = 0; h < 60; ++h) {
-    if (random_person(kReliefSeed, h).age > 62) heads.push_back(h);
+    if (random_person(kReliefSeed, h).age_years > 62) heads.push_back(h);
   }
   return heads;
 }
@@ -26,7 +26,7 @@ struct Line {
 Line deepest(const Relief& relief, double x) {
   Line line;
   for (double y = 3; y < 7; y += 0.02) {
-    const double depth = -relief.folds({x, y, 9});
+    const double depth = -relief.fold_height({x, y, 9});
     if (depth > line.depth) line = {depth, y};
   }
   return line;

@@ -48,11 +48,11 @@ TEST(SyntheticHeads, LeftAndRightDifferALittle) {
   std::map<std::array<double, 4>, Index> at;
   for (Index i = 0; i < head.rows(); ++i) {
     const auto& a = layout.addresses[static_cast<std::size_t>(i)];
-    at[{static_cast<double>(a.sheet), a.side, a.a, a.b}] = i;
+    at[{static_cast<double>(a.patch), a.side, a.a, a.b}] = i;
   }
   double largest = 0;
   for (const auto& [key, i] : at) {
-    const bool strip = key[0] <= static_cast<double>(synth::Sheet::kCap);
+    const bool strip = key[0] <= static_cast<double>(synth::SkinPatch::kCap);
     const auto other =
         at.find({key[0], strip ? key[1] : -key[1], strip ? -key[2] : key[2], key[3]});
     if (other == at.end()) continue;

@@ -68,7 +68,7 @@ TEST(SyntheticSkins, PupilsAreRound) {
         const bool dark = std::max({albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2]}) < 16;
         // A dark iris below the lid's shadow is as dark, but farther out.
         const bool inner = atlas[i].point_on_ball.head<2>().norm() < 0.25;
-        if (!dark || !inner || atlas[i].ball < 0.5 || (x > kSize / 2) != (side > 0)) continue;
+        if (!dark || !inner || atlas[i].on_eyeball < 0.5 || (x > kSize / 2) != (side > 0)) continue;
         left = std::min(left, x);
         right = std::max(right, x);
         top = std::min(top, y);
@@ -87,7 +87,7 @@ TEST(SyntheticSkins, EveryToneOccursAndShows) {
   std::array<bool, 5> seen{};
   double lightest = 0, darkest = 255;
   for (std::uint64_t i = 0; i < 10; ++i) {
-    const double tone = synth::random_complexion(1, i).tone;
+    const double tone = synth::random_complexion(1, i).skin_tone;
     seen[static_cast<std::size_t>(5 * tone)] = true;
     const double light = colour_near(skins().albedo(1, i), kForehead, 1.5).mean();
     lightest = std::max(lightest, light);
@@ -126,7 +126,8 @@ TEST(SyntheticSkins, LipsAreRedderThanTheForeheadAndCheeksAreNotGrey) {
 std::uint64_t head_of(bool male, double from, double to) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     const synth::Person person = synth::random_person(1, i);
-    if ((person.male > 0) == male && person.age >= from && person.age < to) return i;
+    if ((person.maleness > 0) == male && person.age_years >= from && person.age_years < to)
+      return i;
   }
   ADD_FAILURE() << "no such head";
   return 0;
@@ -139,13 +140,13 @@ TEST(SyntheticSkins, MenHaveBeardsAndWomenHaveNone) {
   };
   std::optional<std::uint64_t> bearded;
   for (std::uint64_t i = 0; i < 100 && !bearded; ++i) {
-    if (synth::random_complexion(1, i).beard == 1 && synth::random_complexion(1, i).tone < 0.5)
+    if (synth::random_complexion(1, i).beard == 1 && synth::random_complexion(1, i).skin_tone < 0.5)
       bearded = i;
   }
   ASSERT_TRUE(bearded);
   EXPECT_LT(chin_against_forehead(*bearded), 0.8);
   for (std::uint64_t i = 0; i < 40; ++i) {
-    if (synth::random_person(1, i).male > 0) continue;
+    if (synth::random_person(1, i).maleness > 0) continue;
     EXPECT_EQ(synth::random_complexion(1, i).beard, 0) << i;
   }
   EXPECT_GT(chin_against_forehead(head_of(false, 18, 40)), 0.85);
@@ -156,11 +157,12 @@ TEST(SyntheticSkins, HairGoesGreyAndRecedesWithTheYears) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     const synth::Person person = synth::random_person(1, i);
     const synth::Complexion look = synth::random_complexion(1, i);
-    if (person.age < 35) young = std::max(young, look.hair.minCoeff());
-    if (person.age > 72) old = std::max(old, look.hair.minCoeff());
-    if (person.male > 0 && person.age < 30)
-      receding_young = std::max(receding_young, look.receding);
-    if (person.male > 0 && person.age > 70) receding_old = std::max(receding_old, look.receding);
+    if (person.age_years < 35) young = std::max(young, look.hair.minCoeff());
+    if (person.age_years > 72) old = std::max(old, look.hair.minCoeff());
+    if (person.maleness > 0 && person.age_years < 30)
+      receding_young = std::max(receding_young, look.recession);
+    if (person.maleness > 0 && person.age_years > 70)
+      receding_old = std::max(receding_old, look.recession);
   }
   EXPECT_GT(old, young + 0.1) << "blue of the hair";
   EXPECT_GT(receding_old, receding_young + 0.3);
@@ -171,8 +173,8 @@ TEST(SyntheticSkins, HairlinesOfSuccessiveMenDiffer) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     int men = 0, with_hair = 0, receding = 0;
     for (std::uint64_t i = 0; i < 24; ++i) {
-      if (synth::random_person(seed, i).male <= 0) continue;
-      const double bare = synth::random_complexion(seed, i).receding;
+      if (synth::random_person(seed, i).maleness <= 0) continue;
+      const double bare = synth::random_complexion(seed, i).recession;
       ++men;
       if (bare < 0.2) ++with_hair;
       if (bare > 0.8) ++receding;
@@ -199,7 +201,8 @@ TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
     Colour in_iris = Colour::Zero(), white = Colour::Zero();
     double irises = 0, whites = 0;
     for (std::size_t t = 0; t < atlas.size(); ++t) {
-      if (atlas[t].ball < 0.5 || !atlas[t].is_covered || atlas[t].point_on_ball.z() < 0) continue;
+      if (atlas[t].on_eyeball < 0.5 || !atlas[t].is_covered || atlas[t].point_on_ball.z() < 0)
+        continue;
       const double flat = atlas[t].point_on_ball.head<2>().norm();
       const Colour colour(albedo[3 * t], albedo[3 * t + 1], albedo[3 * t + 2]);
       if (flat > 0.2 && flat < 0.31) in_iris += colour, ++irises;
@@ -218,7 +221,7 @@ TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
 TEST(SyntheticSkins, MenAreShavenStubblyOrBearded) {
   double men = 0, shaven = 0, stubbly = 0, moustaches = 0, bearded = 0;
   for (std::uint64_t i = 0; i < 1000; ++i) {
-    if (synth::random_person(1, i).male < 0) continue;
+    if (synth::random_person(1, i).maleness < 0) continue;
     const synth::Complexion look = synth::random_complexion(1, i);
     ++men;
     shaven += look.moustache < 0.2 ? 1 : 0;
@@ -236,8 +239,8 @@ TEST(SyntheticSkins, EachSexHasEveryTone) {
   for (const bool male : {false, true}) {
     std::array<int, 5> seen{};
     for (std::uint64_t i = 10; i < 20; ++i) {
-      if ((synth::random_person(4, i).male > 0) != male) continue;
-      ++seen[static_cast<std::size_t>(5 * synth::random_complexion(4, i).tone)];
+      if ((synth::random_person(4, i).maleness > 0) != male) continue;
+      ++seen[static_cast<std::size_t>(5 * synth::random_complexion(4, i).skin_tone)];
     }
     EXPECT_EQ(seen, (std::array<int, 5>{1, 1, 1, 1, 1})) << male;
   }
@@ -291,7 +294,7 @@ TEST(SyntheticSkins, NormalsHoldWhatTheMeshIsTooCoarseFor) {
     for (std::size_t i = 0; i < atlas.size(); ++i) {
       EXPECT_GE(normals[3 * i + 2], 128) << "outward";
       if (!atlas[i].is_covered) continue;
-      if (atlas[i].ball > 0.5) {
+      if (atlas[i].on_eyeball > 0.5) {
         EXPECT_EQ(normals[3 * i], 128) << "eyes are smooth";
         continue;
       }

@@ -25,7 +25,7 @@ void for_each_texel(const SurfaceTexels& texels, const Visit& visit) {
         const auto share = [&](const std::array<float, 3>& of) {
           return of[0] + static_cast<float>(x) * of[1] + static_cast<float>(y) * of[2];
         };
-        const float b = share(triangle.second), c = share(triangle.third);
+        const float b = share(triangle.second_coefficients), c = share(triangle.third_coefficients);
         std::array<Index, 3> vertices{};
         for (std::size_t i = 0; i < 3; ++i) vertices[i] = texels.vertices()[triangle.corners[i]];
         visit(static_cast<std::size_t>(y * texels.width() + x), vertices,
@@ -74,7 +74,7 @@ TEST(SurfaceStatistics, AreMeansSmoothedByIteration) {
     const TextureMap& map = *sheet.textures.maps[0][head];
     Eigen::RowVector3d row;
     for (std::size_t c = 0; c < 3; ++c) {
-      row[static_cast<Index>(c)] = map.decode(map.stored()[c * map.texels() + texel]);
+      row[static_cast<Index>(c)] = map.decode(map.stored()[c * map.texel_count() + texel]);
     }
     return row;
   };

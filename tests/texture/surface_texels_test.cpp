@@ -13,7 +13,7 @@ using testing::TwoCharts;
 TEST(SurfaceTexels, CoverEachChartOnceWithSharesThatSumToThePlace) {
   const TwoCharts sheet(256);
   const SurfaceTexels texels = sheet.texels();
-  EXPECT_NEAR(static_cast<double>(texels.covered_count()), 0.8 * 0.8 * 256 * 256, 1500);
+  EXPECT_NEAR(static_cast<double>(texels.covered_texel_count()), 0.8 * 0.8 * 256 * 256, 1500);
   std::size_t covered = 0;
   double farthest = 0;
   for (int y = 0; y < texels.height(); ++y) {
@@ -24,10 +24,12 @@ TEST(SurfaceTexels, CoverEachChartOnceWithSharesThatSumToThePlace) {
       covered += static_cast<std::size_t>(span.end - span.begin);
       const SurfaceTexels::Triangle& triangle = texels.triangle(span.triangle);
       for (int x = span.begin; x < span.end; ++x) {
-        const double b = double{triangle.second[0]} + x * double{triangle.second[1]} +
-                         y * double{triangle.second[2]};
-        const double c = double{triangle.third[0]} + x * double{triangle.third[1]} +
-                         y * double{triangle.third[2]};
+        const double b = double{triangle.second_coefficients[0]} +
+                         x * double{triangle.second_coefficients[1]} +
+                         y * double{triangle.second_coefficients[2]};
+        const double c = double{triangle.third_coefficients[0]} +
+                         x * double{triangle.third_coefficients[1]} +
+                         y * double{triangle.third_coefficients[2]};
         const auto place = [&](std::size_t corner) -> Eigen::RowVector2d {
           const std::uint32_t v = texels.vertices()[triangle.corners[corner]];
           return Eigen::RowVector2d(v % (TwoCharts::kSide + 1), v / (TwoCharts::kSide + 1)) /
@@ -39,7 +41,7 @@ TEST(SurfaceTexels, CoverEachChartOnceWithSharesThatSumToThePlace) {
       }
     }
   }
-  EXPECT_EQ(covered, texels.covered_count());
+  EXPECT_EQ(covered, texels.covered_texel_count());
   EXPECT_LT(farthest, 1e-3) << "a fifth of a texel";
 }
 
@@ -54,7 +56,7 @@ TEST(SurfaceTexels, TheGutterTakesCoveredTexelsAndIsNoneItself) {
     }
   }
   ASSERT_FALSE(texels.gutter().empty());
-  for (const SurfaceTexels::Gutter& texel : texels.gutter()) {
+  for (const SurfaceTexels::GutterTexel& texel : texels.gutter()) {
     EXPECT_FALSE(covered[texel.target]);
     EXPECT_TRUE(covered[texel.source]);
   }

@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 /// Columns of light that are the number of the column, scaled, whatever the row.
-LightRows ramp(int width, int height) {
+ImageRows ramp(int width, int height) {
   return {width, height, [width](int, std::span<Eigen::Array3f> texels) {
             for (int x = 0; x < width; ++x) {
               texels[static_cast<std::size_t>(x)] = Eigen::Array3f::Constant(
@@ -42,7 +42,7 @@ TEST(TextureMap, OfAnotherSizeKeepsARamp) {
 }
 
 TEST(TextureMap, OfHalfTheSizeHasTheMeanLight) {
-  const LightRows checkers{
+  const ImageRows checkers{
       64, 64, [](int y, std::span<Eigen::Array3f> texels) {
         for (std::size_t x = 0; x < texels.size(); ++x) {
           texels[x] = Eigen::Array3f::Constant((static_cast<int>(x) + y) % 2 == 0 ? 0.0F : 1.0F);

@@ -32,8 +32,9 @@ class TwoCharts {
       alpha.alpha(v, v % (kSide + 1) <= kSide / 4 ? 0 : regions - 1) = 1;
     }
     textures.layout.pictures = {{size, size}};
-    textures.layout.of_face.assign(static_cast<std::size_t>(faces.topology.face_count()), 0);
-    textures.layout.tile.assign(textures.layout.of_face.size(), {0, 0});
+    textures.layout.picture_of_face.assign(static_cast<std::size_t>(faces.topology.face_count()),
+                                           0);
+    textures.layout.tile_of_face.assign(textures.layout.picture_of_face.size(), {0, 0});
     textures.maps.resize(1);
   }
 
@@ -41,7 +42,7 @@ class TwoCharts {
   /// A head whose colours, or other numbers, are a function of the place on the sheet, in [0, 1]², and of the
   /// texel.
   void add_head(const Paint& paint, const MapCoding& coding = {}) {
-    const LightRows rows{size_, size_, [&](int row, std::span<Eigen::Array3f> texels) {
+    const ImageRows rows{size_, size_, [&](int row, std::span<Eigen::Array3f> texels) {
                            for (int column = 0; column < size_; ++column) {
                              const auto [x, y] =
                                  from_uv((column + 0.5) / size_, 1 - (row + 0.5) / size_);
@@ -54,8 +55,8 @@ class TwoCharts {
   void add_bare_head() { textures.maps[0].push_back(nullptr); }
 
   TextureBlender blender() const {
-    TextureBlending options;
-    options.areas.assign(static_cast<std::size_t>(faces.topology.vertex_count), 1.0);
+    TextureBlendOptions options;
+    options.vertex_areas.assign(static_cast<std::size_t>(faces.topology.vertex_count), 1.0);
     options.is_target_only = of_target;
     const ChebyshevFilter filter(SmoothingOperator(adjacency, Boundary::kFree, OperatorKind::kLazy),
                                  Positions::Zero(faces.topology.vertex_count, 3));

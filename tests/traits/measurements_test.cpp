@@ -96,7 +96,7 @@ TEST(Measurements, AreAllInTheDocumentation) {
   }
   for (const TraitLandmark& of : trait_landmarks()) {
     EXPECT_NE(page.find("`" + of.name + "`"), std::string::npos) << of.name;
-    EXPECT_NE(page.find(" | " + std::string(of.where) + " |"), std::string::npos) << of.name;
+    EXPECT_NE(page.find(" | " + std::string(of.location) + " |"), std::string::npos) << of.name;
   }
 }
 

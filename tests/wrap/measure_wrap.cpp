@@ -156,13 +156,13 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
       const auto at = std::ranges::find(landmarks, landmark.name, &WrapLandmark::name);
       const Eigen::Vector3d there = row3(truth.pose.apply(head.positions), at->vertex);
       m.notes += concat("  ", landmark.name, ": detected ",
-                        format_fixed((there - at->place).norm() / truth.pose.scale, 1),
+                        format_fixed((there - at->scan_position).norm() / truth.pose.scale, 1),
                         " mm from its place, ends ", format_fixed(landmark.final_distance_mm, 1),
                         " mm from where it was detected\n");
     }
     m.notes += "  agreement:";
-    for (const FeatureAgreement& feature : result.features) {
-      m.notes += concat(" ", feature.name, " ", format_fixed(feature.agreement, 2));
+    for (const FeatureCheck& feature : result.features) {
+      m.notes += concat(" ", feature.name, " ", format_fixed(feature.relief_correlation, 2));
     }
     m.notes += concat(", dropped ", result.dropped_landmarks.size(), "\n");
     const SkinRegions named = face_regions(shape);

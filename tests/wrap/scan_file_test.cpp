@@ -190,7 +190,7 @@ TEST(ScanFile, WhatTouchesASurfaceThatHangsTogetherIsNoneOfIt) {
   scan.positions = more;
   scan.triangles.push_back({first, first + 1, first + 2});
   const Scan before = scan;
-  weld(scan);
+  weld_vertices(scan);
   EXPECT_EQ(scan.triangles, before.triangles);
 }
 

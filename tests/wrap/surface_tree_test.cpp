@@ -134,8 +134,8 @@ TEST(ScanSurface, APlaceOnARimIsToldFromOthersWhateverIsRounded) {
   for (int i = 20; i < 380; ++i) {
     const double angle = 2.8 * i / 400;
     const Eigen::Vector3d direction(std::cos(angle), std::sin(angle), 0);
-    EXPECT_TRUE(surface.nearest(1.7 * direction, 1e300).on_rim) << angle;
-    EXPECT_FALSE(surface.nearest(0.7 * direction, 1e300).on_rim) << angle;
+    EXPECT_TRUE(surface.nearest(1.7 * direction, 1e300).is_on_boundary) << angle;
+    EXPECT_FALSE(surface.nearest(0.7 * direction, 1e300).is_on_boundary) << angle;
   }
 }
 

@@ -30,7 +30,7 @@ std::vector<Triangle> visible_triangles(const WrapTemplate& head) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(head.positions.rows()));
   std::iota(all.begin(), all.end(), 0U);
   const std::vector<double> open =
-      vertex_visibility(head.positions, vertex_normals(head.topology, head.positions), solid, all);
+      vertex_openness(head.positions, vertex_normals(head.topology, head.positions), solid, all);
   std::erase_if(solid, [&](const Triangle& t) {
     return open[t[0]] < kOpenness || open[t[1]] < kOpenness || open[t[2]] < kOpenness;
   });
@@ -248,7 +248,7 @@ TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandma
     const Positions place = head.positions.row(landmarks[i].vertex);
     const Eigen::Vector3d error =
         options.landmark_error_mm * normal3({options.seed, i, "truth/landmark"});
-    truth.landmarks.back().place =
+    truth.landmarks.back().scan_position =
         truth.pose.apply(Positions(place + error.transpose())).row(0).transpose();
   }
   return truth;

@@ -77,7 +77,7 @@ TEST_P(WrapAtTwoSizes, FindsAHeadItHasNeverSeen) {
   const std::vector<double> errors = errors_of(head, truth, result);
   EXPECT_LT(percentile(errors, 0.5), 1.8);
   EXPECT_LT(percentile(errors, 0.95), 6);
-  EXPECT_LT(measure_distances(shape, result).percentile_95, 0.5);
+  EXPECT_LT(measure_distances(shape, result).percentile_95_mm, 0.5);
   EXPECT_EQ(result.folded_triangle_count, 0);
   EXPECT_NEAR(result.pose.scale / truth.pose.scale, 1, 0.1);
   EXPECT_TRUE(result.positions.allFinite());
@@ -124,7 +124,7 @@ TEST(Wrap, ATemplateThatIsTheScanStaysWhereItIs) {
   const Scan scan{shape.skin.rows_of(shape.positions), shape.skin.triangles};
   std::vector<WrapLandmark> landmarks = spread_landmarks(shape, 8);
   for (WrapLandmark& landmark : landmarks) {
-    landmark.place = shape.positions.row(landmark.vertex).transpose();
+    landmark.scan_position = shape.positions.row(landmark.vertex).transpose();
   }
   const WrapResult result = wrap(shape, nullptr, scan, landmarks, std::nullopt);
   const Eigen::VectorXd moved = (result.positions - shape.positions).rowwise().norm();
@@ -142,7 +142,7 @@ TEST(Wrap, DoesNotHangOnWhereTheScanStands) {
     Scan scan = truth.scan;
     scan.positions.col(0).array() += by;
     std::vector<WrapLandmark> landmarks = truth.landmarks;
-    for (WrapLandmark& landmark : landmarks) landmark.place.x() += by;
+    for (WrapLandmark& landmark : landmarks) landmark.scan_position.x() += by;
     const WrapResult moved = wrap(shape, nullptr, scan, landmarks, std::nullopt);
     EXPECT_LT((moved.positions - there.positions).rowwise().norm().maxCoeff(), 0.05) << by;
     EXPECT_NEAR(moved.pose.translation.x() - there.pose.translation.x(), by, 1e-4);
@@ -171,13 +171,13 @@ TEST(Wrap, AModelFindsAHeadBetterThanItsMean) {
 TEST(Wrap, ALargeSkinIsBentByWayOfAReducedOne) {
   const WrapTemplate whole = synthetic(16000, 1), head = synthetic(16000, 2);
   const WrapTemplate shape = synthetic(16000, 1, {.max_vertices = 8000, .reduced_vertices = 4000});
-  ASSERT_TRUE(shape.reduced);
-  EXPECT_NEAR(static_cast<double>(shape.reduced->mesh.vertices.size()), 4000, 400);
+  ASSERT_TRUE(shape.reduced_skin);
+  EXPECT_NEAR(static_cast<double>(shape.reduced_skin->mesh.vertices.size()), 4000, 400);
   const TruthScan truth =
       make_truth_scan(head, spread_landmarks(head, 16), {.triangles = 40000, .seed = 3});
   const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
   EXPECT_LT(percentile(errors_of(head, truth, result), 0.5), 1.9);
-  EXPECT_LT(measure_distances(shape, result).percentile_95, 0.5);
+  EXPECT_LT(measure_distances(shape, result).percentile_95_mm, 0.5);
   EXPECT_EQ(result.folded_triangle_count, 0);
 }
 
@@ -204,7 +204,7 @@ TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
   }
   std::vector<WrapLandmark> landmarks = spread_landmarks(head, 16);
   for (WrapLandmark& landmark : landmarks) {
-    landmark.place = head.positions.row(landmark.vertex).transpose();
+    landmark.scan_position = head.positions.row(landmark.vertex).transpose();
   }
   const WrapResult result = wrap(shape, nullptr, scan, landmarks, std::nullopt);
   double missed = 0, count = 0;
@@ -237,7 +237,7 @@ TEST(Wrap, WithoutLandmarksTheWayItLooksIsEnough) {
   truth.scan.positions = truth.pose.apply(truth.scan.positions);
   const WrapResult result = wrap(shape, nullptr, truth.scan, {},
                                  PoseHint{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY()});
-  EXPECT_LT(measure_distances(shape, result).percentile_95, 0.8);
+  EXPECT_LT(measure_distances(shape, result).percentile_95_mm, 0.8);
   EXPECT_LT(percentile(errors_of(head, truth, result), 0.5), 4);
   expect_error(ExitCode::kBadData, {"at least 4", "--scan-up"},
                [&] { wrap(shape, nullptr, truth.scan, {}, std::nullopt); });
@@ -247,7 +247,7 @@ TEST(Wrap, AMisplacedLandmarkIsNamed) {
   const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);
   TruthScan truth = make_truth_scan(head, spread_landmarks(head, 16),
                                     {.triangles = 30000, .landmark_error_mm = 0.5, .seed = 7});
-  truth.landmarks[5].place += truth.pose.scale * Eigen::Vector3d(14, 14, 14);
+  truth.landmarks[5].scan_position += truth.pose.scale * Eigen::Vector3d(14, 14, 14);
   const WrapResult result = wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
   for (std::size_t i = 0; i < result.landmarks.size(); ++i) {
     EXPECT_EQ(result.landmarks[i].is_outlier, i == 5)
@@ -270,7 +270,7 @@ TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
   const WrapResult result = wrap(shape, nullptr, truth.scan, others, std::nullopt);
   const WrapLandmark& left_out = truth.landmarks[5];
   Positions place(1, 3);
-  place << left_out.place.transpose();
+  place << left_out.scan_position.transpose();
   const Positions picked = inverse(result.pose).apply(place);
   EXPECT_NEAR(unseen.at(left_out.name),
               (result.positions.row(left_out.vertex) - picked.row(0)).norm(), 1e-9);
@@ -285,7 +285,7 @@ TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {
   const Scan scan{shape.skin.rows_of(shape.positions), shape.skin.triangles};
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const auto& other = landmarks[(i + 5) % landmarks.size()];
-    landmarks[i].place = shape.positions.row(other.vertex).transpose();
+    landmarks[i].scan_position = shape.positions.row(other.vertex).transpose();
   }
   expect_error(ExitCode::kBadData, {"do not match", "swapped"}, [&] {
     refuse_bad_wrap(shape, wrap(shape, nullptr, scan, landmarks, std::nullopt), {});
@@ -312,7 +312,7 @@ TEST(Unfold, TurnsFoldedTrianglesBackAndTouchesNothingElse) {
   folded.row(v) += 2.5 * (rest.row(shape.skin.adjacency.items_of(v)[0]) - rest.row(v));
   ASSERT_FALSE(folded_triangles(shape.skin, rest, folded).empty());
   Positions mended = folded;
-  EXPECT_EQ(unfold(shape.skin, rest, mended), 0);
+  EXPECT_EQ(repair_folded_triangles(shape.skin, rest, mended), 0);
   EXPECT_TRUE(folded_triangles(shape.skin, rest, mended).empty());
   Index changed = 0;
   for (Index i = 0; i < rest.rows(); ++i) changed += mended.row(i) == folded.row(i) ? 0 : 1;

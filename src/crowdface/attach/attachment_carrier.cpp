@@ -20,7 +20,7 @@ std::size_t AttachmentCarrier::memory_bytes() const {
 Positions AttachmentCarrier::carry(const Positions& face, const Positions& normals) const {
   if (rigid_placement_) return rigid_placement_->place(face, normals);
   Positions points = bend_->bend(face);
-  gaps_->restore(face, normals, points);
+  gaps_->restore_gaps(face, normals, points);
   return points;
 }
 

@@ -16,18 +16,18 @@ struct BendNodes {
   /// of the attachment has a node within this distance.
   static constexpr double kNodeSpacing = 0.3;
   /// Radius within which a node influences points, in multiples of kNodeSpacing.
-  static constexpr double kInfluence = 2;
+  static constexpr double kInfluenceRadius = 2;
 
   /// The weight of one node's motion in the motion of one point.
-  struct Share {
+  struct NodeWeight {
     std::uint32_t node;
     float weight;  ///< weights of a point do not sum to one
   };
   std::vector<FittedSkin::Patch> patches;
-  CompressedRows<Share> shares;  ///< #points
+  CompressedRows<NodeWeight> node_weights;  ///< #points
 
   std::size_t memory_bytes() const {
-    std::size_t bytes = shares.items.size() * sizeof(Share);
+    std::size_t bytes = node_weights.items.size() * sizeof(NodeWeight);
     for (const FittedSkin::Patch& patch : patches) {
       bytes += sizeof(patch) + patch.vertices.size() * (sizeof(std::uint32_t) + sizeof(double));
     }

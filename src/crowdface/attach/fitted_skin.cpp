@@ -25,8 +25,9 @@ constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
 /// kMinReach.
 constexpr std::size_t kMinVertices = 12;
 constexpr double kMinReach = 1.4;
-/// A patch with a reach of up to kSpacings vertex spacings of a level uses only this level. With a
-/// reach from there to twice as much, the patch is a mix of this level and the next coarser level.
+/// If the reach of a patch is at most kSpacings vertex spacings of a level, the patch uses only
+/// this level. Between kSpacings and 2 · kSpacings, the patch mixes this level with the next
+/// coarser level.
 constexpr double kSpacings = 3;
 constexpr std::size_t kCoarsest = 150;
 
@@ -39,11 +40,11 @@ struct InCell {
 }  // namespace
 
 FittedSkin::FittedSkin(const Topology& topology, Positions mesh, std::vector<std::uint32_t> skin,
-                       double mm)
+                       double units_per_mm)
     : topology_(topology),
       mesh_(std::move(mesh)),
       skin_(std::move(skin)),
-      mm_(mm),
+      units_per_mm_(units_per_mm),
       vertex_faces_(topology),
       fans_(topology),
       areas_(static_cast<std::size_t>(topology.vertex_count), 0.0) {
@@ -156,7 +157,7 @@ void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, d
 }
 
 FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point) const {
-  return patch_around(point, std::max(kReachMm * mm_, kReachSpacings * spacing()));
+  return patch_around(point, std::max(kReachMm * units_per_mm_, kReachSpacings * spacing()));
 }
 
 FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double min_reach) const {
@@ -184,8 +185,10 @@ NearestSkinPoint FittedSkin::nearest_skin(const Positions& face, const Positions
   const SurfacePoint place = nearest_point_from(
       topology_, vertex_faces_, face,
       walk_to_nearest_vertex(topology_, vertex_faces_, face, start, point), point);
-  const Eigen::Vector3d outward = point_on(normals, place.corners, place.shares).normalized();
-  return {place.corners[0], (point - place.position).dot(outward), outward, place.position};
+  const Eigen::Vector3d outward_normal =
+      point_on(normals, place.corners, place.shares).normalized();
+  return {place.corners[0], (point - place.position).dot(outward_normal), outward_normal,
+          place.position};
 }
 
 }  // namespace crowdface

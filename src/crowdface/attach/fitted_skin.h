@@ -18,7 +18,8 @@ struct NearestSkinPoint {
   std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
   /// signed distance of the given point from the skin; negative if the point is inside
   double height = 0;
-  Eigen::Vector3d outward = Eigen::Vector3d::Zero();   ///< unit normal, continuous over the skin
+  /// unit normal, continuous over the skin
+  Eigen::Vector3d outward_normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest point on the skin
 };
 
@@ -29,10 +30,11 @@ class FittedSkin {
   /// \param topology  Must outlive this object.
   /// \param mesh      #V by 3.
   /// \param skin      Vertices of the skin, ascending; at least three that are not collinear.
-  /// \param mm        Length of one millimetre in the mesh's unit.
+  /// \param units_per_mm  Length of one millimetre in the mesh's unit.
   ///
   /// \throws BrokenPrecondition if sizes do not fit or the skin has no area.
-  FittedSkin(const Topology& topology, Positions mesh, std::vector<std::uint32_t> skin, double mm);
+  FittedSkin(const Topology& topology, Positions mesh, std::vector<std::uint32_t> skin,
+             double units_per_mm);
   FittedSkin(const FittedSkin&) = delete;
   FittedSkin& operator=(const FittedSkin&) = delete;
 
@@ -40,7 +42,7 @@ class FittedSkin {
   std::span<const std::uint32_t> vertices() const { return skin_; }
   const PointGrid& grid() const { return levels_.front().grid; }
   const std::vector<double>& areas() const { return areas_; }
-  double mm() const { return mm_; }
+  double units_per_mm() const { return units_per_mm_; }
   /// Mean spacing of the skin's vertices: the square root of the skin's area divided by the number
   /// of vertices.
   double spacing() const { return levels_.front().spacing; }
@@ -87,7 +89,7 @@ class FittedSkin {
   const Topology& topology_;
   Positions mesh_;
   std::vector<std::uint32_t> skin_;
-  double mm_;
+  double units_per_mm_;
   VertexFaces vertex_faces_;
   NormalFans fans_;
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1

@@ -29,13 +29,14 @@ RigidPlacement::RigidPlacement(const FittedSkin& skin, const Positions& points,
   std::vector<std::uint32_t> all(static_cast<std::size_t>(points.rows()));
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
-  middle_ = centre_of(points, all);
-  radius_ = std::max(radius_about(middle_, points, all), skin.mm());
+  centre_ = centre_of(points, all);
+  radius_ = std::max(radius_about(centre_, points, all), skin.units_per_mm());
   const PointGrid grid(points, all);
   const std::size_t fewest = std::min(kMinOfSocket, skin.vertices().size());
-  for (double reach = kSeatReachMm * skin.mm(); socket_.vertices.size() < fewest; reach *= 2) {
+  for (double reach = kSeatReachMm * skin.units_per_mm(); socket_.vertices.size() < fewest;
+       reach *= 2) {
     socket_ = find_socket(skin.mesh(), grid, skin.vertices(), skin.areas(), reach);
-    if (reach > 1e6 * skin.mm()) break;
+    if (reach > 1e6 * skin.units_per_mm()) break;
   }
 }
 
@@ -49,17 +50,17 @@ Positions RigidPlacement::moved_points(const RigidMotion& motion) const {
 
 /// Returns `motion` followed by one least-squares step that moves the attachment out of the skin.
 RigidMotion RigidPlacement::step_out_of_skin(
-    const RigidMotion& motion, const std::vector<SkinGaps::Violation>& missing) const {
+    const RigidMotion& motion, const std::vector<SkinGaps::Violation>& violations) const {
   // translation, rotation and growth; rotation and growth are scaled by the radius
   constexpr std::size_t kUnknowns = 7;
   QuadraticProgram program(kUnknowns);
-  const Eigen::Vector3d pivot = motion.apply(middle_);
+  const Eigen::Vector3d pivot = motion.apply(centre_);
   const double radius = motion.scale * radius_;
-  const double weight = 1 / static_cast<double>(missing.size());
-  for (const SkinGaps::Violation& one : missing) {
+  const double weight = 1 / static_cast<double>(violations.size());
+  for (const SkinGaps::Violation& one : violations) {
     const Eigen::Vector3d arm = (motion.apply(row3(points_, one.vertex)) - pivot) / radius;
-    const Eigen::Vector3d turned = arm.cross(one.outward);
-    const Eigen::Vector3d& n = one.outward;
+    const Eigen::Vector3d turned = arm.cross(one.outward_normal);
+    const Eigen::Vector3d& n = one.outward_normal;
     program.add_target({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), arm.dot(n)},
                        one.height, weight);
   }
@@ -73,9 +74,9 @@ Positions RigidPlacement::place(const Positions& face, const Positions& normals)
   if (socket_.vertices.size() < 3) return moved_points({});
   RigidMotion motion = fit_rigid_motion(skin_.mesh(), face, socket_.vertices, socket_.weights);
   for (int round = 0; round < kSeatRounds; ++round) {
-    const auto missing = gaps_.violations(face, normals, moved_points(motion));
-    if (missing.empty()) break;
-    motion = step_out_of_skin(motion, missing);
+    const auto violations = gaps_.violations(face, normals, moved_points(motion));
+    if (violations.empty()) break;
+    motion = step_out_of_skin(motion, violations);
   }
   return moved_points(motion);
 }

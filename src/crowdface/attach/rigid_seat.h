@@ -27,15 +27,15 @@ class RigidPlacement {
 
  private:
   RigidMotion step_out_of_skin(const RigidMotion& motion,
-                               const std::vector<SkinGaps::Violation>& missing) const;
+                               const std::vector<SkinGaps::Violation>& violations) const;
   Positions moved_points(const RigidMotion& motion) const;
 
   const FittedSkin& skin_;
   const Positions& points_;
   const SkinGaps& gaps_;
   Socket socket_;
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
-  double radius_ = 1;  ///< root mean square distance of the points from `middle_`
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  double radius_ = 1;  ///< root mean square distance of the points from `centre_`
 };
 
 }  // namespace crowdface

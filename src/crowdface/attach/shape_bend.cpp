@@ -18,7 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// Reach of a patch around a root, if the skin's vertices are dense enough.
+/// Usual reach of a patch of skin around an attachment's root. Where the skin has few vertices, the
+/// patch is larger.
 constexpr double kPatchReachMm = 3;
 /// A point that is farther than this from the skin, in millimetres, uses a larger patch.
 constexpr double kOffMm = 10;
@@ -73,7 +74,7 @@ class Roots {
   };
 
   bool is_ambiguous(const QueueEntry& at, EdgeDistances& along) const {
-    const double reach = at.distance + kAmbiguousMm * skin_.mm();
+    const double reach = at.distance + kAmbiguousMm * skin_.units_per_mm();
     along.search(std::array{at.vertex}, kFarther * reach);
     const Eigen::Vector3d point = row3(points_, at.point);
     return std::ranges::any_of(skin_.grid().vertices_near(point, reach), [&](std::uint32_t v) {
@@ -108,7 +109,7 @@ class Roots {
 };
 
 /// Returns, for each point, the position around which the patch is selected: the point moved
-/// towards its root by `off`, or the root itself if it is nearer than `off`.
+/// towards its root by the distance `off`, or the root itself if the root is nearer than `off`.
 Positions anchors_of(const std::vector<NearestSkinPoint>& roots, const Positions& points,
                      double off) {
   Positions anchors(points.rows(), 3);
@@ -129,30 +130,30 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
   const std::vector<NearestSkinPoint> roots = Roots(skin, adjacency, topology, points).of_point();
-  const Positions anchors = anchors_of(roots, points, kOffMm * skin.mm());
+  const Positions anchors = anchors_of(roots, points, kOffMm * skin.units_per_mm());
   const PointGrid grid(anchors, all);
   EdgeDistances along(adjacency, skin.mesh());
-  std::vector<std::vector<BendNodes::Share>> of_point(all.size());
+  std::vector<std::vector<BendNodes::NodeWeight>> of_point(all.size());
   std::vector<bool> covered(all.size(), false);
   for (std::uint32_t p = 0; p < all.size(); ++p) {
     if (covered[p]) continue;
     const Eigen::Vector3d middle = row3(anchors, p);
     const auto number = static_cast<std::uint32_t>(nodes_.patches.size());
-    nodes_.patches.push_back(skin.patch_around(middle, kPatchReachMm * skin.mm()));
+    nodes_.patches.push_back(skin.patch_around(middle, kPatchReachMm * skin.units_per_mm()));
     FittedSkin::Patch& patch = nodes_.patches.back();
     const double near = kAlong * patch.reach;
     along.search(std::array{roots[p].vertex}, near);
-    const double radius = BendNodes::kInfluence * BendNodes::kNodeSpacing * patch.reach;
+    const double radius = BendNodes::kInfluenceRadius * BendNodes::kNodeSpacing * patch.reach;
     for (const std::uint32_t q : grid.vertices_near(middle, radius)) {
       const double distance = (row3(anchors, q) - middle).norm() / radius;
       if (distance >= 1 || along.distance(roots[q].vertex) > near) continue;
       of_point[q].push_back({number, static_cast<float>(biweight(distance))});
-      if (distance * BendNodes::kInfluence < 1) covered[q] = true;
+      if (distance * BendNodes::kInfluenceRadius < 1) covered[q] = true;
     }
     covered[p] = true;
     remove_distant(along, near, patch);
   }
-  for (const auto& shares : of_point) nodes_.shares.add_group(shares);
+  for (const auto& shares : of_point) nodes_.node_weights.add_group(shares);
 }
 
 /// Removes vertices whose distance along the surface exceeds `limit`, unless too few vertices would
@@ -182,12 +183,12 @@ Displacements ShapeBend::shape_displacements(const Positions& face, const Positi
   }
   Displacements moves;
   moves.moves.resize(placed.rows(), 3);
-  for (std::uint32_t p = 0; p < nodes_.shares.group_count(); ++p) {
+  for (std::uint32_t p = 0; p < nodes_.node_weights.group_count(); ++p) {
     const Eigen::Vector3d point = row3(placed, p);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
     bool any = false;
-    for (const BendNodes::Share& share : nodes_.shares.items_of(p)) {
+    for (const BendNodes::NodeWeight& share : nodes_.node_weights.items_of(p)) {
       const double weight = static_cast<double>(share.weight);
       weights += weight;
       if (!affects[share.node]) continue;

@@ -35,7 +35,7 @@ SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Posit
     const Eigen::Vector3d point = row3(points, static_cast<Index>(p));
     const PointGrid::NearestVertex nearest = skin.grid().nearest(point);
     start_vertices_[p] = nearest.vertex;
-    if (nearest.distance > kFarMm * skin.mm() + 2 * skin.spacing()) return;
+    if (nearest.distance > kFarMm * skin.units_per_mm() + 2 * skin.spacing()) return;
     heights_[p] = skin.nearest_skin(skin.mesh(), normals, nearest.vertex, point).height;
   });
 }
@@ -46,7 +46,7 @@ std::size_t SkinGaps::memory_bytes() const {
 }
 
 double SkinGaps::min_height(std::uint32_t point) const {
-  return std::min(heights_[point], kMinMm * skin_.mm());
+  return std::min(heights_[point], kMinMm * skin_.units_per_mm());
 }
 
 std::vector<SkinGaps::Violation> SkinGaps::violations(const Positions& face,
@@ -58,25 +58,26 @@ std::vector<SkinGaps::Violation> SkinGaps::violations(const Positions& face,
     const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     const double missing = min_height(p) - place.height;
-    if (missing > 0) all.push_back({p, missing, place.outward});
+    if (missing > 0) all.push_back({p, missing, place.outward_normal});
   }
   return all;
 }
 
-void SkinGaps::restore(const Positions& face, const Positions& normals, Positions& points) const {
-  Positions moves = Positions::Zero(points.rows(), 3), outward = moves;
+void SkinGaps::restore_gaps(const Positions& face, const Positions& normals,
+                            Positions& points) const {
+  Positions moves = Positions::Zero(points.rows(), 3), outward_normal = moves;
   const auto count = static_cast<std::uint32_t>(heights_.size());
   parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
     if (heights_[p] == kNowhere) return;
     const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     // Restore the original gap near the skin, and at least the minimum distance elsewhere.
-    const double off = std::abs(heights_[p]) / skin_.mm();
+    const double off = std::abs(heights_[p]) / skin_.units_per_mm();
     const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
     double move = held * (heights_[p] - place.height);
     if (heights_[p] >= 0) move = std::max(move, min_height(p) - place.height);
-    moves.row(p) = move * place.outward.transpose();
-    outward.row(p) = place.outward.transpose();
+    moves.row(p) = move * place.outward_normal.transpose();
+    outward_normal.row(p) = place.outward_normal.transpose();
   });
   // A vertex moves by the mean push of its neighbours, if this mean is larger than the vertex's own
   // push.
@@ -88,7 +89,7 @@ void SkinGaps::restore(const Positions& face, const Positions& normals, Position
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
       for (const std::uint32_t other : around) mean += row3(before, other);
       mean /= static_cast<double>(around.size());
-      const bool is_push = mean.dot(row3(outward, p)) >= 0;
+      const bool is_push = mean.dot(row3(outward_normal, p)) >= 0;
       if (is_push && mean.norm() > row3(before, p).norm()) moves.row(p) = mean.transpose();
     });
   }

@@ -21,8 +21,8 @@ class SkinGaps {
   /// A vertex that is too near to the skin or inside the skin.
   struct Violation {
     std::uint32_t vertex;
-    double height;            ///< distance by which the vertex must move outwards
-    Eigen::Vector3d outward;  ///< unit normal of the skin
+    double height;                   ///< distance by which the vertex must move outwards
+    Eigen::Vector3d outward_normal;  ///< unit normal of the skin
   };
   /// Returns the vertices that were outside the skin of the fitted mesh and are now too near to the
   /// skin. The minimum distance of a vertex is its original distance, but at most two millimetres.
@@ -40,7 +40,7 @@ class SkinGaps {
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
   /// \param points   #P by 3, on the face.
-  void restore(const Positions& face, const Positions& normals, Positions& points) const;
+  void restore_gaps(const Positions& face, const Positions& normals, Positions& points) const;
 
   std::size_t memory_bytes() const;
 

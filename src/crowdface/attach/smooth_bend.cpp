@@ -45,11 +45,11 @@ SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(points, all);
   const std::vector<std::uint32_t> places = find_nodes(skin, points, grid, nodes_.patches);
-  nodes_.shares = compressed_rows<BendNodes::Share>(all.size(), [&](const auto& put) {
+  nodes_.node_weights = compressed_rows<BendNodes::NodeWeight>(all.size(), [&](const auto& put) {
     for (std::uint32_t n = 0; n < places.size(); ++n) {
       const Eigen::Vector3d middle = row3(points, places[n]);
       const double radius =
-          BendNodes::kInfluence * BendNodes::kNodeSpacing * nodes_.patches[n].reach;
+          BendNodes::kInfluenceRadius * BendNodes::kNodeSpacing * nodes_.patches[n].reach;
       for (const std::uint32_t p : grid.vertices_near(middle, radius)) {
         const double distance = (row3(points, p) - middle).norm() / radius;
         const double weight = biweight(std::min(1.0, distance));
@@ -70,7 +70,7 @@ Positions SmoothBend::bend(const Positions& face) const {
     const Eigen::Vector3d point = row3(points_, p);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
-    for (const BendNodes::Share& share : nodes_.shares.items_of(p)) {
+    for (const BendNodes::NodeWeight& share : nodes_.node_weights.items_of(p)) {
       const double weight = static_cast<double>(share.weight);
       sum += weight * motions[share.node].apply(point);
       weights += weight;

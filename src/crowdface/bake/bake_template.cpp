@@ -24,20 +24,20 @@ namespace {
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      FoundTextureFiles& found) {
   HeadTextureFiles& placed = found.heads[0];
-  if (placed.of_face.empty()) placed.of_face.assign(is_skin.size(), kNoIndex);
+  if (placed.file_of_face.empty()) placed.file_of_face.assign(is_skin.size(), kNoIndex);
   std::set<std::uint32_t> used;
   bool tiled = false;
   for (std::size_t f = 0; f < is_skin.size(); ++f) {
     if (!is_skin[f]) continue;
-    if (placed.of_face[f] != kNoIndex) {
-      used.insert(placed.of_face[f]);
+    if (placed.file_of_face[f] != kNoIndex) {
+      used.insert(placed.file_of_face[f]);
     } else if (found.tile[f] != std::array<std::int32_t, 2>{0, 0}) {
       tiled = true;
     }
   }
   std::map<std::pair<std::uint32_t, std::array<std::int32_t, 2>>, std::uint32_t> rows;
   for (std::size_t f = 0; f < is_skin.size(); ++f) {
-    std::uint32_t& file = placed.of_face[f];
+    std::uint32_t& file = placed.file_of_face[f];
     if (file != kNoIndex) {
       if (!used.contains(file)) file = kNoIndex;
     } else if (is_skin[f]) {
@@ -54,12 +54,12 @@ void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is
 
 }  // namespace
 
-BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int picture_side)
-    : shape_(shape) {
+BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& wrap_template, int picture_side)
+    : wrap_template_(wrap_template) {
   const Topology& topology = file.topology;
   skin_rows_.assign(static_cast<std::size_t>(topology.vertex_count), kNotSkin);
-  for (std::uint32_t row = 0; row < shape.skin.vertices.size(); ++row) {
-    skin_rows_[shape.skin.vertices[row]] = row;
+  for (std::uint32_t row = 0; row < wrap_template.skin.vertices.size(); ++row) {
+    skin_rows_[wrap_template.skin.vertices[row]] = row;
   }
   std::vector<bool> is_skin(static_cast<std::size_t>(topology.face_count()), false);
   bool has_uvs = false;
@@ -88,10 +88,10 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int p
   const std::vector<PictureSource> pictures = lay_out_pictures(found, layout);
   picture_names_ = crowdface::picture_names(found, pictures, materials);
   for (TextureLayout::Picture& picture : layout.pictures) picture = {picture_side, picture_side};
-  for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
-    if (layout.of_face[f] == kNoIndex) continue;
+  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
+    if (layout.picture_of_face[f] == kNoIndex) continue;
     pictures_by_material_.try_emplace(materials.names[materials.material_of_face[f]],
-                                      layout.of_face[f]);
+                                      layout.picture_of_face[f]);
   }
   maps_ = read_mesh_maps(own, TextureKind::kColour, topology, file.uvs);
   for (std::uint32_t p = 0; p < pictures.size(); ++p) {
@@ -103,12 +103,12 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int p
 }
 
 void BakeTemplate::find_picture_vertices(const ObjFile& file, const TextureLayout& layout) {
-  picture_vertices_.resize(shape_.skin.vertices.size());
+  picture_vertices_.resize(wrap_template_.skin.vertices.size());
   const Topology& topology = file.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const std::uint32_t picture = layout.of_face[static_cast<std::size_t>(f)];
+    const std::uint32_t picture = layout.picture_of_face[static_cast<std::size_t>(f)];
     if (picture == kNoIndex) continue;
-    const auto& tile = layout.tile[static_cast<std::size_t>(f)];
+    const auto& tile = layout.tile_of_face[static_cast<std::size_t>(f)];
     const auto vertices = topology.face(f), uvs = topology.face_uvs(f);
     if (std::ranges::count(uvs, kNoIndex) > 0) continue;
     const auto uv_at = [&](std::size_t corner) -> Eigen::Vector2d {
@@ -118,7 +118,7 @@ void BakeTemplate::find_picture_vertices(const ObjFile& file, const TextureLayou
     for (std::size_t c = 1; c + 1 < uvs.size(); ++c) {
       uv_area += std::abs(cross(uv_at(c) - uv_at(0), uv_at(c + 1) - uv_at(0)));
     }
-    const double area = face_area_vector(topology, f, shape_.positions).norm();
+    const double area = face_area_vector(topology, f, wrap_template_.positions).norm();
     for (std::size_t c = 0; c < vertices.size(); ++c) {
       const std::uint32_t row = skin_rows_[vertices[c]];
       if (row == kNotSkin || picture_vertices_[row].picture != kNoIndex) continue;

@@ -20,12 +20,12 @@ namespace crowdface {
 /// for each material and UDIM tile of untextured skin.
 class BakeTemplate {
  public:
-  /// \param file, shape  the file and the shape of the template; must outlive this object.
+  /// \param file, wrap_template  the file and the shape of the template; must outlive this object.
   /// \param picture_side  width and height of each picture, in texels.
   /// \throws InvalidInput if the skin has no texture coordinates.
-  BakeTemplate(const ObjFile& file, const WrapTemplate& shape, int picture_side);
+  BakeTemplate(const ObjFile& file, const WrapTemplate& wrap_template, int picture_side);
 
-  const WrapTemplate& shape() const { return shape_; }
+  const WrapTemplate& wrap_template() const { return wrap_template_; }
   /// #pictures: the name of each picture.
   const std::vector<PictureName>& picture_names() const { return picture_names_; }
   /// For each baked material, the index of a picture that contains it.
@@ -55,7 +55,7 @@ class BakeTemplate {
  private:
   void find_picture_vertices(const ObjFile& file, const TextureLayout& layout);
 
-  const WrapTemplate& shape_;
+  const WrapTemplate& wrap_template_;
   std::vector<PictureName> picture_names_;
   std::map<std::string, std::size_t> pictures_by_material_;
   std::vector<SurfaceTexels> texels_;

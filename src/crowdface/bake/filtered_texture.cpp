@@ -21,7 +21,7 @@ std::vector<float> values_of(const MapCoding& coding) {
   std::vector<float> values(65536);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = coding.content == MapContent::kColours ? light_of_density(static_cast<float>(i))
-                                                       : coding.decode(static_cast<Density>(i));
+                                                       : coding.decode(static_cast<StoredValue>(i));
   }
   return values;
 }
@@ -57,7 +57,7 @@ int taps_of(double length) {
 
 FilteredTexture::FilteredTexture(TextureMap map, std::vector<bool> covered)
     : map_(std::move(map)), decoded_values_(values_of(map_.coding)), covered_(std::move(covered)) {
-  require(covered_.size() == map_.texels(), "coverage of ", covered_.size(), " texels");
+  require(covered_.size() == map_.texel_count(), "coverage of ", covered_.size(), " texels");
   int width = map_.width, height = map_.height;
   while (std::max(width, height) > kBlockSide) {
     const int finer_width = width, finer_height = height;

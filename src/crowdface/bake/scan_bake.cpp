@@ -23,10 +23,10 @@ constexpr int kTexelRows = 8;
 /// Largest distance between a texel on the wrapped skin and the point of the scan that gives the
 /// texel its colour.
 constexpr double kMaxDistanceMm = 3;
-/// Width of the band along the edge of the scan's data in which the scan's colours fade out.
+/// Within this distance of the edge of the scan's data, the scan's colours fade out.
 constexpr double kFeatherMm = 3;
-/// Smallest extent on the skin of a difference in tone that continues into holes; smaller spots
-/// fade.
+/// Differences in tone continue into holes if they extend over at least this length of skin;
+/// smaller spots fade.
 constexpr double kMinToneSizeMm = 8;
 constexpr int kMaxSamples = 4;
 
@@ -80,8 +80,8 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
     : template_(bake_template),
       surface_(surface),
       colours_(colours),
-      positions_(bake_template.shape().skin.rows_of(wrapped)),
-      normals_(vertex_normals_or_zero(bake_template.shape().skin.triangles, positions_)),
+      positions_(bake_template.wrap_template().skin.rows_of(wrapped)),
+      normals_(vertex_normals_or_zero(bake_template.wrap_template().skin.triangles, positions_)),
       scan_spacing_mm_(spacing_of(surface.scan())) {
   Positions densities = Positions::Zero(positions_.rows(), 3);
   const std::vector<double> confidence = measure_vertices(densities);
@@ -101,7 +101,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
 }
 
 double ScanBake::mean_edge_length(Index vertex) const {
-  const auto around = template_.shape().skin.adjacency.items_of(vertex);
+  const auto around = template_.wrap_template().skin.adjacency.items_of(vertex);
   double sum = 0;
   for (const std::uint32_t n : around) sum += (positions_.row(n) - positions_.row(vertex)).norm();
   return around.empty() ? 0 : sum / static_cast<double>(around.size());
@@ -151,7 +151,7 @@ Eigen::Vector3d ScanBake::template_density(std::size_t picture, const Eigen::Vec
 }
 
 std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
-  const SkinMesh& skin = template_.shape().skin;
+  const SkinMesh& skin = template_.wrap_template().skin;
   std::vector<double> confidence(skin.vertices.size(), 0.0);
   parallel_blocks(positions_.rows(), kVertexBlock, [&](Index begin, Index end) {
     std::uint32_t guess = kNoIndex;
@@ -178,7 +178,7 @@ std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
 /// data.
 void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   constexpr double kNone = 0.5;
-  const SkinMesh& skin = template_.shape().skin;
+  const SkinMesh& skin = template_.wrap_template().skin;
   std::vector<std::uint32_t> without;
   for (std::uint32_t v = 0; v < confidence.size(); ++v) {
     if (confidence[v] < kNone && skin.openness[v] > kUnfoldedOpenness) without.push_back(v);
@@ -196,7 +196,7 @@ void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
 /// lips, brows and hair small weights.
 void ScanBake::estimate_shading(const std::vector<double>& confidence, const Positions& densities) {
   constexpr int kRounds = 10;
-  const SkinMesh& skin = template_.shape().skin;
+  const SkinMesh& skin = template_.wrap_template().skin;
   const Eigen::VectorXd areas = vertex_areas(skin.triangles, positions_);
   const Eigen::VectorXd mean = densities.rowwise().mean();
   std::vector<Harmonics> basis;
@@ -243,13 +243,14 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
 
 void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
                                         const Positions& differences) {
-  const WrapTemplate& shape = template_.shape();
+  const WrapTemplate& shape = template_.wrap_template();
   // For templates with many vertices, solve on the reduced skin.
   std::vector<std::uint32_t> rows(shape.skin.vertices.size());
   for (std::uint32_t v = 0; v < rows.size(); ++v) rows[v] = v;
-  const std::vector<std::uint32_t>& used = shape.reduced ? shape.reduced->mesh.vertices : rows;
+  const std::vector<std::uint32_t>& used =
+      shape.reduced_skin ? shape.reduced_skin->mesh.vertices : rows;
   const std::vector<Triangle>& triangles =
-      shape.reduced ? shape.reduced->mesh.triangles : shape.skin.triangles;
+      shape.reduced_skin ? shape.reduced_skin->mesh.triangles : shape.skin.triangles;
   const auto count = static_cast<Index>(used.size());
   Positions places(count, 3);
   for (Index v = 0; v < count; ++v)
@@ -270,21 +271,23 @@ void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
   Positions tone = mean.replicate(count, 1);
   const SparseMatrix stiffness = -kMinToneSizeMm * kMinToneSizeMm * laplacian(triangles, places);
   ElasticSolver(stiffness, areas).solve(data, {.max_steps = 300, .tolerance = 1e-6}, tone);
-  tone_differences_ = shape.reduced ? shape.reduced->interpolate(tone, shape.skin) : tone;
+  tone_differences_ = shape.reduced_skin ? shape.reduced_skin->interpolate(tone, shape.skin) : tone;
 }
 
 ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, int x, int y,
                                      std::uint32_t& guess) const {
   const SurfaceTexels::Triangle& triangle = *texel.triangle;
-  const std::vector<double>& openness = template_.shape().skin.openness;
+  const std::vector<double>& openness = template_.wrap_template().skin.openness;
   const auto mix = [&](const Positions& values, const std::array<double, 3>& shares) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) sum += shares[k] * row3(values, texel.rows[k]);
     return sum;
   };
   const auto shares_at = [&](double column, double row) -> std::array<double, 3> {
-    const double b = triangle.second[0] + column * triangle.second[1] + row * triangle.second[2];
-    const double c = triangle.third[0] + column * triangle.third[1] + row * triangle.third[2];
+    const double b = triangle.second_coefficients[0] + column * triangle.second_coefficients[1] +
+                     row * triangle.second_coefficients[2];
+    const double c = triangle.third_coefficients[0] + column * triangle.third_coefficients[1] +
+                     row * triangle.third_coefficients[2];
     return {1 - b - c, b, c};
   };
   const std::array<double, 3> middle = shares_at(x, y);
@@ -365,8 +368,10 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
           const Eigen::Vector3d first = row3(positions_, texel.rows[0]);
           const Eigen::Vector3d one = row3(positions_, texel.rows[1]) - first;
           const Eigen::Vector3d other = row3(positions_, texel.rows[2]) - first;
-          texel.right_step = texel.triangle->second[1] * one + texel.triangle->third[1] * other;
-          texel.lower_step = texel.triangle->second[2] * one + texel.triangle->third[2] * other;
+          texel.right_step = texel.triangle->second_coefficients[1] * one +
+                             texel.triangle->third_coefficients[1] * other;
+          texel.lower_step = texel.triangle->second_coefficients[2] * one +
+                             texel.triangle->third_coefficients[2] * other;
         }
         for (int x = span.begin; x < span.end; ++x) {
           Colour colour;
@@ -395,7 +400,7 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
     for (std::size_t c = 0; c < 3; ++c) all.srgb[c] += row.srgb[c];
     all.filled += row.filled;
   }
-  const std::uint64_t covered = std::max<std::uint64_t>(1, texels.covered_count());
+  const std::uint64_t covered = std::max<std::uint64_t>(1, texels.covered_texel_count());
   std::array<std::uint8_t, 3> fill = {};
   for (std::size_t c = 0; c < 3; ++c) fill[c] = static_cast<std::uint8_t>(all.srgb[c] / covered);
   fill_uncovered(texels, std::span<const std::uint8_t>(fill), result.srgb.data());

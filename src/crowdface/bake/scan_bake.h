@@ -13,8 +13,8 @@
 namespace crowdface {
 
 struct BakeOptions {
-  /// Whether to remove shading from the colours: brightness variation that a function of the
-  /// surface normal (spherical harmonics) explains.
+  /// Whether to remove shading from the colours. Shading is the variation in brightness that a
+  /// function of the surface normal (spherical harmonics) explains.
   bool remove_shading = false;
 };
 
@@ -27,7 +27,8 @@ struct BakedPicture {
   double filled_share = 0;  ///< mean of `filled_mask` over the covered texels, 0 to 1
 };
 
-/// Transfers the colours of a scan to the texture layout of a template that was wrapped onto it.
+/// Transfers the colours of a scan to the texture layout of the template that was wrapped onto this
+/// scan.
 ///
 /// For each texel, the bake searches along the smooth normal of the wrapped skin for the nearest
 /// surface of the scan that faces the same way. The texel takes the mean colour of the scan over
@@ -37,7 +38,8 @@ struct BakedPicture {
 /// the mesh, so that it crosses the seams of the texture.
 class ScanBake {
  public:
-  /// \param wrapped  #V by 3, as `wrap` returns them: in the template's frame, in millimetres.
+  /// \param wrapped  #V by 3: positions of the wrapped template from `wrap`, in the template's
+  /// frame, in millimetres.
   /// \param surface  the scan in the template's frame.
   /// All parameters must outlive this object.
   ScanBake(const BakeTemplate& bake_template, const Positions& wrapped, const ScanSurface& surface,

@@ -74,7 +74,7 @@ std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
 MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
                         const Topology& topology, const TextureCoordinates& uvs) {
   MeshMaps maps;
-  maps.texture_of_face = textures.of_face;
+  maps.texture_of_face = textures.file_of_face;
   if (textures.files.empty()) return maps;
   maps.tile_of_face.resize(static_cast<std::size_t>(topology.face_count()));
   constexpr Index kBlock = 16384;
@@ -83,7 +83,7 @@ MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
   });
   maps.textures.resize(textures.files.size());
   parallel_for_each(textures.files.size(), [&](std::size_t i) {
-    TextureMap map = map_of(read_image(textures.files[i].path, {.jpeg = true}), kind);
+    TextureMap map = map_of(read_image(textures.files[i].path, {.allows_jpeg = true}), kind);
     std::vector<bool> covered =
         coverage(maps, static_cast<std::uint32_t>(i), map.width, map.height, topology, uvs);
     maps.textures[i] = std::make_unique<FilteredTexture>(std::move(map), std::move(covered));
@@ -111,7 +111,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
   named.material_libraries = mesh.material_libraries;
   if (!mesh.textures.empty()) {
     named.material_libraries = {write_mesh_textures(mesh, scratch.path(), "scan")};
-    named.textures_at = scratch.path() / "scan";
+    named.material_base = scratch.path() / "scan";
   }
   FoundTextureFiles found = find_texture_files(mesh_, {&named, 1}).front();
   warnings_ = std::move(found.warnings);
@@ -124,7 +124,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     }
   }
   // Read colours of vertices and of materials.
-  if (mesh.colours.rows() > 0) vertex_light_ = linear_light(byte_colours(mesh.colours));
+  if (mesh.colours.rows() > 0) vertex_linear_colours_ = linear_light(byte_colours(mesh.colours));
   FaceMaterials materials = face_materials(mesh.materials, topology.face_count());
   const std::vector<SurfaceMaterial> looks =
       surface_materials_of(materials.names, find_material_files(file, mesh.material_libraries));
@@ -132,16 +132,16 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     auto colour = looks[m].colour;
     const auto own = mesh.material_colours.find(materials.names[m]);
     if (own != mesh.material_colours.end()) colour = own->second;
-    material_light_.push_back(colour);
+    material_linear_colours_.push_back(colour);
   }
   material_of_face_ = std::move(materials.material_of_face);
-  has_colours_ =
-      !colours_.textures.empty() || has_vertex_colours() ||
-      std::ranges::any_of(material_light_, [](const auto& light) { return light.has_value(); });
+  has_colours_ = !colours_.textures.empty() || has_vertex_colours() ||
+                 std::ranges::any_of(material_linear_colours_,
+                                     [](const auto& light) { return light.has_value(); });
 }
 
 std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanArea& area) const {
-  const TriangleCorners& source = triangle_corners_[scan.sources[area.triangle]];
+  const TriangleCorners& source = triangle_corners_[scan.file_triangles[area.triangle]];
   const std::uint32_t file =
       colours_.texture_of_face.empty() ? kNoIndex : colours_.texture_of_face[source.face];
   if (file != kNoIndex) {
@@ -174,12 +174,13 @@ std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanA
   }
   if (has_vertex_colours()) {
     const auto& vertices = mesh_.topology.corner_vertices;
-    const Eigen::Vector3d light = area.shares[0] * row3(vertex_light_, vertices[source.first]) +
-                                  area.shares[1] * row3(vertex_light_, vertices[source.second]) +
-                                  area.shares[2] * row3(vertex_light_, vertices[source.third]);
+    const Eigen::Vector3d light =
+        area.shares[0] * row3(vertex_linear_colours_, vertices[source.first]) +
+        area.shares[1] * row3(vertex_linear_colours_, vertices[source.second]) +
+        area.shares[2] * row3(vertex_linear_colours_, vertices[source.third]);
     return light.cast<float>().array();
   }
-  const auto& light = material_light_[material_of_face_[source.face]];
+  const auto& light = material_linear_colours_[material_of_face_[source.face]];
   if (!light) return std::nullopt;
   return Eigen::Array3f((*light)[0], (*light)[1], (*light)[2]);
 }

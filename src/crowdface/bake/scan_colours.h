@@ -38,8 +38,8 @@ struct ScanArea {
   Eigen::Vector3d right_step, lower_step;
 };
 
-/// The colours of a scan: from its textures; without textures, from its vertices; otherwise from
-/// its materials.
+/// The colours of a scan. If the scan has textures, the colours come from the textures; otherwise
+/// from its vertices, or else from its materials.
 class ScanColours {
  public:
   /// \param mesh  the file's mesh; its positions are not used.
@@ -48,14 +48,14 @@ class ScanColours {
 
   /// Whether at least one polygon has a colour.
   bool has_colours() const { return has_colours_; }
-  bool has_vertex_colours() const { return vertex_light_.rows() > 0; }
+  bool has_vertex_colours() const { return vertex_linear_colours_.rows() > 0; }
   /// Messages about missing or unreadable files.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The paths of the texture files that give colours.
   const std::vector<std::filesystem::path>& texture_paths() const { return texture_paths_; }
 
-  /// Returns the mean colour of an area in linear light; nothing if the polygon at this area has no
-  /// colour.
+  /// Returns the mean colour of an area in linear light; nothing if the polygon that contains
+  /// the area has no colour.
   /// \param scan  the scan that was made from the file, in any frame.
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
@@ -67,9 +67,9 @@ class ScanColours {
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file
   std::vector<TriangleCorners> triangle_corners_;  ///< #triangles of the file
   MeshMaps colours_;
-  Positions vertex_light_;  ///< #V: colours of vertices in linear light; or no rows
-  std::vector<std::optional<std::array<float, 3>>> material_light_;  ///< #materials
-  std::vector<std::uint32_t> material_of_face_;                      ///< #F; or empty
+  Positions vertex_linear_colours_;  ///< #V: colours of vertices in linear light; or no rows
+  std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< #materials
+  std::vector<std::uint32_t> material_of_face_;                               ///< #F; or empty
   std::vector<std::filesystem::path> texture_paths_;
   std::vector<std::string> warnings_;
   bool has_colours_ = false;

@@ -89,8 +89,8 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   std::vector<double> sums(field_count(), 0.0);
   for (const LevelShares& at : level_shares(recipe, region)) {
     // A head may be both target and source, or lend detail to adjacent bands. Add up the head's
-    // weights before multiplying by the functions. Then weights that cancel give exactly zero, and
-    // a target that is blended with itself does not change.
+    // weights before multiplying by the functions φ. Then weights that cancel give exactly zero,
+    // and a target that is blended with itself does not change.
     std::vector<double> shares(levels_.size(), 0.0);
     for (const SourceWeight& part : at.shares) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
@@ -177,8 +177,8 @@ class CrowdBlender::PatchBlender {
     find_runs();
     fetch_targets();
     vertex_sums_ = added_values_.zeros(crowd_.size() * kPatchValues);
-    skeleton_sums_ = skeleton_values_.resize(kMaxColumns * patch_.values());
-    if (patch_.skeleton > 0) {
+    skeleton_sums_ = skeleton_values_.resize(kMaxColumns * patch_.values_per_field());
+    if (patch_.skeleton_size > 0) {
       find_fields();
       if (crowd_.size() == 1) {
         add_to_single_face();
@@ -193,9 +193,9 @@ class CrowdBlender::PatchBlender {
   /// Finds for each row of the patch which field the row contains, for all heads.
   void find_fields() {
     fields_.clear();
-    for (std::size_t h = 0; h < patch_.counts.size(); ++h) {
+    for (std::size_t h = 0; h < patch_.field_counts.size(); ++h) {
       const auto first = static_cast<std::uint32_t>(blender_.first_field_[h]);
-      for (std::uint32_t p = 0; p < patch_.counts[h]; ++p) fields_.push_back(first + p);
+      for (std::uint32_t p = 0; p < patch_.field_counts[h]; ++p) fields_.push_back(first + p);
     }
   }
 
@@ -216,17 +216,18 @@ class CrowdBlender::PatchBlender {
         const float* coefficients = crowd_.coefficients(regions[k], 0);
         float* scaled = scaled_coefficients_.data() + k * fields_.size();
         columns_[k] = scaled;
-        products_[k] = skeleton_sums_ + k * patch_.values();
+        products_[k] = skeleton_sums_ + k * patch_.values_per_field();
         for (const std::uint32_t row : used_) {
           scaled[row] = coefficients[fields_[row]] * patch_.steps[row];
         }
       }
-      multiply(ProductRows<std::int16_t>{patch_.numbers, patch_.values(), patch_.values(), used_},
+      multiply(ProductRows<std::int16_t>{patch_.quantized_values, patch_.values_per_field(),
+                                         patch_.values_per_field(), used_},
                std::span(columns_).first(regions.size()),
                std::span(products_).first(regions.size()));
       for (std::size_t k = 0; k < regions.size(); ++k) {
         copy_alpha(regions[k]);
-        add_at_vertices(skeleton_sums_ + k * patch_.values(), 0, 1);
+        add_at_vertices(skeleton_sums_ + k * patch_.values_per_field(), 0, 1);
       }
     }
   }
@@ -234,12 +235,12 @@ class CrowdBlender::PatchBlender {
   /// Adds the products of fields and coefficients to several faces. Unpacks the fields once, then
   /// multiplies the fields by the coefficients of kMaxColumns faces at a time.
   void add_to_all_faces() {
-    float* unpacked = unpacked_values_.resize(blender_.field_count() * patch_.values());
+    float* unpacked = unpacked_values_.resize(blender_.field_count() * patch_.values_per_field());
     for (std::size_t row = 0; row < fields_.size(); ++row) {
       const auto uses = [&](std::uint32_t k) { return crowd_.uses(k, fields_[row]); };
       if (std::ranges::none_of(regions_, uses)) continue;
-      unpack(patch_.numbers + row * patch_.values(), patch_.values(), patch_.steps[row],
-             unpacked + fields_[row] * patch_.values());
+      unpack(patch_.quantized_values + row * patch_.values_per_field(), patch_.values_per_field(),
+             patch_.steps[row], unpacked + fields_[row] * patch_.values_per_field());
     }
     for (const std::uint32_t region : regions_) {
       copy_alpha(region);
@@ -252,9 +253,10 @@ class CrowdBlender::PatchBlender {
         const std::size_t count = std::min(kMaxColumns, crowd_.size() - first);
         for (std::size_t face = 0; face < count; ++face) {
           columns_[face] = crowd_.coefficients(region, first + face);
-          products_[face] = skeleton_sums_ + face * patch_.values();
+          products_[face] = skeleton_sums_ + face * patch_.values_per_field();
         }
-        multiply(ProductRows<float>{unpacked, patch_.values(), patch_.values(), used_},
+        multiply(ProductRows<float>{unpacked, patch_.values_per_field(), patch_.values_per_field(),
+                                    used_},
                  std::span(columns_).first(count), std::span(products_).first(count));
         add_at_vertices(skeleton_sums_, first, count);
       }
@@ -272,12 +274,14 @@ class CrowdBlender::PatchBlender {
   /// interpolated) to all vertices. Multiplies the interpolated sums by α and adds the products to
   /// the faces (Eq. 7).
   ///
-  /// \param at_skeleton  `count` by values(): x of all skeleton vertices, then y, then z.
+  /// \param at_skeleton  `count` by values_per_field(): x of all skeleton vertices, then y, then z.
   void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
     float* added = vertex_sums_ + first_face * kPatchValues;
-    // pointer to coordinate i, where the coordinates x, y, z of all faces are counted face by face
+    // pointer to sums of coordinate i: x, y, z of the first face have i = 0, 1, 2, then the next
+    // face follows
     const auto coordinate = [&](std::size_t i) {
-      return at_skeleton + i / kCoordinates * patch_.values() + i % kCoordinates * patch_.skeleton;
+      return at_skeleton + i / kCoordinates * patch_.values_per_field() +
+             i % kCoordinates * patch_.skeleton_size;
     };
     for (std::size_t first = 0; first < kCoordinates * count; first += kMaxColumns) {
       const std::size_t here = std::min(kMaxColumns, kCoordinates * count - first);
@@ -287,13 +291,13 @@ class CrowdBlender::PatchBlender {
       }
       if (patch_.is_whole()) {
         for (std::size_t i = 0; i < here; ++i) {
-          for (std::size_t v = 0; v < patch_.skeleton; ++v) {
+          for (std::size_t v = 0; v < patch_.skeleton_size; ++v) {
             products_[i][v] += alpha_[v] * columns_[i][v];
           }
         }
       } else {
         add_product({patch_.weights, kPatchVertices, kPatchVertices,
-                     std::span(all_of_skeleton_).first(patch_.skeleton)},
+                     std::span(all_of_skeleton_).first(patch_.skeleton_size)},
                     std::span(columns_).first(here), alpha_.data(),
                     std::span(products_).first(here));
       }
@@ -354,7 +358,8 @@ class CrowdBlender::PatchBlender {
   std::vector<float> scaled_coefficients_;  ///< coefficients times quantization steps
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
-  float* skeleton_sums_ = nullptr;  ///< kMaxColumns by values(): sums at the skeleton vertices
+  float* skeleton_sums_ =
+      nullptr;  ///< kMaxColumns by values_per_field(): sums at the skeleton vertices
   /// #faces by 3 by kPatchVertices: sums at all vertices of the patch
   float* vertex_sums_ = nullptr;
   std::array<const float*, kMaxColumns> columns_{};
@@ -386,7 +391,7 @@ void CrowdBlender::blend(std::span<const Recipe* const> recipes,
   blend_patches([](std::size_t) { return true; }, recipes, results);
 }
 
-void CrowdBlender::change(const Recipe& before, const Recipe& after, Positions& face) const {
+void CrowdBlender::update(const Recipe& before, const Recipe& after, Positions& face) const {
   const bool same_target = before.target == after.target && before.mixture == after.mixture;
   const auto differs = [&](std::size_t patch) {
     return !same_target || std::ranges::any_of(regions_of_patch(patch), [&](std::uint32_t k) {

@@ -50,7 +50,7 @@ class CrowdBlender {
   /// recomputes only the patches that a changed region covers; otherwise all patches.
   ///
   /// \param face  #V by 3, the result of `blend` for `before`.
-  void change(const Recipe& before, const Recipe& after, Positions& face) const;
+  void update(const Recipe& before, const Recipe& after, Positions& face) const;
 
  private:
   class Crowd;

@@ -17,8 +17,8 @@ void divide_by_sum(std::vector<SourceWeight>& weights, double extra = 0) {
   for (SourceWeight& source : weights) source.weight /= sum;
 }
 
-/// Keeps the `count` largest weights, without changing their order. Of equal weights, the first
-/// weights are kept.
+/// Keeps the `count` largest weights, without changing their order. If weights are equal, keeps the
+/// first.
 void keep_largest(std::vector<SourceWeight>& weights, std::size_t count) {
   if (weights.size() <= count) return;
   std::stable_sort(weights.begin(), weights.end(),
@@ -56,7 +56,8 @@ std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
                                       Extrapolation extrapolation) {
   const RegionRecipe& bands = recipe.regions[region];
   std::vector<LevelShares> levels;
-  // For the first band, the weights of the heads in B; for band b, the weights in e_{b−1} C̄_{b−1}.
+  // For the first band, the weights of the heads in B; for every later band b, the weights in
+  // e_{b−1} C̄_{b−1}.
   std::vector<SourceWeight> coarser = target_shares(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);

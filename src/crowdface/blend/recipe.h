@@ -109,8 +109,8 @@ void set_target(Recipe& recipe, std::vector<SourceWeight> shares);
 
 /// Returns B = Σ_h τ_h B_h.
 ///
-/// \param head_matrix  head_matrix(h) returns the matrix B_h. It contains positions, or values that
-///                     are linear in the positions.
+/// \param head_matrix  head_matrix(h) returns the matrix B_h: positions, or values that are linear
+/// in the positions.
 template <class Matrix, class HeadMatrix>
 Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
   Matrix sum = head_matrix(recipe.target);
@@ -133,7 +133,8 @@ Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
 /// \param anchors      #heads
 /// \param sources      heads that lend detail, ascending.
 /// \param max_sources  how many of the largest weights to keep (and to normalise again), not
-///                     counting ω_0, which is always kept. Of equal weights, the first are kept.
+///                     counting ω_0, which is always kept. If weights are equal, the first are
+///                     kept.
 std::vector<SourceWeight> weights_at_position(const std::vector<PlanePoint>& anchors, Index target,
                                               const std::vector<Index>& sources,
                                               const PlanePoint& position,

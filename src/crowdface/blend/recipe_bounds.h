@@ -14,7 +14,7 @@ inline constexpr double kMaxPlaneCoordinate = 1e6;
 inline constexpr double kMaxExtrapolation = 4;
 inline constexpr double kMaxAsymmetry = 4;  ///< largest asymmetry factor; the smallest is 0
 /// largest weight of a head before normalisation
-inline constexpr double kLargestWeight = 1e6;
+inline constexpr double kMaxSourceWeight = 1e6;
 /// largest number of smoothing iterations that a config or plan may contain
 inline constexpr std::uint64_t kMaxIterations = 10'000'000;
 

@@ -27,7 +27,7 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
 /// The heads of one age class (old or young). A face that is aged gets the detail of these heads.
 class AgedHeads {
  public:
-  AgedHeads(double age, const HeadRelations& all, const SamplingOptions& sampling)
+  AgedHeads(double age, const HeadAnchorsAndTags& all, const SamplingOptions& sampling)
       : heads_(age > 0 ? sampling.old_heads : sampling.young_heads), all_(all) {
     require(!heads_.empty(), "an age of ", age, " without heads of that age");
   }
@@ -65,7 +65,7 @@ class AgedHeads {
   }
 
   const std::vector<Index>& heads_;
-  const HeadRelations& all_;
+  const HeadAnchorsAndTags& all_;
 };
 
 }  // namespace
@@ -82,7 +82,7 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
   return mixed;
 }
 
-void apply_age(FacePlan& face, double age, const HeadRelations& heads,
+void apply_age(FacePlan& face, double age, const HeadAnchorsAndTags& heads,
                const SamplingOptions& sampling) {
   if (age == 0) return;
   const AgedHeads aged(age, heads, sampling);
@@ -98,7 +98,7 @@ void apply_age(FacePlan& face, double age, const HeadRelations& heads,
   face.age = age;
 }
 
-void undo_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling) {
+void undo_age(FacePlan& face, const HeadAnchorsAndTags& heads, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
   const AgedHeads aged(*face.age, heads, sampling);

@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// Anchors (positions on the weight plane) and tags of all heads; see CastingOptions. apply_age
 /// finds the nearest old or young head by these values.
-struct HeadRelations {
+struct HeadAnchorsAndTags {
   const std::vector<PlanePoint>& anchors;  ///< the anchor of each head
   const HeadTags& tags;                    ///< the tags of each head, or empty
 };
@@ -25,13 +25,13 @@ struct HeadRelations {
 ///
 /// \param sampling  parameters of the face's group, or of the crowd.
 /// \throws BrokenPrecondition if no head has the tag.
-void apply_age(FacePlan& face, double age, const HeadRelations& heads,
+void apply_age(FacePlan& face, double age, const HeadAnchorsAndTags& heads,
                const SamplingOptions& sampling);
 
 /// Undoes apply_age, so that children do not inherit the age of this face. If an age of −1 or 1
 /// moved all of a band's weight, the original weights are lost; the band and the face's age then
 /// stay as they are.
-void undo_age(FacePlan& face, const HeadRelations& heads, const SamplingOptions& sampling);
+void undo_age(FacePlan& face, const HeadAnchorsAndTags& heads, const SamplingOptions& sampling);
 
 /// Mixes the two weights of each head: returns (1 − t)·a + t·b.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,

@@ -24,7 +24,7 @@ struct Redraw {
 
 const FamilyPlan* family_of(const CastingResult& cast, Index face) {
   for (const FamilyPlan& family : cast.families) {
-    if (face >= family.begin && face < family.end) return &family;
+    if (face >= family.members_begin && face < family.members_end) return &family;
   }
   return nullptr;
 }
@@ -61,24 +61,24 @@ class Redrawing {
   /// Casts a new face to replace a rejected face.
   ///
   /// \return  false if no face was found.
-  bool redraw(const Redraw& redraw, std::vector<bool>& settled) {
+  bool redraw(const Redraw& redraw, std::vector<bool>& is_final) {
     const auto at = static_cast<std::size_t>(redraw.face);
     const FacePlan old = cast_.crowd[at];
     const FamilyPlan* family = family_of(cast_, redraw.face);
-    // Compare with all faces outside the family. The distances within a family have limits of their
-    // own.
+    // Compare with all faces outside the family. Other limits apply to the distances within a
+    // family.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
-      if (!settled[i]) continue;
+      if (!is_final[i]) continue;
       if (family != nullptr && family_of(cast_, static_cast<Index>(i)) == family) {
         own.push_back(cast_.points[i]);
       } else {
         others.add(cast_.crowd[i], cast_.points[i]);
       }
     }
-    const FamilySeparation family_separation = kinship_without(family, settled);
-    const AvoidedFaces changes(cast_, casting_.diversity.min_distance_mm, settled);
+    const FamilySeparation family_separation = family_separation_without(family, is_final);
+    const AvoidedFaces changes(cast_, casting_.diversity.min_distance_mm, is_final);
     FaceSearch::Generate generate;
     const std::vector<FaceSpace::Point> rejected = reject(at);
     FaceSearch::RejectionCheck rejection_reason;
@@ -86,7 +86,7 @@ class Redrawing {
     if (family != nullptr) {
       const FamilyOptions& options = options_of(*family);
       family_draws.emplace(casting_, options, judge_, unrelated_, others);
-      const int member = static_cast<int>(redraw.face - family->begin) + 1;
+      const int member = static_cast<int>(redraw.face - family->members_begin) + 1;
       generate = [&, member](std::uint32_t attempt) {
         return family_draws->member(*family, member, attempt);
       };
@@ -102,7 +102,7 @@ class Redrawing {
       };
     }
     const int candidates = old.index ? casting_.diversity.candidate_count(*old.index) : 1;
-    std::optional<FaceSearch::Found> found;
+    std::optional<FaceSearch::FoundFace> found;
     Rejections rejections;
     for (const double least : distances_to_rejected(family, own, *redraw.mark)) {
       FaceSearch search(
@@ -124,8 +124,8 @@ class Redrawing {
       cast_.shortfall = Shortfall{casting_.count, rejections, -1, {}, old.id};
       return false;
     }
-    settle(at, std::move(*found), old, settled);
-    settled[at] = true;
+    store_redrawn_face(at, std::move(*found), old, is_final);
+    is_final[at] = true;
     return true;
   }
 
@@ -154,10 +154,10 @@ class Redrawing {
     if (casting_.diversity.min_distance_to_rejected_mm) {
       return {*casting_.diversity.min_distance_to_rejected_mm};
     }
-    if (family == nullptr && mark.locked.empty()) return {half_median_mm_};
+    if (family == nullptr && mark.locked_parts.empty()) return {half_median_mm_};
     double free = 1;
     const std::size_t bands = band_count(casting_.sampling);
-    for (const std::size_t part : mark.locked) {
+    for (const std::size_t part : mark.locked_parts) {
       free -= judge_.space().region_share(static_cast<Index>(part / bands)) /
               static_cast<double>(bands);
     }
@@ -173,43 +173,44 @@ class Redrawing {
   }
 
   const FaceKind& kind_of(std::uint64_t index) const {
-    return kinds_[static_cast<std::size_t>(cast_.kinds[index - 1] + 1)];
+    return kinds_[static_cast<std::size_t>(cast_.group_indices[index - 1] + 1)];
   }
 
   /// Copies the locked parts of the old face. Also copies the old face's target, mirroring and
   /// asymmetry, because the locked parts would look different without these values.
   FacePlan with_locked(FacePlan face, const FacePlan& old, const ReviewMark& mark) const {
-    if (mark.locked.empty()) return face;
+    if (mark.locked_parts.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {
       FaceKind kind = kind_of(*old.index);
       kind.targets = {{old.recipe.target, 1}};
       face = random_face(casting_, *old.index, face.notes.attempt, kind);
     }
-    copy_locked_bands(mark.locked, old.recipe, face.recipe);
+    copy_locked_bands(mark.locked_parts, old.recipe, face.recipe);
     return face;
   }
 
-  FamilySeparation kinship_without(const FamilyPlan* own, const std::vector<bool>& settled) const {
+  FamilySeparation family_separation_without(const FamilyPlan* own,
+                                             const std::vector<bool>& is_final) const {
     FamilySeparation family_separation;
     for (const FamilyPlan& family : cast_.families) {
       if (&family == own) continue;
       std::vector<FaceSpace::Point> members;
-      for (Index i = family.begin; i < family.end; ++i) {
+      for (Index i = family.members_begin; i < family.members_end; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        if (settled[at]) members.push_back(cast_.points[at]);
+        if (is_final[at]) members.push_back(cast_.points[at]);
       }
       family_separation.add(family.name, members);
     }
     return family_separation;
   }
 
-  void settle(std::size_t at, FaceSearch::Found found, const FacePlan& old,
-              const std::vector<bool>& settled) {
+  void store_redrawn_face(std::size_t at, FaceSearch::FoundFace found, const FacePlan& old,
+                          const std::vector<bool>& is_final) {
     const auto [head, head_distance_mm] = judge_.nearest_head(found.point);
     NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
     double mm = HUGE_VAL;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
-      if (!settled[i]) continue;
+      if (!is_final[i]) continue;
       const double distance = FaceSpace::distance(found.point, cast_.points[i]);
       if (distance >= mm) continue;
       mm = distance;
@@ -242,19 +243,19 @@ void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge,
   std::vector<FaceChange> changes;
   std::erase_if(redraws, [&](const Redraw& redraw) {
     const auto changed = cast.changed.find(static_cast<std::size_t>(redraw.face));
-    const bool acts_as_change = !redraw.mark->locked.empty() && changed != cast.changed.end() &&
-                                changed->second.is_other_person;
+    const bool acts_as_change = !redraw.mark->locked_parts.empty() &&
+                                changed != cast.changed.end() && changed->second.is_other_person;
     if (acts_as_change) {
       changes.emplace_back().id = redraw.mark->id;
-      changes.back().locked = redraw.mark->locked;
+      changes.back().locked_parts = redraw.mark->locked_parts;
     }
     return acts_as_change;
   });
-  std::vector<bool> settled(cast.crowd.size(), true);
-  for (const Redraw& redraw : redraws) settled[static_cast<std::size_t>(redraw.face)] = false;
+  std::vector<bool> is_final(cast.crowd.size(), true);
+  for (const Redraw& redraw : redraws) is_final[static_cast<std::size_t>(redraw.face)] = false;
   Redrawing redrawing(casting, judge, cast);
   for (const Redraw& redraw : redraws) {
-    if (!redrawing.redraw(redraw, settled)) return;
+    if (!redrawing.redraw(redraw, is_final)) return;
   }
   for (const Redraw& redraw : redraws) {
     reapply_changes(casting, judge, static_cast<std::size_t>(redraw.face), cast);

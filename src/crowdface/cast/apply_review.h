@@ -7,14 +7,13 @@
 
 namespace crowdface {
 
-/// Redraws the faces that a review rejects, so that each redrawn face keeps the minimum distance
-/// from all other faces, and stores the review's notes. Then applies the changes that the review
-/// requests. All other faces stay as they are.
+/// Stores a review's notes, and redraws the faces that the review rejects. Each redrawn face keeps
+/// the minimum distance from all other faces. Then applies the changes that the review requests.
+/// All other faces stay as they are.
 ///
 /// - A redrawn face keeps the changes of earlier reviews.
-/// - If a change of an earlier review has redrawn a face (FaceChange::needs_redraw), and this
-///   review rejects the face but locks parts of it, the rejection counts as a change with these
-///   locked parts.
+/// - A rejection with locked parts counts as a change with these locked parts if a change of an
+///   earlier review has redrawn the face (FaceChange::needs_redraw).
 ///
 /// \param review_index  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.

@@ -44,7 +44,8 @@ bool says_colour(const std::string& tag, const std::string& colour) {
 /// Maps the name of each item to the number of faces that wear the item.
 using WearerCounts = std::map<std::string, int>;
 
-/// Keeps only the items that have not reached their share of the faces, with one more face counted.
+/// If n faces wear one of the items so far: keeps only the items that fewer faces wear than the
+/// item's share of n + 1 faces.
 void keep_underused(const WearerCounts& counts, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
@@ -110,8 +111,8 @@ class AttachmentChooser {
     }
     if (std::ranges::any_of(options.items,
                             [](const auto& item) { return item.tint != Tint::kNone; })) {
-      hair_.emplace(HairOptions{options.seed, options.tags, options.heads, options.hair_colours,
-                                options.twins},
+      hair_.emplace(HairOptions{options.seed, options.tags, options.head_names,
+                                options.hair_colours, options.twin_families},
                     crowd);
       for (std::size_t i = 1; i < sequence.size(); ++i) {
         if (must_differ(sequence[i - 1], sequence[i])) {
@@ -224,8 +225,9 @@ class AttachmentChooser {
   }
 
   /// Chooses at random one of the items that have not yet reached their share among similar faces.
-  /// If several items remain, a sampled face prefers items that have not reached their share among
-  /// all sampled faces. Probabilities are proportional to the items' shares.
+  /// If several items remain and `face` is not hand-written, only items are left that have not
+  /// reached their share among all sampled faces either, if there are any. Probabilities are
+  /// proportional to the items' shares.
   const AttachmentItem* random_underused_item(const Items& items, const FacePlan& face,
                                               double drawn) const {
     Items next = items;
@@ -266,9 +268,9 @@ class AttachmentChooser {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Keeps only items with a matching colour. If other items of the face have a colour, this is
-  /// their colour. Otherwise it is the colour that a parent's items or the family's items have. If
-  /// no item matches, keeps all items.
+  /// Keeps only items in the colour of another item of the face. If there are none, keeps items in
+  /// the colour of a parent's items or, without parents, of the family's items. If there are none
+  /// either, keeps all items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -306,8 +308,8 @@ class AttachmentChooser {
   Index head_of(const std::string& parent) const {
     const auto face = heads_.find(parent);
     if (face != heads_.end()) return face->second;
-    const auto head = std::find(options_.heads.begin(), options_.heads.end(), parent);
-    return head == options_.heads.end() ? -1 : head - options_.heads.begin();
+    const auto head = std::find(options_.head_names.begin(), options_.head_names.end(), parent);
+    return head == options_.head_names.end() ? -1 : head - options_.head_names.begin();
   }
 
   /// Returns whether only old faces may wear items of this kind and colour, such as grey hair.

@@ -24,13 +24,14 @@ struct AttachmentOptions {
   /// of this kind, name or colour. A kind has either a quota of its own or quotas for some of its
   /// names and colours.
   std::map<std::string, double> quotas = {};
-  std::vector<std::string> heads = {};  ///< names of the heads; some parents of families are heads
+  std::vector<std::string> head_names =
+      {};  ///< names of the heads; some parents of families are heads
   /// By group: the fraction of the faces that have each named hair colour, before age makes hair
   /// grey. The key "" is for groups without an entry and for faces without a group. Children
-  /// inherit their parents' colours. Any other face without an entry has the colour that the tags
-  /// of its typical head name.
+  /// inherit their parents' colours. Any other face without an entry gets its colour from the tags
+  /// of its typical head.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
-  std::set<std::string> twins = {};  ///< names of the families whose members are twins
+  std::set<std::string> twin_families = {};  ///< names of the families whose members are twins
 };
 
 /// Chooses the attachments of each face: names, in the order of the items, at most one per kind.

@@ -10,32 +10,34 @@ namespace {
 /// values are 1.6 to 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kMinPlaced = 256;
-/// The forecast needs at least this many candidates that were too near, in the earlier of the last
-/// two complete ranges.
+/// The forecast begins after this many candidates were too near in one range of faces (the earlier
+/// of the last two complete ranges).
 constexpr std::uint64_t kMinTooNear = 100;
 
 }  // namespace
 
-void CapacityForecast::add(std::uint64_t too_near, std::uint64_t far_enough) {
-  require(far_enough > 0, "a face is chosen from at least one candidate");
-  if (placed_ >= current_.face_count) {
-    current_.too_near_fractions +=
-        static_cast<double>(too_near) / static_cast<double>(too_near + far_enough);
-    current_.too_near += too_near;
+void CapacityForecast::add(std::uint64_t too_near_count, std::uint64_t far_enough_count) {
+  require(far_enough_count > 0, "a face is chosen from at least one candidate");
+  if (placed_count_ >= current_.face_count) {
+    current_.sum_of_too_near_fractions += static_cast<double>(too_near_count) /
+                                          static_cast<double>(too_near_count + far_enough_count);
+    current_.too_near_count += too_near_count;
   }
-  if (++placed_ < 2 * current_.face_count) return;
+  if (++placed_count_ < 2 * current_.face_count) return;
   before_previous_ = previous_;
   previous_ = current_;
-  current_ = {placed_};
+  current_ = {placed_count_};
 }
 
-std::optional<double> CapacityForecast::estimated_faces() const {
-  if (placed_ < kMinPlaced || before_previous_.too_near < kMinTooNear) return std::nullopt;
-  const double growth = (previous_.mean_fraction() - before_previous_.mean_fraction()) /
-                        (previous_.middle_face() - before_previous_.middle_face());
+std::optional<double> CapacityForecast::estimated_face_count() const {
+  if (placed_count_ < kMinPlaced || before_previous_.too_near_count < kMinTooNear)
+    return std::nullopt;
+  const double growth =
+      (previous_.mean_too_near_fraction() - before_previous_.mean_too_near_fraction()) /
+      (previous_.middle_face_number() - before_previous_.middle_face_number());
   if (!(growth > 0)) return std::nullopt;
   const double placed = 2 * static_cast<double>(previous_.face_count);
-  return placed + kFacesTimesChance * (1 - previous_.mean_fraction()) / growth;
+  return placed + kFacesTimesChance * (1 - previous_.mean_too_near_fraction()) / growth;
 }
 
 }  // namespace crowdface

@@ -16,26 +16,28 @@ class CapacityForecast {
  public:
   /// Counts the candidates for one placed face.
   ///
-  /// \param too_near    Number of candidates that were too near to a face of the crowd.
-  /// \param far_enough  Number of candidates that were far enough; above zero.
-  void add(std::uint64_t too_near, std::uint64_t far_enough);
+  /// \param too_near_count    Number of candidates that were too near to a face of the crowd.
+  /// \param far_enough_count  Number of candidates that were far enough; above zero.
+  void add(std::uint64_t too_near_count, std::uint64_t far_enough_count);
 
   /// Returns the estimated number of faces at which casting will end, accurate to a factor of about
   /// three. Returns nothing until enough faces are placed.
-  std::optional<double> estimated_faces() const;
+  std::optional<double> estimated_face_count() const;
 
  private:
   /// Statistics of the candidates for the faces n + 1 to 2·n, with n = `face_count`.
-  struct PlanSection {
+  struct FaceRange {
     std::uint64_t face_count = 16;
-    std::uint64_t too_near = 0;
+    std::uint64_t too_near_count = 0;
     /// sum over the faces of this range: the fraction of the candidates that were too near
-    double too_near_fractions = 0;
-    double mean_fraction() const { return too_near_fractions / static_cast<double>(face_count); }
-    double middle_face() const { return 1.5 * static_cast<double>(face_count); }
+    double sum_of_too_near_fractions = 0;
+    double mean_too_near_fraction() const {
+      return sum_of_too_near_fractions / static_cast<double>(face_count);
+    }
+    double middle_face_number() const { return 1.5 * static_cast<double>(face_count); }
   };
-  std::uint64_t placed_ = 0;
-  PlanSection current_, previous_,
+  std::uint64_t placed_count_ = 0;
+  FaceRange current_, previous_,
       before_previous_;  ///< the current range of faces, and the two complete ranges before it
 };
 

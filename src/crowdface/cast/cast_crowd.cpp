@@ -18,12 +18,12 @@ namespace {
 
 /// Casts the sampled faces `from` … `to`. Each face must be far enough from all earlier faces.
 ///
-/// \param diversity  its `min_distance_mm` applies to all these faces.
+/// \param diversity  options whose `min_distance_mm` applies to all these faces.
 void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diversity,
                     const FaceJudge& judge, const std::vector<FaceKind>& kinds,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
-                    CrowdSoFar& crowd, PopulationBalance& population, const FaceJoined& joined,
-                    CastingResult& result) {
+                    CrowdSoFar& crowd, PopulationBalance& population,
+                    const FaceJoinedCallback& on_face_joined, CastingResult& result) {
   const AvoidedFaces changes(result, diversity.min_distance_mm);
   FaceSearch::Cost cost;
   if (!casting.population.empty()) {
@@ -34,7 +34,7 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
     const std::uint64_t last = std::min(to, first + kFacesCastInParallel - 1);
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
-      const FaceKind& kind = kinds[static_cast<std::size_t>(result.kinds[index - 1] + 1)];
+      const FaceKind& kind = kinds[static_cast<std::size_t>(result.group_indices[index - 1] + 1)];
       searches.emplace_back(
           [&casting, &kind, index](std::uint32_t attempt) {
             return random_face(casting, index, attempt, kind);
@@ -53,12 +53,13 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
           cost);
       result.rejections.add(search.rejections());
       if (!found) {
-        result.shortfall = Shortfall{index - 1, search.rejections(), result.kinds[index - 1]};
+        result.shortfall =
+            Shortfall{index - 1, search.rejections(), result.group_indices[index - 1]};
         return;
       }
       if (cost) population.add(found->landmarks);
       crowd.add(std::move(found->face), std::move(found->point));
-      if (joined) joined(search.rejections());
+      if (on_face_joined) on_face_joined(search.rejections());
     }
   }
 }
@@ -68,14 +69,14 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
                     std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
-                    PopulationBalance& population, const FaceJoined& joined,
+                    PopulationBalance& population, const FaceJoinedCallback& on_face_joined,
                     CastingResult& result) {
   const auto& distances = casting.diversity.min_distance_of_first_mm;
   while (from <= to && !result.shortfall) {
     const auto same = distances.lower_bound(from);
     const std::uint64_t last = same == distances.end() ? to : std::min(to, same->first);
     cast_first_fit(casting, casting.diversity.options_of_face(from), judge, kinds,
-                   family_separation, from, last, crowd, population, joined, result);
+                   family_separation, from, last, crowd, population, on_face_joined, result);
     from = last + 1;
   }
 }
@@ -90,7 +91,7 @@ std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const 
       kAttemptFactorWithTraits * static_cast<std::uint32_t>(casting.diversity.max_attempts);
   for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
     FacePlan face = completed_face_plan(casting, hand, attempt);
-    const TraitRules* rules = hand.traits.empty() ? nullptr : judge.traits();
+    const TraitRules* rules = hand.traits.empty() ? nullptr : judge.trait_rules();
     if (rules == nullptr) return face;
     if (rules->check(face, rules->measurer().landmarks(face.recipe))) continue;
     if (!judge.check_traits(face)) return face;
@@ -105,7 +106,8 @@ std::vector<std::uint64_t> faces_before_reviews(const CastingOptions& casting) {
   std::uint64_t so_far = 0;
   const bool at_once = casting.diversity.mode == DiversityOptions::Mode::kSpread;
   for (const Review& review : casting.reviews) {
-    const std::uint64_t own = at_once ? casting.count : review.count.value_or(casting.count);
+    const std::uint64_t own =
+        at_once ? casting.count : review.reviewed_face_count.value_or(casting.count);
     so_far = std::max(so_far, std::min(own, casting.count));
     counts.push_back(so_far);
   }
@@ -115,8 +117,8 @@ std::vector<std::uint64_t> faces_before_reviews(const CastingOptions& casting) {
 FamilySeparation separation_of(const CastingResult& cast) {
   FamilySeparation separation;
   for (const FamilyPlan& family : cast.families) {
-    separation.add(family.name,
-                   {cast.points.begin() + family.begin, cast.points.begin() + family.end});
+    separation.add(family.name, {cast.points.begin() + family.members_begin,
+                                 cast.points.begin() + family.members_end});
   }
   return separation;
 }
@@ -125,13 +127,13 @@ void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result
   const std::size_t known = result.crowd.size();
   result.crowd = crowd.take_faces();
   result.points = crowd.take_points();
-  if (!result.shortfall) find_nearest(judge, result, known);
+  if (!result.shortfall) find_nearest_neighbours(judge, result, known);
 }
 
 /// Casts more sampled faces after a review has been applied: up to and including face `to`.
 void grow(const CastingOptions& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
           std::uint64_t from, std::uint64_t to, PopulationBalance& population,
-          const FaceJoined& joined, CastingResult& result) {
+          const FaceJoinedCallback& on_face_joined, CastingResult& result) {
   auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   const std::size_t others = result.crowd.size() - (from - 1);
   for (std::size_t i = 0; i < result.crowd.size(); ++i) {
@@ -139,15 +141,15 @@ void grow(const CastingOptions& casting, const FaceJudge& judge, const std::vect
     crowd->add(result.crowd[i], result.points[i]);
   }
   if (others == result.crowd.size()) crowd->mark_first_sampled();
-  cast_first_fit(casting, judge, kinds, separation_of(result), from, to, *crowd, population, joined,
-                 result);
+  cast_first_fit(casting, judge, kinds, separation_of(result), from, to, *crowd, population,
+                 on_face_joined, result);
   take_crowd(judge, *crowd, result);
 }
 
 }  // namespace
 
 CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
-                         const FaceJoined& joined) {
+                         const FaceJoinedCallback& on_face_joined) {
   CastingResult result;
   auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   CrowdSoFar& crowd = *so_far;
@@ -178,22 +180,22 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
     result.families.push_back(std::move(*cast));
   }
   crowd.mark_first_sampled();
-  result.kinds = schedule_groups(casting.groups, casting.count);
+  result.group_indices = schedule_groups(casting.groups, casting.count);
   const std::vector<FaceKind> kinds = face_kinds(casting);
   const std::vector<std::uint64_t> before = faces_before_reviews(casting);
   PopulationBalance population(casting.population);
   std::uint64_t sampled = before.empty() ? casting.count : before.front();
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
-    cast_spread(casting, judge, kinds, family_separation, crowd, joined, result);
+    cast_spread(casting, judge, kinds, family_separation, crowd, on_face_joined, result);
   } else {
-    cast_first_fit(casting, judge, kinds, family_separation, 1, sampled, crowd, population, joined,
-                   result);
+    cast_first_fit(casting, judge, kinds, family_separation, 1, sampled, crowd, population,
+                   on_face_joined, result);
   }
   take_crowd(judge, crowd, result);
   so_far.reset();  // free the search index, which takes as much memory as the points
   const auto grow_to = [&](std::uint64_t count) {
     if (result.shortfall || count <= sampled) return;
-    grow(casting, judge, kinds, sampled + 1, count, population, joined, result);
+    grow(casting, judge, kinds, sampled + 1, count, population, on_face_joined, result);
     sampled = count;
   };
   for (std::size_t r = 0; r < casting.reviews.size(); ++r) {
@@ -205,7 +207,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   return result;
 }
 
-void find_nearest(const FaceJudge& judge, CastingResult& cast, std::size_t first) {
+void find_nearest_neighbours(const FaceJudge& judge, CastingResult& cast, std::size_t first) {
   NearestFaceSearch index(judge.space().dimensions());
   for (const FaceSpace::Point& point : cast.points) index.add(point);
   parallel_for_each(cast.points.size() - first, [&](std::size_t after_first) {

@@ -14,13 +14,13 @@ namespace crowdface {
 /// number of attempts is bounded. If constraints cannot be met, the result has a shortfall; no
 /// exception is thrown.
 ///
-/// \param joined  Called after each sampled face.
+/// \param on_face_joined  Called after each sampled face.
 /// \throws InvalidInput if a family or a review names a face that does not exist.
 CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
-                         const FaceJoined& joined = {});
+                         const FaceJoinedCallback& on_face_joined = {});
 
 /// For each face of a crowd, beginning with index `first`, finds the nearest head and the nearest
 /// earlier face, and stores both in the face's plan.
-void find_nearest(const FaceJudge& judge, CastingResult& cast, std::size_t first = 0);
+void find_nearest_neighbours(const FaceJudge& judge, CastingResult& cast, std::size_t first = 0);
 
 }  // namespace crowdface

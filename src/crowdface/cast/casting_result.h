@@ -19,10 +19,10 @@ namespace crowdface {
 
 /// The face at which casting stopped before it had found all faces, and the reason.
 struct Shortfall {
-  std::uint64_t reached = 0;  ///< number of sampled faces that were cast
-  Rejections rejections;      ///< how often each constraint rejected a candidate for the next face
-  int kind = -1;              ///< group of the sampled face that could not be found, or −1
-  std::string family = {};    ///< name of the family that could not be cast, if any
+  std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
+  Rejections rejections;    ///< how often each constraint rejected a candidate for the next face
+  int group_index = -1;     ///< group of the sampled face that could not be found, or −1
+  std::string family = {};  ///< name of the family that could not be cast, if any
   std::string reviewed_face = {};  ///< id of the face that could not be redrawn, if any
   std::string recipe = {};         ///< id of the hand-written face that could not be cast, if any
   std::string changed_face = {};   ///< id of the face that could not be changed, if any
@@ -34,8 +34,8 @@ struct ChangedFace;
 struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< who requests the change, such as "review 2"
-  /// The face of which this change makes a variant, as that face was before the change. Null if the
-  /// change makes no variant.
+  /// If the change turns the face into a variant of another face: the other face, as it was before
+  /// the change. Otherwise null.
   std::shared_ptr<const ChangedFace> variant_of;
   /// smallest distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;
@@ -45,7 +45,7 @@ struct AppliedChange {
 struct ChangedFace {
   FacePlan face;  ///< the face's plan; its colours and attachments are not set
   FaceSpace::Point point;
-  /// in the order in which they are applied: first the config's changes
+  /// in the order of application: first the config's changes
   std::vector<AppliedChange> changes = {};
   TraitLimits traits = {};  ///< limits on measurements that all changes together set
   /// whether the face was redrawn, and so shows another person than before
@@ -59,7 +59,7 @@ struct CastingResult {
   /// first the faces of recipes, then of families, then the sampled faces 1 … count
   std::vector<FacePlan> crowd;
   std::vector<FaceSpace::Point> points;  ///< #crowd: each face's point in the face space
-  std::vector<int> kinds;                ///< group of each sampled face, or −1
+  std::vector<int> group_indices;        ///< group of each sampled face, or −1
   std::vector<FamilyPlan> families;
   /// faces that reviews rejected, in the order of rejection; a face and its replacement have the
   /// same id
@@ -81,6 +81,6 @@ inline constexpr std::uint64_t kFacesCastInParallel = 64;
 ///
 /// \param rejected  The candidates for this face that were rejected; there are many if the crowd is
 ///                  nearly full.
-using FaceJoined = std::function<void(const Rejections& rejected)>;
+using FaceJoinedCallback = std::function<void(const Rejections& rejected)>;
 
 }  // namespace crowdface

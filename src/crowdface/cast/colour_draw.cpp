@@ -39,7 +39,7 @@ class ColourDrawing {
   std::vector<SourceWeight> drawn(Index typical, std::uint64_t index, std::uint32_t attempt,
                                   const std::string& who) const {
     std::vector<Index> heads;
-    for (Index h = 0; h < static_cast<Index>(draw_.heads.size()); ++h) {
+    for (Index h = 0; h < static_cast<Index>(draw_.head_names.size()); ++h) {
       if (alike(h, typical)) heads.push_back(h);
     }
     const std::string purpose = concat("colours/", who);
@@ -95,7 +95,7 @@ class Parents {
 
 void choose_colours(const ColourOptions& draw, std::vector<FacePlan>& crowd) {
   const ColourDrawing drawing(draw);
-  Parents parents(draw.heads, crowd);
+  Parents parents(draw.head_names, crowd);
   for (FacePlan& face : crowd) {
     const Index typical = typical_head(face.recipe, draw.tags);
     std::vector<SourceWeight>& colours = face.recipe.colours;

@@ -14,8 +14,8 @@ namespace crowdface {
 /// Parameters for choosing colours (textures) at random, independently of shapes.
 struct ColourOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> heads;  ///< names of the heads; some parents of families are heads
-  HeadTags tags;                   ///< the tags of each head, or empty
+  std::vector<std::string> head_names;  ///< names of the heads; some parents of families are heads
+  HeadTags tags;                        ///< the tags of each head, or empty
   /// The tags that must be equal on the head that lends colours and on the face's typical head.
   /// Empty optional: all tags.
   std::optional<std::vector<std::string>> tags_to_match;

@@ -67,8 +67,9 @@ std::string full_key(const Constraint& constraint) {
 /// Returns the value of a constraint's limit with its unit, as text.
 std::string limit_of(const Constraint& constraint, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability) {
-  const double limit = constraint.diversity != nullptr ? diversity.*constraint.diversity
-                                                       : believability.*constraint.believability;
+  const double limit = constraint.diversity_limit != nullptr
+                           ? diversity.*constraint.diversity_limit
+                           : believability.*constraint.believability_limit;
   return concat(limit, constraint.unit);
 }
 

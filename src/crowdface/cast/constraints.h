@@ -39,9 +39,9 @@ struct Constraint {
   /// key of the limit in this section; casting.json and logs use this name, too
   std::string_view key;
   /// the option that holds the limit, if it is a diversity option
-  double DiversityOptions::*diversity = nullptr;
+  double DiversityOptions::*diversity_limit = nullptr;
   /// the option that holds the limit, if it is a believability option
-  double BelievabilityOptions::*believability = nullptr;
+  double BelievabilityOptions::*believability_limit = nullptr;
   /// unit of the limit, with a space before it
   std::string_view unit = {};
   /// text about a face that violates the constraint; messages append the limit
@@ -52,7 +52,7 @@ struct Constraint {
 
   /// Returns whether the limit is a minimum distance. If so, more faces fit when the
   /// user lowers it.
-  bool is_distance() const { return diversity != nullptr && unit == " mm"; }
+  bool is_distance() const { return diversity_limit != nullptr && unit == " mm"; }
 };
 const Constraint& constraint_of(Reason reason);
 
@@ -71,21 +71,21 @@ std::string describe_violation(Reason reason, const DiversityOptions& diversity,
 
 /// Number of rejected candidates for each reason.
 struct Rejections {
-  std::array<std::uint64_t, kReasonCount> count = {};
-  void add(Reason reason, std::uint64_t times = 1) {
-    count[static_cast<std::size_t>(reason)] += times;
+  std::array<std::uint64_t, kReasonCount> counts = {};
+  void add(Reason reason, std::uint64_t candidate_count = 1) {
+    counts[static_cast<std::size_t>(reason)] += candidate_count;
   }
   void add(const Rejections& other) {
-    for (std::size_t r = 0; r < kReasonCount; ++r) count[r] += other.count[r];
+    for (std::size_t r = 0; r < kReasonCount; ++r) counts[r] += other.counts[r];
   }
-  std::uint64_t of(Reason reason) const { return count[static_cast<std::size_t>(reason)]; }
+  std::uint64_t of(Reason reason) const { return counts[static_cast<std::size_t>(reason)]; }
   std::uint64_t total() const {
-    return std::accumulate(count.begin(), count.end(), std::uint64_t{0});
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   }
   /// Returns the most frequent reason; if several reasons are equally frequent, the first of these
   /// in the enumeration.
   Reason most_frequent() const {
-    return static_cast<Reason>(std::ranges::max_element(count) - count.begin());
+    return static_cast<Reason>(std::ranges::max_element(counts) - counts.begin());
   }
 };
 

@@ -32,9 +32,9 @@ struct DiversityOptions {
   int max_attempts = 1000;
   /// A face whose distance from a head is smaller than this counts as the same person.
   static constexpr double kSamePersonMm = 0.5;
-  /// The first candidates for a face are rejected if they are the same person as a head. This is
-  /// the number of such first candidates. Later candidates are accepted, because some configs yield
-  /// only faces near heads.
+  /// Casting rejects candidates that are the same person as a head, but only among this many first
+  /// candidates for a face. It accepts later candidates, because some configs yield only faces near
+  /// heads.
   static constexpr std::uint32_t kCandidatesUnlikeHeads = 100;
   /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;
@@ -54,9 +54,9 @@ struct DiversityOptions {
   }
   /// Returns a copy of these options with the `min_distance_mm` of one sampled face.
   DiversityOptions options_of_face(std::uint64_t index) const {
-    DiversityOptions own = *this;
-    own.min_distance_mm = min_distance_mm_of(index);
-    return own;
+    DiversityOptions options = *this;
+    options.min_distance_mm = min_distance_mm_of(index);
+    return options;
   }
 };
 

@@ -113,7 +113,8 @@ void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScal
       break;
     case SmoothnessDistribution::Unit::kSize:
       recipe.iterations =
-          drawn > 0 ? iterations_of_size(scale.kind, drawn, scale.edge_length_mm) : 0;
+          drawn > 0 ? iterations_for_wavelength(scale.operator_kind, drawn, scale.edge_length_mm)
+                    : 0;
       break;
   }
   recipe.iterations = std::min(recipe.iterations, scale.max_level);
@@ -186,7 +187,7 @@ BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Inde
       take_random(retry);
     }
   }
-  draw_smoothness(manual.smoothness.value_or(draw.sampling.smoothness), casting.scale, draws,
+  draw_smoothness(manual.smoothness.value_or(draw.sampling.smoothness), casting.level_scale, draws,
                   draw.name, recipe);
   recipe.extrapolation = draws.in(manual.extrapolation.value_or(draw.sampling.extrapolation),
                                   "extrapolation", draw.name);

@@ -17,7 +17,7 @@ namespace crowdface {
 
 /// Converts a smoothness (0 … 1) to a number of smoothing iterations.
 struct LevelScale {
-  OperatorKind kind = OperatorKind::kUmbrella;
+  OperatorKind operator_kind = OperatorKind::kUmbrella;
   std::uint64_t max_level = 1;  ///< L_max: number of iterations at smoothness 1
   /// root mean square edge length of the skin, averaged over the heads
   double edge_length_mm = 1;
@@ -33,7 +33,7 @@ struct CastingOptions {
   SamplingOptions sampling;
   std::vector<ManualRecipe> recipes;
   Normalization normalization = Normalization::kPartition;
-  LevelScale scale;
+  LevelScale level_scale;
   DiversityOptions diversity = {};
   std::vector<FamilyOptions> families = {};
   std::vector<Review> reviews = {};  ///< reviews, which are applied one after the other
@@ -50,8 +50,8 @@ struct FaceKind {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
-  /// For each band, the heads that lend detail. If the list or a band's entry is empty, the sources
-  /// in `sampling` apply instead.
+  /// For each band, the heads that lend detail. A band without heads here has the sources of
+  /// `sampling`.
   std::vector<std::vector<Index>> sources = {};
 };
 /// Returns the heads that lend detail to a band of a face of this kind.

@@ -15,8 +15,8 @@ constexpr int kCountHalvings = 7;
 /// The pool must contain at least this many candidates for each face of a crowd.
 constexpr std::uint64_t kPoolPerFace = 5;
 
-/// Returns how many candidates first-fit casting keeps at this minimum distance, taking the pool in
-/// its order. Stops counting at `enough`.
+/// Returns how many candidates of the pool, taken in order, first-fit casting keeps at this minimum
+/// distance. Stops counting at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
   NearestFaceSearch kept(pool.points[0].as_built.size());
   for (const FaceSpace::Point& point : pool.points) {
@@ -48,7 +48,7 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
     const FarthestPoints::Pick pick = points.farthest(-1);
     if (pick.candidate < 0) break;
     if (judge.check_skin(pool.faces[static_cast<std::size_t>(pick.candidate)].recipe)) {
-      points.drop(pick.candidate);
+      points.remove(pick.candidate);
       continue;
     }
     points.pick(pick.candidate);

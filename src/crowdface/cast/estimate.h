@@ -11,7 +11,7 @@ namespace crowdface {
 
 /// The distances that a crowd of a given number of faces can keep.
 struct EstimateRow {
-  std::uint64_t faces = 0;
+  std::uint64_t face_count = 0;
   /// smallest distance between two faces if the crowd is cast in spread mode
   double spread_distance_mm = 0;
   /// largest min_distance at which first-fit casting finds this many faces

@@ -47,7 +47,7 @@ std::vector<std::string> changed_keys(const AppliedChange& applied) {
   const std::pair<const char*, bool> keys[] = {{"age", change.age || change.age_step},
                                                {"variant_of", change.variant_of.has_value()},
                                                {"group", change.group.has_value()},
-                                               {"lock", !change.locked.empty()},
+                                               {"lock", !change.locked_parts.empty()},
                                                {"traits", !change.traits.empty()},
                                                {"wears", change.attachments.has_value()},
                                                {"takes_off", !change.removed_attachments.empty()},
@@ -76,7 +76,7 @@ double least_share(const Holds& holds) {
 /// Whether a change requires a redraw of the face only because the change sets limits on
 /// measurements.
 bool limits_only(const FaceChange& change) {
-  return !change.group && change.locked.empty();
+  return !change.group && change.locked_parts.empty();
 }
 
 class Changing {
@@ -160,14 +160,15 @@ class Changing {
           random_face_plan(casting_, open, key(attempt), kind_called(other.group, casting_));
       const auto at = [&](double share) {
         FacePlan face = drawn;
-        face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.scale);
+        face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.level_scale);
         face.recipe.colours = other.recipe.colours;
         face.age = other.age;
         if (!other.age) apply_age(face, age, {casting_.anchors, casting_.tags}, sampling);
         return face;
       };
       const auto is_beyond = [&](const FacePlan& face) {
-        return FaceSpace::distance(judge_.space().point(face.recipe), point) >= change.distance_mm;
+        return FaceSpace::distance(judge_.space().point(face.recipe), point) >=
+               change.variant_distance_mm;
       };
       return at(is_beyond(at(1)) ? least_share([&](double share) { return is_beyond(at(share)); })
                                  : 1);
@@ -179,17 +180,18 @@ class Changing {
     FaceKind kind = kind_called(change.group ? change.group : now.group, casting_);
     ManualRecipe open;
     open.id = now.id;
-    if (!change.locked.empty()) open.target = now.recipe.target;
+    if (!change.locked_parts.empty()) open.target = now.recipe.target;
     if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
     const bool only_traits = limits_only(change);
     return [=, this](std::uint32_t attempt) {
       FacePlan drawn = random_face_plan(casting_, open, key(attempt), kind);
       drawn.index = now.index;
-      if (!change.locked.empty()) copy_locked_bands(change.locked, now.recipe, drawn.recipe);
+      if (!change.locked_parts.empty())
+        copy_locked_bands(change.locked_parts, now.recipe, drawn.recipe);
       if (!only_traits || !meets_limits(drawn)) return drawn;
       const auto at = [&](double share) {
         FacePlan face = drawn;
-        face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.scale);
+        face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.level_scale);
         return face;
       };
       // Go beyond the smallest fraction by a margin, so that the whole mesh meets the limits too.
@@ -201,12 +203,12 @@ class Changing {
   }
 
   bool meets_limits(const FacePlan& face) const {
-    const FaceMeasurer& measurer = judge_.traits()->measurer();
+    const FaceMeasurer& measurer = judge_.trait_rules()->measurer();
     return measurer.meets(changed_.traits, measurer.landmarks(face.recipe));
   }
 
-  std::optional<FaceSearch::Found> search(const FaceSearch::Generate& generate,
-                                          const CrowdSoFar& others) {
+  std::optional<FaceSearch::FoundFace> search(const FaceSearch::Generate& generate,
+                                              const CrowdSoFar& others) {
     FaceJudge judge = judge_;
     CastingOptions limited;
     std::optional<TraitRules> rules;
@@ -216,7 +218,7 @@ class Changing {
       for (Group& group : limited.groups) {
         group.sampling.traits = merge_limits(group.sampling.traits, changed_.traits);
       }
-      judge.set_trait_rules(&rules.emplace(judge.traits()->measurer(), limited));
+      judge.set_trait_rules(&rules.emplace(judge.trait_rules()->measurer(), limited));
     } else if (changed_.variant_of) {
       judge.set_trait_rules(nullptr);
     }
@@ -232,7 +234,7 @@ class Changing {
     return face;
   }
 
-  void change_into(std::optional<FaceSearch::Found> found) {
+  void change_into(std::optional<FaceSearch::FoundFace> found) {
     if (!found) return;
     found->face.index = changed_.face.index;
     found->face.notes = changed_.face.notes;
@@ -267,7 +269,7 @@ class Changing {
   CastingResult& cast_;
   ChangedFace& changed_;
   int number_ = 0;  ///< number of the current change, from 1
-  /// minimum distance from other faces that applies to the current change
+  /// minimum distance between the face with the current change and other faces
   double min_distance_mm_ = 0;
 };
 
@@ -275,13 +277,13 @@ class Changing {
 ///
 /// \param first  whether to apply the changes before the changes that the faces already have.
 void apply(const CastingOptions& casting, const FaceJudge& judge,
-           const std::vector<FaceChange>& changes, const std::string& by, bool first,
+           const std::vector<FaceChange>& changes, const std::string& origin, bool first,
            CastingResult& cast) {
   // Before any of these changes is applied, copy the original face of each variant.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
     const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;
-    applied.push_back({change, by, nullptr,
+    applied.push_back({change, origin, nullptr,
                        first ? casting.diversity.min_distance_mm_of(index.value_or(0))
                              : casting.diversity.min_distance_mm});
     if (!change.variant_of) continue;
@@ -301,16 +303,16 @@ void apply(const CastingOptions& casting, const FaceJudge& judge,
 }  // namespace
 
 void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
-                   const std::vector<FaceChange>& changes, const std::string& by,
+                   const std::vector<FaceChange>& changes, const std::string& origin,
                    CastingResult& cast) {
-  apply(casting, judge, changes, by, false, cast);
+  apply(casting, judge, changes, origin, false, cast);
 }
 
 AvoidedFaces::AvoidedFaces(const CastingResult& cast, double min_distance_mm,
-                           const std::vector<bool>& settled)
+                           const std::vector<bool>& avoid_if_changed)
     : min_distance_mm_(min_distance_mm) {
   for (const auto& [face, changed] : cast.changed) {
-    if (settled.empty() || settled[face]) points_.push_back(changed.point);
+    if (avoid_if_changed.empty() || avoid_if_changed[face]) points_.push_back(changed.point);
   }
 }
 

@@ -17,28 +17,29 @@ namespace crowdface {
 /// CastingResult::changed. If a face cannot be redrawn, sets the shortfall.
 ///
 /// - A redrawn face keeps its group and its age, unless the change gives it another group. It keeps
-///   the crowd's minimum distances from the first versions of the faces before it in the plan. So a
-///   redrawn face stays the same when the crowd grows or other faces are redrawn.
+///   the crowd's minimum distances from the faces before it in the plan, as these faces were before
+///   all reviews. So a redrawn face stays the same when the crowd grows or other faces are redrawn.
 /// - A variant is a mixture of another face (as it is before these changes) and a random face on
 ///   the same target. Its distance from the other face is the requested distance.
 /// - If a change sets only limits on measurements, the changed face is a mixture of the old face
 ///   and a random face that meets the limits. The fraction of the random face is as small as the
 ///   limits allow: zero if the old face already meets the limits.
 ///
-/// \param by  the origin of the changes, such as "review 2".
+/// \param origin  the origin of the changes, such as "review 2".
 /// \throws InvalidInput if a face is not in the crowd.
 void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
-                   const std::vector<FaceChange>& changes, const std::string& by,
+                   const std::vector<FaceChange>& changes, const std::string& origin,
                    CastingResult& cast);
 
 /// Keeps faces that are cast or redrawn later at a minimum distance from the faces that earlier
 /// reviews have changed.
 class AvoidedFaces {
  public:
-  /// \param cast     the crowd with the changes of the reviews so far.
-  /// \param settled  #crowd: false for faces that are being redrawn. Empty: no face is.
+  /// \param cast  the crowd with the changes of the reviews so far.
+  /// \param avoid_if_changed  #crowd: whether to avoid the face if it was changed; false for faces
+  ///                          that are being redrawn. Empty: avoids all changed faces.
   AvoidedFaces(const CastingResult& cast, double min_distance_mm,
-               const std::vector<bool>& settled = {});
+               const std::vector<bool>& avoid_if_changed = {});
   /// Returns why a point of the face space is rejected; nothing if it is accepted.
   std::optional<Reason> rejection_reason(const FaceSpace::Point& point) const;
 

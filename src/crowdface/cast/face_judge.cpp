@@ -8,42 +8,44 @@
 
 namespace crowdface {
 
-std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits, const SkinDefects& skin) {
-  const auto triangles = static_cast<double>(skin.local.compared);
-  if (static_cast<double>(skin.local.flipped) > limits.max_flipped * triangles) {
+std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
+                                     const SkinDefects& defects) {
+  const auto triangles = static_cast<double>(defects.local.compared_count);
+  if (static_cast<double>(defects.local.flipped_count) > limits.max_flipped * triangles) {
     return Reason::kFlipped;
   }
-  if (skin.local.stretch > limits.max_stretch) return Reason::kStretched;
-  if (static_cast<double>(skin.intersecting) > limits.max_intersecting * triangles) {
+  if (defects.local.stretch_factor > limits.max_stretch) return Reason::kStretched;
+  if (static_cast<double>(defects.intersecting_count) > limits.max_intersecting * triangles) {
     return Reason::kIntersecting;
   }
-  if (skin.gap_excess_mm > limits.max_gap_mm) return Reason::kGap;
-  if (skin.exposed_mm2 > limits.max_exposed_mm2) return Reason::kExposed;
+  if (defects.gap_excess_mm > limits.max_gap_mm) return Reason::kGap;
+  if (defects.exposed_back_mm2 > limits.max_exposed_mm2) return Reason::kExposed;
   return std::nullopt;
 }
 
 FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
-                     const BelievabilityOptions& believability, const ProxySkin* skin,
-                     FindMeshDefects meshes)
+                     const BelievabilityOptions& believability, const ProxySkin* proxy_skin,
+                     FindMeshDefects find_mesh_defects)
     : space_(space),
       diversity_(diversity),
       believability_(believability),
-      heads_(space.dimensions()),
+      head_search_(space.dimensions()),
       plausibility_(space),
-      skin_(skin),
-      mesh_defects_(std::move(meshes)) {
-  for (Index h = 0; h < space.head_point_count(); ++h) heads_.add(space.head_point(h));
+      proxy_skin_(proxy_skin),
+      find_mesh_defects_(std::move(find_mesh_defects)) {
+  for (Index h = 0; h < space.head_point_count(); ++h) head_search_.add(space.head_point(h));
   std::vector<FaceSpace::Point> heads;
   for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h));
-  // If the heads are similar to each other or small, a smaller limit applies.
+  // If the heads are similar to each other or small, this fraction of the heads' median distance
+  // from each other is the limit instead of kSamePersonMm.
   constexpr double kFractionOfMedian = 0.1;
   same_person_mm_ = std::min(DiversityOptions::kSamePersonMm,
                              kFractionOfMedian * quartiles(pair_distances(heads)).median);
 }
 
 std::optional<Reason> FaceJudge::check_traits(const FacePlan& face) const {
-  if (traits_ == nullptr || traits_->limits_of(face).empty()) return std::nullopt;
-  return traits_->check(face, traits_->measurer().exact_landmarks(face.recipe));
+  if (trait_rules_ == nullptr || trait_rules_->limits_of(face).empty()) return std::nullopt;
+  return trait_rules_->check(face, trait_rules_->measurer().exact_landmarks(face.recipe));
 }
 
 std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
@@ -56,7 +58,7 @@ std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
     }
   }
   const double limit = diversity_.min_distance_to_faces_mm;
-  if (limit > 0 && heads_.nearest(point, limit).face >= 0) return Reason::kMinDistanceToFaces;
+  if (limit > 0 && head_search_.nearest(point, limit).face >= 0) return Reason::kMinDistanceToFaces;
   if (believability_.check && plausibility_.score(point) > believability_.max_deviation) {
     return Reason::kImplausible;
   }
@@ -65,29 +67,31 @@ std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
 
 std::optional<Reason> FaceJudge::check_candidate(const Recipe& recipe,
                                                  const FaceSpace::Point& point,
-                                                 std::uint32_t earlier) const {
+                                                 std::uint32_t earlier_candidate_count) const {
   if (const auto why = check_recipe(recipe, point)) return why;
-  const bool passes_for_head = earlier < DiversityOptions::kCandidatesUnlikeHeads &&
-                               heads_.nearest(point, same_person_mm_).face >= 0;
-  return passes_for_head ? std::optional(Reason::kMinDistanceToFaces) : std::nullopt;
+  const bool is_same_person_as_head =
+      earlier_candidate_count < DiversityOptions::kCandidatesUnlikeHeads &&
+      head_search_.nearest(point, same_person_mm_).face >= 0;
+  return is_same_person_as_head ? std::optional(Reason::kMinDistanceToFaces) : std::nullopt;
 }
 
 std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
-  if (skin_ == nullptr || !believability_.check) return std::nullopt;
+  if (proxy_skin_ == nullptr || !believability_.check) return std::nullopt;
   // check the unmirrored face, because mirroring does not change its defects
   Recipe recipe = whole;
   recipe.mirrored = false;
   const Positions samples = sample_face(space_.sampled_heads(), recipe);
   std::optional<ProxySkin::Target> mixture;
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
-    mixture.emplace(skin_->target_of_samples(sample_target(space_.sampled_heads(), recipe)));
+    mixture.emplace(proxy_skin_->target_of_samples(sample_target(space_.sampled_heads(), recipe)));
   }
-  const ProxySkin::Target& target = mixture ? *mixture : skin_->target_of_head(recipe.target);
+  const ProxySkin::Target& target = mixture ? *mixture : proxy_skin_->target_of_head(recipe.target);
   SkinDefects defects{target.triangles.compare(samples), 0};
   if (const auto why = exceeded_limit(believability_, defects)) return why;
-  defects.intersecting = skin_->intersecting_triangles(samples, target);
+  defects.intersecting_count = proxy_skin_->intersecting_triangles(samples, target);
   if (const auto why = exceeded_limit(believability_, defects)) return why;
-  return mesh_defects_ ? exceeded_limit(believability_, mesh_defects_(recipe)) : std::nullopt;
+  return find_mesh_defects_ ? exceeded_limit(believability_, find_mesh_defects_(recipe))
+                            : std::nullopt;
 }
 
 }  // namespace crowdface

@@ -15,7 +15,8 @@ namespace crowdface {
 
 /// Returns the first limit that the defects of a face's skin exceed; nothing if they exceed no
 /// limit.
-std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits, const SkinDefects& skin);
+std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
+                                     const SkinDefects& defects);
 
 /// Builds the whole mesh of a recipe, and compares the mesh's skin with the target's skin. Must be
 /// callable from any thread.
@@ -24,32 +25,32 @@ using FindMeshDefects = std::function<SkinDefects(const Recipe&)>;
 /// Judges one candidate at a time, without regard to the other faces of the crowd.
 class FaceJudge {
  public:
-  /// \param skin    Coarse mesh on which flips and intersections are checked. Null: these are not
-  ///                checked.
-  /// \param meshes  If given, FaceJudge also checks whole meshes of the candidates that pass the
-  ///                coarse check.
+  /// \param proxy_skin         Coarse mesh on which flips and intersections are checked. Null: no
+  ///                           check of the skin.
+  /// \param find_mesh_defects  If given, FaceJudge also checks whole meshes of the candidates that
+  ///                           pass the coarse check.
   FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
-            const BelievabilityOptions& believability, const ProxySkin* skin = nullptr,
-            FindMeshDefects meshes = {});
+            const BelievabilityOptions& believability, const ProxySkin* proxy_skin = nullptr,
+            FindMeshDefects find_mesh_defects = {});
 
   /// Sets limits on measurements. \param rules  must outlive this object; null: no limits
-  void set_trait_rules(const TraitRules* rules) { traits_ = rules; }
-  const TraitRules* traits() const { return traits_; }
+  void set_trait_rules(const TraitRules* rules) { trait_rules_ = rules; }
+  const TraitRules* trait_rules() const { return trait_rules_; }
   /// Checks the limits on measurements, with landmarks of the whole mesh.
   std::optional<Reason> check_traits(const FacePlan& face) const;
 
-  /// Checks in microseconds whatever a recipe and its point in the face space determine: weights,
-  /// distance from the input heads, plausibility.
+  /// Checks everything that needs only the recipe and its point in the face space: weights,
+  /// distance from the input heads, plausibility. Takes microseconds.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;
 
-  /// Like `check_recipe`, but also rejects the first candidates for a face if they are so near to a
-  /// head that they pass for the head; see DiversityOptions::kCandidatesUnlikeHeads.
+  /// Like `check_recipe`, but also rejects the first candidates for a face if they count as the
+  /// same person as a head; see DiversityOptions::kCandidatesUnlikeHeads.
   ///
-  /// \param earlier  Number of earlier candidates for the same face.
+  /// \param earlier_candidate_count  Number of earlier candidates for the same face.
   std::optional<Reason> check_candidate(const Recipe& recipe, const FaceSpace::Point& point,
-                                        std::uint32_t earlier) const;
+                                        std::uint32_t earlier_candidate_count) const;
 
   /// Checks the form of the skin: flips, stretch, intersections. Takes a millisecond on the coarse
   /// mesh, a tenth of a second on a whole mesh of 28,000 triangles.
@@ -60,7 +61,7 @@ class FaceJudge {
   /// Returns the head nearest to a point. If faces may be mirrored, the mirror image of a head
   /// counts as this head.
   NearestFaceSearch::NearestFace nearest_head(const FaceSpace::Point& point) const {
-    NearestFaceSearch::NearestFace nearest = heads_.nearest(point);
+    NearestFaceSearch::NearestFace nearest = head_search_.nearest(point);
     nearest.face %= space_.head_count();
     return nearest;
   }
@@ -70,12 +71,12 @@ class FaceJudge {
   const FaceSpace& space_;
   DiversityOptions diversity_;
   BelievabilityOptions believability_;
-  NearestFaceSearch heads_;
+  NearestFaceSearch head_search_;
   double same_person_mm_;  ///< a face that is nearer than this to a head passes for the head
   Plausibility plausibility_;
-  const ProxySkin* skin_;
-  FindMeshDefects mesh_defects_;
-  const TraitRules* traits_ = nullptr;
+  const ProxySkin* proxy_skin_;
+  FindMeshDefects find_mesh_defects_;
+  const TraitRules* trait_rules_ = nullptr;
 };
 
 }  // namespace crowdface

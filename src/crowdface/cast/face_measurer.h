@@ -18,21 +18,21 @@ class FaceMeasurer {
   /// the landmark.
   struct Landmark {
     std::array<Index, 3> samples = {};
-    std::array<double, 3> shares = {};
+    std::array<double, 3> weights = {};
   };
   /// Computes the landmarks on the mesh that is written for a face, #landmarks by 3 in millimetres.
   /// Must be callable from any thread.
   using ExactLandmarks = std::function<Positions(const Recipe&)>;
 
-  /// \param heads      the heads, sampled at the vertices of the landmarks
-  /// \param landmarks  #trait_landmarks
-  /// \param spread     distributions of the heads' measurements
-  FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks, TraitDistributions spread,
-               ExactLandmarks exactly)
+  /// \param heads               the heads, sampled at the vertices of the landmarks
+  /// \param landmarks           #trait_landmarks
+  /// \param head_distributions  distributions of the heads' measurements
+  FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks,
+               TraitDistributions head_distributions, ExactLandmarks exact_landmarks)
       : heads_(std::move(heads)),
         landmarks_(std::move(landmarks)),
-        spread_(std::move(spread)),
-        exact_landmarks_(std::move(exactly)) {}
+        head_distributions_(std::move(head_distributions)),
+        exact_landmarks_(std::move(exact_landmarks)) {}
 
   /// Computes the landmarks of a face in microseconds, #landmarks by 3 in millimetres. Ignores the
   /// correction of the gap between the lips (made after blending), which moves the skin around the
@@ -41,14 +41,14 @@ class FaceMeasurer {
   /// Computes the landmarks of the mesh that is written for a recipe, in about a millisecond.
   Positions exact_landmarks(const Recipe& recipe) const { return exact_landmarks_(recipe); }
 
-  const TraitDistributions& spread() const { return spread_; }
+  const TraitDistributions& head_distributions() const { return head_distributions_; }
   /// Returns whether the measurements between the landmarks meet all limits.
   bool meets(const TraitLimits& limits, const Positions& landmarks) const;
 
  private:
   SampledHeads heads_;
   std::vector<Landmark> landmarks_;
-  TraitDistributions spread_;
+  TraitDistributions head_distributions_;
   ExactLandmarks exact_landmarks_;
 };
 

@@ -25,9 +25,8 @@ using FaceSamples = std::vector<std::uint32_t>;
 FaceSamples choose_face_samples(const Topology& topology, const Components& components,
                                 const Positions& mean, Axis front, Index count);
 
-/// Returns, in ascending order, the samples and those of their mirror images that lie exactly at
-/// vertices.
-FaceSamples samples_and_partners(const FaceSamples& samples, const MirrorMap& mirror);
+/// Returns the samples, and every vertex that is exactly the mirror image of a sample; ascending.
+FaceSamples samples_and_mirror_images(const FaceSamples& samples, const MirrorMap& mirror);
 /// Returns the samples, followed by all other vertices that are needed to interpolate positions at
 /// the samples' mirror images.
 FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mirror);
@@ -44,16 +43,16 @@ using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                              const NodeFields& fields, const FaceSamples& samples);
 
-/// Index of a row of a trajectory, and the row's factor in a linear combination.
+/// Index of a row of a trajectory, and the row's coefficient in a linear combination.
 struct LevelTerm {
   Index row = 0;
-  double factor = 0;
+  double row_coefficient = 0;
 };
 
-/// Returns the rows of a trajectory, and their factors, whose linear combination gives the
-/// displacements at any level. Between stored levels, the interpolation is linear in √L, because
-/// trajectories are nearly straight in √L. All of casting uses this function, so no other code
-/// knows how levels are stored.
+/// Returns the displacements at any level as a linear combination: rows of a trajectory with their
+/// coefficients. Between stored levels, the interpolation is linear in √L, because trajectories are
+/// nearly straight in √L. All of casting uses this function, so no other code knows how levels are
+/// stored.
 ///
 /// \param levels  Levels of the rows, ascending.
 std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level);

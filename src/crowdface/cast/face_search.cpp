@@ -7,15 +7,15 @@
 namespace crowdface {
 
 FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const DiversityOptions& diversity,
-                       int candidates, std::uint32_t first_attempt)
+                       int wanted_candidate_count, std::uint32_t first_attempt)
     : generate_(std::move(generate)),
       judge_(judge),
       diversity_(diversity),
-      wanted_count_(static_cast<std::size_t>(candidates)),
+      wanted_candidate_count_(static_cast<std::size_t>(wanted_candidate_count)),
       first_attempt_(first_attempt),
       next_attempt_(first_attempt),
       last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
-      usual_attempt_(last_attempt_) {}
+      last_usual_attempt_(last_attempt_) {}
 
 /// Returns whether a candidate is far enough from all faces. If another candidate is farther from
 /// the crowd than this candidate, stores only an upper bound of this candidate's distance from the
@@ -23,16 +23,16 @@ FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const Diversit
 bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.nearest_search().nearest(candidate.point, least).face >= 0) return false;
-  if (wanted_count_ == 1) return true;
+  if (wanted_candidate_count_ == 1) return true;
   double farthest = 0;
   for (const Candidate& other : candidates_) {
-    if (other.is_exact) farthest = std::max(farthest, other.nearest_mm);
+    if (other.is_distance_exact) farthest = std::max(farthest, other.distance_to_crowd_mm);
   }
-  candidate.nearest_mm =
+  candidate.distance_to_crowd_mm =
       crowd.nearest_search()
           .nearest(candidate.point, HUGE_VAL, crowd.first_sampled(), crowd.size(), farthest)
           .distance_mm;
-  candidate.is_exact = candidate.nearest_mm >= farthest;
+  candidate.is_distance_exact = candidate.distance_to_crowd_mm >= farthest;
   return true;
 }
 
@@ -40,21 +40,22 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
 /// more attempts than otherwise. So after the usual number of attempts, one acceptable candidate is
 /// enough.
 bool FaceSearch::needs_candidates() const {
-  if (candidates_.size() >= wanted_count_ || next_attempt_ >= last_attempt_) return false;
-  return candidates_.empty() || next_attempt_ < usual_attempt_;
+  if (candidates_.size() >= wanted_candidate_count_ || next_attempt_ >= last_attempt_) return false;
+  return candidates_.empty() || next_attempt_ < last_usual_attempt_;
 }
 
-/// If measurements are limited, measures a candidate and checks the limits. A candidate that
-/// violates these limits does not count as a usual attempt, up to a multiple of the usual number.
+/// If measurements are limited, measures a candidate and checks the limits. Each candidate that
+/// violates these limits raises the allowed number of attempts by one, up to a multiple of the
+/// usual number.
 bool FaceSearch::meets_limits(Candidate& candidate) {
-  const TraitRules* rules = judge_.traits();
+  const TraitRules* rules = judge_.trait_rules();
   if (rules == nullptr) return true;
   candidate.landmarks = rules->measurer().landmarks(candidate.face.recipe);
   const auto reason = rules->check(candidate.face, candidate.landmarks);
   if (!reason) return true;
   rejections_.add(*reason);
   const auto usual = static_cast<std::uint32_t>(diversity_.max_attempts);
-  if (last_attempt_ - usual_attempt_ < (kAttemptFactorWithTraits - 1) * usual) ++last_attempt_;
+  if (last_attempt_ - last_usual_attempt_ < (kAttemptFactorWithTraits - 1) * usual) ++last_attempt_;
   return false;
 }
 
@@ -82,12 +83,12 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
 void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   if (compared_count_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
-    const auto nearest = crowd.nearest_search().nearest(candidate.point, candidate.nearest_mm,
-                                                        compared_count_, crowd.size());
-    candidate.nearest_mm = std::min(candidate.nearest_mm, nearest.distance_mm);
+    const auto nearest = crowd.nearest_search().nearest(
+        candidate.point, candidate.distance_to_crowd_mm, compared_count_, crowd.size());
+    candidate.distance_to_crowd_mm = std::min(candidate.distance_to_crowd_mm, nearest.distance_mm);
   }
   const auto gone = std::erase_if(candidates_, [&](const Candidate& candidate) {
-    return candidate.nearest_mm < diversity_.min_distance_mm;
+    return candidate.distance_to_crowd_mm < diversity_.min_distance_mm;
   });
   rejections_.add(Reason::kMinDistance, gone);
   compared_count_ = crowd.size();
@@ -98,16 +99,17 @@ FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
   for (;;) {
     Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),
                                          [](const Candidate& a, const Candidate& b) {
-                                           if (a.nearest_mm != b.nearest_mm)
-                                             return a.nearest_mm > b.nearest_mm;
-                                           if (a.is_exact != b.is_exact) return b.is_exact;
+                                           if (a.distance_to_crowd_mm != b.distance_to_crowd_mm)
+                                             return a.distance_to_crowd_mm > b.distance_to_crowd_mm;
+                                           if (a.is_distance_exact != b.is_distance_exact)
+                                             return b.is_distance_exact;
                                            return a.face.notes.attempt < b.face.notes.attempt;
                                          });
-    if (first.is_exact) return first;
-    const auto nearest = crowd.nearest_search().nearest(first.point, first.nearest_mm,
+    if (first.is_distance_exact) return first;
+    const auto nearest = crowd.nearest_search().nearest(first.point, first.distance_to_crowd_mm,
                                                         crowd.first_sampled(), crowd.size());
-    first.nearest_mm = std::min(first.nearest_mm, nearest.distance_mm);
-    first.is_exact = true;
+    first.distance_to_crowd_mm = std::min(first.distance_to_crowd_mm, nearest.distance_mm);
+    first.is_distance_exact = true;
   }
 }
 
@@ -119,11 +121,11 @@ FaceSearch::Candidate& FaceSearch::cheapest_candidate(const Cost& cost) {
 }
 
 void FaceSearch::judge_skin(Candidate& candidate) const {
-  if (candidate.is_judged) return;
+  if (candidate.is_skin_judged) return;
   candidate.violated_constraint = judge_.check_traits(candidate.face);
   if (!candidate.violated_constraint)
     candidate.violated_constraint = judge_.check_skin(candidate.face.recipe);
-  candidate.is_judged = true;
+  candidate.is_skin_judged = true;
 }
 
 void FaceSearch::prepare(const CrowdSoFar& crowd) {
@@ -132,9 +134,9 @@ void FaceSearch::prepare(const CrowdSoFar& crowd) {
   if (!candidates_.empty()) judge_skin(farthest_candidate(crowd));
 }
 
-std::optional<FaceSearch::Found> FaceSearch::choose_face(const CrowdSoFar& crowd,
-                                                         const RejectionCheck& rejection_reason,
-                                                         const Cost& cost) {
+std::optional<FaceSearch::FoundFace> FaceSearch::choose_face(const CrowdSoFar& crowd,
+                                                             const RejectionCheck& rejection_reason,
+                                                             const Cost& cost) {
   for (;;) {
     compare_with_added_faces(crowd);
     find_candidates(crowd);
@@ -149,8 +151,8 @@ std::optional<FaceSearch::Found> FaceSearch::choose_face(const CrowdSoFar& crowd
         why = candidate.violated_constraint;
       }
       if (!why) {
-        return Found{std::move(candidate.face), std::move(candidate.point),
-                     std::move(candidate.landmarks)};
+        return FoundFace{std::move(candidate.face), std::move(candidate.point),
+                         std::move(candidate.landmarks)};
       }
       rejections_.add(*why);
       candidates_.erase(candidates_.begin() + (&candidate - candidates_.data()));

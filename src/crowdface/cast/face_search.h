@@ -30,13 +30,13 @@ class FaceSearch {
   using Cost = std::function<double(const Positions& landmarks)>;
 
   FaceSearch(Generate generate, const FaceJudge& judge, const DiversityOptions& diversity,
-             int candidates, std::uint32_t first_attempt = 0);
+             int wanted_candidate_count, std::uint32_t first_attempt = 0);
 
   /// Generates candidates in advance and compares them with the current crowd. Different searches
   /// may run in parallel.
   void prepare(const CrowdSoFar& crowd);
 
-  struct Found {
+  struct FoundFace {
     FacePlan face;
     FaceSpace::Point point;
     /// has no rows if the crowd has neither limits nor distributions of measurements
@@ -47,9 +47,9 @@ class FaceSearch {
   ///
   /// \param cost  If given, the candidate with the smallest cost is chosen instead of the farthest
   ///              candidate.
-  std::optional<Found> choose_face(const CrowdSoFar& crowd,
-                                   const RejectionCheck& rejection_reason = {},
-                                   const Cost& cost = {});
+  std::optional<FoundFace> choose_face(const CrowdSoFar& crowd,
+                                       const RejectionCheck& rejection_reason = {},
+                                       const Cost& cost = {});
 
   const Rejections& rejections() const { return rejections_; }
 
@@ -59,9 +59,10 @@ class FaceSearch {
     FaceSpace::Point point;
     Positions landmarks = {};
     /// distance to the nearest face of the crowd, or an upper bound of this distance
-    double nearest_mm = HUGE_VAL;
-    bool is_exact = true;    ///< whether `nearest_mm` is the exact distance, not an upper bound
-    bool is_judged = false;  ///< whether `check_skin` was called
+    double distance_to_crowd_mm = HUGE_VAL;
+    bool is_distance_exact =
+        true;  ///< whether `distance_to_crowd_mm` is the exact distance, not an upper bound
+    bool is_skin_judged = false;  ///< whether `check_skin` was called
     std::optional<Reason> violated_constraint = std::nullopt;
   };
 
@@ -77,8 +78,8 @@ class FaceSearch {
   Generate generate_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
-  std::size_t wanted_count_;
-  std::uint32_t first_attempt_, next_attempt_, last_attempt_, usual_attempt_;
+  std::size_t wanted_candidate_count_;
+  std::uint32_t first_attempt_, next_attempt_, last_attempt_, last_usual_attempt_;
   /// number of faces of the crowd with which the candidates have been compared
   Index compared_count_ = 0;
   std::vector<Candidate> candidates_;

@@ -75,8 +75,8 @@ bool FaceSpace::tables_fit(const FaceSpaceTables& tables, const SampledHeads& he
   return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
          tables.functions.rows() == rows.count(regions) &&
          tables.directions.cols() == 3 * tables.functions.cols() &&
-         static_cast<Index>(tables.metrics.size()) == (regions > 1 ? regions : 0) &&
-         std::ranges::all_of(tables.metrics, [&](const FloatRows& metric) {
+         static_cast<Index>(tables.region_metrics.size()) == (regions > 1 ? regions : 0) &&
+         std::ranges::all_of(tables.region_metrics, [&](const FloatRows& metric) {
            return metric.rows() == rank && metric.cols() == rank;
          });
 }
@@ -193,7 +193,7 @@ void FaceSpace::compute_head_shapes_and_fields() {
   };
   mean_shape_ = shape_at(0);
   for (Index h = 0; h < rows.heads; ++h) {
-    shapes_.push_back(mean_shape_ + shape_at(rows.of_head(h)));
+    head_shapes_.push_back(mean_shape_ + shape_at(rows.of_head(h)));
   }
   const auto levels = static_cast<Index>(heads_.levels.size());
   const Index fields = heads_.region_weights.cols() * rows.heads, size = mean_shape_.size();
@@ -231,13 +231,13 @@ FaceSpace::Shape FaceSpace::shape_in_orientation(const Recipe& recipe, Extrapola
                                                  Index orientation) const {
   const Index first = orientation * head_count();
   auto shape = target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
-    return shapes_[static_cast<std::size_t>(first + head)];
+    return head_shapes_[static_cast<std::size_t>(first + head)];
   });
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     for (const LevelShares& at : level_shares(recipe, k, extrapolation)) {
       for (const LevelTerm& term : level_terms(heads_.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
-          const auto f = static_cast<float>(part.weight * term.factor);
+          const auto f = static_cast<float>(part.weight * term.row_coefficient);
           add_scaled(f, field(k, first + part.head, term.row),
                      static_cast<std::size_t>(shape.size()), shape.data());
         }
@@ -278,7 +278,7 @@ void FaceSpace::find_directions(std::size_t bands) {
   FloatRows rows(heads + static_cast<Index>(kTrainingFaces), mean_shape_.size());
   parallel_for_each(rows.rows(), [&](Index n) {
     const std::vector<float> at =
-        n < heads ? aligned(shapes_[static_cast<std::size_t>(n)])
+        n < heads ? aligned(head_shapes_[static_cast<std::size_t>(n)])
                   : aligned(shape_of(
                         training_recipe(heads_, bands, static_cast<std::uint64_t>(n - heads)),
                         Extrapolation::kAsGiven));
@@ -294,9 +294,9 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
-  // The last coordinate is the distance of the face from the span of the directions. For two faces,
-  // the difference between these distances is at most the distance between the parts of the faces
-  // outside the span.
+  // The last coordinate is the distance of the face from the span of the directions. Each face
+  // consists of a component in the span and a component outside. For two faces, the difference of
+  // their last coordinates is at most the distance between the components outside.
   const double rest = fixed_order_dot(at.data(), at.data(), at.size()) -
                       fixed_order_dot(result.data(), result.data(), size);
   result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
@@ -321,7 +321,7 @@ FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
 }
 
 FaceSpace::Point FaceSpace::head_point(Index head) const {
-  const Eigen::VectorXf at = coordinates(shapes_[static_cast<std::size_t>(head)]);
+  const Eigen::VectorXf at = coordinates(head_shapes_[static_cast<std::size_t>(head)]);
   return {at, at};
 }
 
@@ -379,14 +379,14 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
             fixed_order_dot(directions.row(e).data(), along.data(), along.size()));
       }
     });
-    tables_.metrics.push_back(std::move(metric));
+    tables_.region_metrics.push_back(std::move(metric));
   }
 }
 
 FaceSpace::RegionPoint FaceSpace::region_point(const Point& point, Index region) const {
   RegionPoint result{&point, {}, {}};
-  if (tables_.metrics.empty()) return result;
-  const FloatRows& metric = tables_.metrics[static_cast<std::size_t>(region)];
+  if (tables_.region_metrics.empty()) return result;
+  const FloatRows& metric = tables_.region_metrics[static_cast<std::size_t>(region)];
   const auto times = [&](const Eigen::VectorXf& at) {
     const auto size = static_cast<std::size_t>(metric.rows());
     Eigen::VectorXf product(metric.rows());
@@ -401,7 +401,7 @@ FaceSpace::RegionPoint FaceSpace::region_point(const Point& point, Index region)
 }
 
 double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const {
-  if (tables_.metrics.empty()) return distance(*a.point, *b.point);
+  if (tables_.region_metrics.empty()) return distance(*a.point, *b.point);
   const double share = region_shares_[static_cast<std::size_t>(region)];
   if (!(share > 0)) return 0;
   // Computes (x − y)ᵀ M (x − y) from M x and M y.

@@ -16,7 +16,7 @@ struct FaceSpaceTables {
   FloatRows functions;
   FloatRows directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
-  std::vector<FloatRows> metrics;
+  std::vector<FloatRows> region_metrics;
 };
 
 /// A Euclidean space in which each face is a point. Points are computed from recipes alone, so
@@ -117,8 +117,8 @@ class FaceSpace {
   std::vector<Index> weighted_samples_;  ///< indices of the samples with nonzero weight
   Eigen::VectorXf weight_square_roots_;  ///< √w of each sample in `weighted_samples_`
   FaceSpaceTables tables_;
-  Shape mean_shape_;           ///< shape of the mean head, #P by 3
-  std::vector<Shape> shapes_;  ///< shapes of all heads, including mirror images
+  Shape mean_shape_;                ///< shape of the mean head, #P by 3
+  std::vector<Shape> head_shapes_;  ///< shapes of all heads, including mirror images
   /// α_k (S_L x_h − x_h), one #P by 3 matrix for each region, head (including mirror images) and
   /// row of the level table
   std::vector<float> fields_;

@@ -12,7 +12,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kFounders = 12;  ///< number of founders to try before giving up
-/// number of pairs of new parents to try, in addition to the number of founders
+/// number of pairs of new parents that are tried until a pair matches well; if none does, kFounders
+/// further pairs are tried without this condition
 constexpr std::uint32_t kCouples = 200;
 /// number of candidates that are tried for each founder
 constexpr std::uint32_t kFounderAttempts = 64;
@@ -30,15 +31,15 @@ DiversityOptions without_distance_limits(DiversityOptions diversity) {
 
 /// Finds a family's members, each far enough from the crowd and from the members found before.
 /// Returns fewer members if there is no room.
-std::vector<FaceSearch::Found> find_members(const CastingOptions& casting,
-                                            const FamilyOptions& family, const FaceJudge& judge,
-                                            const FamilySampler& sampler, const FamilyPlan& cast,
-                                            const CrowdSoFar& crowd,
-                                            const FamilySeparation& family_separation,
-                                            Rejections& rejections) {
-  std::vector<FaceSearch::Found> members;
+std::vector<FaceSearch::FoundFace> find_members(const CastingOptions& casting,
+                                                const FamilyOptions& family, const FaceJudge& judge,
+                                                const FamilySampler& sampler,
+                                                const FamilyPlan& cast, const CrowdSoFar& crowd,
+                                                const FamilySeparation& family_separation,
+                                                Rejections& rejections) {
+  std::vector<FaceSearch::FoundFace> members;
   std::vector<FaceSpace::Point> own;
-  while (static_cast<int>(members.size()) < family.members) {
+  while (static_cast<int>(members.size()) < family.member_count) {
     const int number = static_cast<int>(members.size()) + 1;
     FaceSearch search([&](std::uint32_t attempt) { return sampler.member(cast, number, attempt); },
                       judge, casting.diversity, 1);
@@ -84,7 +85,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child (not part of the crowd) replaces the founder.
-    if (family.twins) {
+    if (family.are_twins) {
       FaceSearch model([&](std::uint32_t attempt) { return sampler.twin_model(cast, attempt); },
                        judge, of_founder, 1, f * attempts_each);
       auto child = model.choose_face(crowd, [&](const FaceSpace::Point& point) {
@@ -100,15 +101,15 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     // Find room for all members. If there is not enough room, try the next founder.
     auto members =
         find_members(casting, family, judge, sampler, cast, crowd, family_separation, rejections);
-    if (static_cast<int>(members.size()) < family.members) continue;
+    if (static_cast<int>(members.size()) < family.member_count) continue;
     // Add the new parents and the members to the crowd.
-    for (const FaceSearch::Found& parent : sampler.new_parents()) {
+    for (const FaceSearch::FoundFace& parent : sampler.new_parents()) {
       crowd.add(parent.face, parent.point);
     }
-    cast.begin = crowd.size();
-    cast.end = cast.begin + family.members;
+    cast.members_begin = crowd.size();
+    cast.members_end = cast.members_begin + family.member_count;
     std::vector<FaceSpace::Point> points;
-    for (FaceSearch::Found& member : members) {
+    for (FaceSearch::FoundFace& member : members) {
       points.push_back(member.point);
       crowd.add(std::move(member.face), std::move(member.point));
     }
@@ -140,19 +141,21 @@ double silhouette(const std::vector<FamilyPlan>& families, std::size_t family,
   };
   const auto all = static_cast<Index>(points.size());
   double sum = 0;
-  for (Index i = own.begin; i < own.end; ++i) {
-    const double a = mean_distance(i, {{own.begin, own.end}});
+  for (Index i = own.members_begin; i < own.members_end; ++i) {
+    const double a = mean_distance(i, {{own.members_begin, own.members_end}});
     double b = HUGE_VAL;
     for (std::size_t f = 0; f < families.size(); ++f) {
-      if (f == family || families[f].begin == families[f].end) continue;
-      b = std::min(b, mean_distance(i, {{families[f].begin, families[f].end}}));
+      if (f == family || families[f].members_begin == families[f].members_end) continue;
+      b = std::min(b, mean_distance(i, {{families[f].members_begin, families[f].members_end}}));
     }
-    if (families.size() == 1 && own.end - own.begin < all) {
-      b = mean_distance(i, {{0, own.begin}, {own.end, all}});
+    if (families.size() == 1 && own.members_end - own.members_begin < all) {
+      b = mean_distance(i, {{0, own.members_begin}, {own.members_end, all}});
     }
     if (b < HUGE_VAL && std::max(a, b) > 0) sum += (b - a) / std::max(a, b);
   }
-  return own.end > own.begin ? sum / static_cast<double>(own.end - own.begin) : 0;
+  return own.members_end > own.members_begin
+             ? sum / static_cast<double>(own.members_end - own.members_begin)
+             : 0;
 }
 
 }  // namespace crowdface

@@ -9,9 +9,10 @@
 namespace crowdface {
 
 /// Casts a family: adds the family's new parents and then its members to the crowd. All members are
-/// derived from one founder, who is not part of the crowd. If not all members fit in around the
-/// founder, tries another founder, a bounded number of times. New parents are chosen so that, for
-/// each parent and child, at most one stranger in ten is nearer to the child than the parent is.
+/// derived from one founder, who is not part of the crowd. If there is no room for all members
+/// around the founder, tries another founder, a bounded number of times. New parents are chosen so
+/// that, for each parent and child, at most one stranger in ten is nearer to the child than the
+/// parent is.
 ///
 /// \return  Nothing if the family cannot be cast; `rejections` then holds the reasons.
 std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,

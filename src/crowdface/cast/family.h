@@ -26,7 +26,7 @@ struct Parent {
 /// A family: faces that resemble each other.
 struct FamilyOptions {
   std::string name;
-  int members = 0;
+  int member_count = 0;
   std::optional<std::size_t>
       group;  ///< group whose parameters are used; empty: the crowd's parameters
   /// the head that is the target of all members; empty: members inherit the target from the parents
@@ -42,7 +42,7 @@ struct FamilyOptions {
   double min_distance_mm = 0;  ///< smallest distance between members
   /// whether members are as similar as twins: within 0.5 mm of a common face that is not in the
   /// crowd
-  bool twins = false;
+  bool are_twins = false;
   Range age = {0, 0};  ///< ages of the members, see apply_age
   /// limits that replace the crowd's or group's limits on the same measurements
   TraitLimits traits = {};

@@ -57,7 +57,7 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
     : casting_(casting),
       family_(family),
       judge_(judge),
-      unrelated_(unrelated),
+      unrelated_faces_(unrelated),
       parents_(family.parents.size()),
       kin_points_(judge.space().dimensions()),
       stranger_points_(judge.space().dimensions()) {
@@ -112,7 +112,7 @@ void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan fa
 /// Determines the third contributor, and the substitutes for the parents' heads that are outside
 /// the family's group. Called when the parents are known.
 void FamilySampler::prepare_inheritance() {
-  contributor_kind_ = third_contributor();
+  third_contributor_kind_ = third_contributor();
   if (!family_.group || parents_.empty()) return;
   const FaceKind kind = kind_of_group(casting_, family_.group);
   std::vector<Index> taken, targets;
@@ -203,7 +203,7 @@ bool FamilySampler::sample_parents(const CrowdSoFar& crowd,
 
 double FamilySampler::distance_to_new_parent_mm(const FaceSpace::Point& point) const {
   double mm = HUGE_VAL;
-  for (const FaceSearch::Found& parent : new_parents_) {
+  for (const FaceSearch::FoundFace& parent : new_parents_) {
     mm = std::min(mm, FaceSpace::distance(point, parent.point));
   }
   return mm;
@@ -241,7 +241,7 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   open.target = family_.target;
   open.age = Range{0, 0};
   FacePlan face = random_face_plan(casting_, open, {0, attempt, concat("family/", family_.name)},
-                                   contributor_kind_);
+                                   third_contributor_kind_);
   if (parents_.empty()) {
     // mark the face as a member, so that the family's limits on measurements apply
     face.family = family_.name;
@@ -262,7 +262,7 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
       const int from = inherited_parent(k, b);
       band = from >= 0 ? parent_band(static_cast<std::size_t>(from), k, b, band)
                        : mixed(parent_band(0, k, b, band), parent_band(1, k, b, band), 0.5,
-                               casting_.scale);
+                               casting_.level_scale);
     }
     restore_level_order(region);
   }
@@ -270,9 +270,9 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
 }
 
 /// Returns (1 − t)·from + t·draft.random_face, with the age of the draft applied.
-FacePlan FamilySampler::mixed_face(const FacePlan& from, const Draft& draft, double t) const {
+FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draft, double t) const {
   FacePlan face = draft.random_face;
-  face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.scale);
+  face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.level_scale);
   face.mother_share = (1 - t) * from.mother_share + t * draft.random_face.mother_share;
   apply_age(face, draft.age, {casting_.anchors, casting_.tags}, sampling_of(face));
   return face;
@@ -306,7 +306,7 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
           from >= 0 ? static_cast<std::size_t>(from)
                     : parent_of(b == 0 ? name : concat(name, '/', casting_.sampling.bands[b].name));
       BandRecipe& band = band_of(region, b);
-      band = mixed(band, parent_band(parent, k, b, band), kParentShare, casting_.scale);
+      band = mixed(band, parent_band(parent, k, b, band), kParentShare, casting_.level_scale);
       face.inherited_from.emplace_back(parent == 0 ? "mother" : "father");
     }
     restore_level_order(region);
@@ -314,74 +314,79 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
   for (const KnownParent& parent : parents_) face.parents.push_back(parent.name);
 }
 
-double FamilySampler::max_reach_mm(const FamilyPlan& cast) const {
+double FamilySampler::max_distance_from_founder_mm(const FamilyPlan& family_plan) const {
   const double most = family_.max_distance_mm;
-  return cast.has_twin_model ? std::min(most, kTwinsReach) : most;
+  return family_plan.has_twin_model ? std::min(most, kTwinsReach) : most;
 }
 
-FamilySampler::Draft FamilySampler::draft(const FamilyPlan& cast, int member,
-                                          std::uint32_t attempt) const {
+FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_plan, int member,
+                                                       std::uint32_t attempt) const {
   const FaceRandomKey key = {static_cast<std::uint64_t>(member), attempt,
                              concat("family/", family_.name)};
   ManualRecipe open;
   open.id = member_id(casting_.name, family_.name, member);
   open.target = family_.target;
-  if (parents_.empty()) open.target = cast.founder.recipe.target;
+  if (parents_.empty()) open.target = family_plan.founder.recipe.target;
   open.age = Range{0, 0};
-  Draft draft;
-  draft.random_face = random_face_plan(casting_, open, key, contributor_kind_);
+  MemberDraft draft;
+  draft.random_face = random_face_plan(casting_, open, key, third_contributor_kind_);
   draft.random_face.family = family_.name;
   if (!parents_.empty()) inherit_from_parents(draft.random_face, key);
   const std::string purpose = concat(key.owner, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
-  // how_far, from 0 to 1, sets the distance from the founder between its smallest and largest value
+  // how_far: 0 gives the smallest, 1 the largest distance from the founder
   draft.distance_mm = kNearestShare + (1 - kNearestShare) * how_far;
-  draft.distance_mm *= max_reach_mm(cast);
-  if (cast.has_twin_model) {
-    draft.random_face.inherited_from = cast.founder.inherited_from;
-    draft.age = cast.founder.age.value_or(0);
+  draft.distance_mm *= max_distance_from_founder_mm(family_plan);
+  if (family_plan.has_twin_model) {
+    draft.random_face.inherited_from = family_plan.founder.inherited_from;
+    draft.age = family_plan.founder.age.value_or(0);
   }
   return draft;
 }
 
-FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& cast, const Draft& draft) const {
+FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& family_plan,
+                                                const MemberDraft& draft) const {
   const auto beyond = [&](const FacePlan& face) {
-    return FaceSpace::distance(judge_.space().point(face.recipe), cast.founder_point) >
+    return FaceSpace::distance(judge_.space().point(face.recipe), family_plan.founder_point) >
            draft.distance_mm;
   };
   // Find by bisection how far to go from the founder towards the random face.
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
-    const bool too_far = beyond(mixed_face(cast.founder, draft, t));
+    const bool too_far = beyond(mixed_face(family_plan.founder, draft, t));
     if (t == 1 && !too_far) break;
     t += too_far ? -step : step;
   }
   // The last step of the bisection may have gone beyond the chosen distance. If so, use the
   // previous step.
-  FacePlan face = mixed_face(cast.founder, draft, t);
-  if (t > step && beyond(face)) face = mixed_face(cast.founder, draft, std::max(t - 2 * step, 0.0));
+  FacePlan face = mixed_face(family_plan.founder, draft, t);
+  if (t > step && beyond(face))
+    face = mixed_face(family_plan.founder, draft, std::max(t - 2 * step, 0.0));
   return face;
 }
 
-FacePlan FamilySampler::twin_model(const FamilyPlan& cast, std::uint32_t attempt) const {
-  Draft model = draft(cast, 0, attempt);
+FacePlan FamilySampler::twin_model(const FamilyPlan& family_plan, std::uint32_t attempt) const {
+  MemberDraft model = member_draft(family_plan, 0, attempt);
   const double age = std::exchange(model.age, 0);
-  FacePlan face = face_at_chosen_distance(cast, model);
+  FacePlan face = face_at_chosen_distance(family_plan, model);
   face.age = age;
   return face;
 }
 
-FacePlan FamilySampler::member(const FamilyPlan& cast, int member, std::uint32_t attempt) const {
-  return face_at_chosen_distance(cast, draft(cast, member, attempt));
+FacePlan FamilySampler::member(const FamilyPlan& family_plan, int member,
+                               std::uint32_t attempt) const {
+  return face_at_chosen_distance(family_plan, member_draft(family_plan, member, attempt));
 }
 
 std::optional<Reason> FamilySampler::rejection_reason(
-    const FamilyPlan& cast, const FaceSpace::Point& point,
+    const FamilyPlan& family_plan, const FaceSpace::Point& point,
     const std::vector<FaceSpace::Point>& members, const FamilySeparation& family_separation) const {
-  if (FaceSpace::distance(point, cast.founder_point) > max_reach_mm(cast)) return Reason::kFamily;
-  if (family_separation.intrudes(point, relatives_)) return Reason::kFamily;
-  if (!resembles_parents(cast, point)) return Reason::kFamily;
+  if (FaceSpace::distance(point, family_plan.founder_point) >
+      max_distance_from_founder_mm(family_plan))
+    return Reason::kFamily;
+  if (family_separation.is_too_near_to_family(point, relatives_)) return Reason::kFamily;
+  if (!resembles_parents(family_plan, point)) return Reason::kFamily;
   if (kin_points_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
   if (distance_to_new_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
   double farthest = 0;
@@ -398,12 +403,14 @@ std::optional<Reason> FamilySampler::rejection_reason(
 
 /// Returns whether a child resembles the parents. If the parents are far apart, no child is near
 /// both parents; then a child may be about as far from each parent as the founder is.
-bool FamilySampler::resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const {
+bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
+                                      const FaceSpace::Point& point) const {
   if (nearer_strangers_fraction(point) <= kMaxNearerStrangers) return true;
-  if (nearer_strangers_fraction(cast.founder_point) <= kMaxNearerStrangersToMean) return false;
+  if (nearer_strangers_fraction(family_plan.founder_point) <= kMaxNearerStrangersToMean)
+    return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
     return FaceSpace::distance(point, parent.point) <=
-           FaceSpace::distance(cast.founder_point, parent.point) +
+           FaceSpace::distance(family_plan.founder_point, parent.point) +
                kRoomAtHalf * family_.max_distance_mm;
   });
 }
@@ -413,7 +420,7 @@ double FamilySampler::nearer_strangers_fraction(const FaceSpace::Point& point) c
   for (const KnownParent& parent : parents_) {
     if (!target_substitutes_.contains_all(target_shares(parent.face.recipe))) continue;
     const double mm = FaceSpace::distance(point, parent.point);
-    share = std::max(share, unrelated_.fraction_nearer(point, mm, family_.group));
+    share = std::max(share, unrelated_faces_.fraction_nearer(point, mm, family_.group));
   }
   return share;
 }

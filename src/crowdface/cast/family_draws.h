@@ -21,8 +21,9 @@ struct FamilyPlan {
   FaceSpace::Point founder_point;
   /// whether the members are twins: then `founder` is a hidden child with the age of the twins
   bool has_twin_model = false;
-  Index begin = 0, end = 0;  ///< indices of the members in the crowd: [begin, end)
-  /// largest fraction of strangers that are nearer to a child than the child's parent is
+  Index members_begin = 0, members_end = 0;  ///< indices of the members in the crowd: [begin, end)
+  /// largest value, over all pairs of parent and child, of the fraction of strangers that are
+  /// nearer to the child than the parent is
   double nearer_strangers_fraction = 0;
 };
 
@@ -47,7 +48,7 @@ class FamilySampler {
   bool sample_parents(const CrowdSoFar& crowd, const FamilySeparation& family_separation,
                       std::uint32_t attempt, Rejections& rejections);
   /// Returns the parents that the last call of sample_parents made, mother first.
-  const std::vector<FaceSearch::Found>& new_parents() const { return new_parents_; }
+  const std::vector<FaceSearch::FoundFace>& new_parents() const { return new_parents_; }
   /// Returns the distance from a point to the nearest new parent. (New parents are not yet in the
   /// crowd, so the crowd's search does not find them.)
   double distance_to_new_parent_mm(const FaceSpace::Point& point) const;
@@ -57,14 +58,15 @@ class FamilySampler {
   FacePlan founder(std::uint32_t attempt) const;
   /// Returns the hidden child that all twins resemble. Stores the child's age in the plan but does
   /// not apply it to the recipe.
-  FacePlan twin_model(const FamilyPlan& cast, std::uint32_t attempt) const;
+  FacePlan twin_model(const FamilyPlan& family_plan, std::uint32_t attempt) const;
   /// Returns candidate number `attempt` for member number `member`; members count from 1.
-  FacePlan member(const FamilyPlan& cast, int member, std::uint32_t attempt) const;
+  FacePlan member(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
 
   /// Returns why a point is rejected for a member of this family, nothing if it is accepted.
   ///
   /// \param members  Points of the members found so far.
-  std::optional<Reason> rejection_reason(const FamilyPlan& cast, const FaceSpace::Point& point,
+  std::optional<Reason> rejection_reason(const FamilyPlan& family_plan,
+                                         const FaceSpace::Point& point,
                                          const std::vector<FaceSpace::Point>& members,
                                          const FamilySeparation& family_separation) const;
 
@@ -80,7 +82,7 @@ class FamilySampler {
     FaceSpace::Point point;
   };
   /// The random face of one member, the member's age, and the member's distance from the founder.
-  struct Draft {
+  struct MemberDraft {
     FacePlan random_face;
     double age = 0, distance_mm = 0;
   };
@@ -94,22 +96,22 @@ class FamilySampler {
                          const BandRecipe& random_band) const;
   int inherited_parent(std::size_t region, std::size_t band) const;
   void inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const;
-  Draft draft(const FamilyPlan& cast, int member, std::uint32_t attempt) const;
-  FacePlan mixed_face(const FacePlan& from, const Draft& draft, double t) const;
-  FacePlan face_at_chosen_distance(const FamilyPlan& cast, const Draft& draft) const;
-  double max_reach_mm(const FamilyPlan& cast) const;
-  bool resembles_parents(const FamilyPlan& cast, const FaceSpace::Point& point) const;
+  MemberDraft member_draft(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
+  FacePlan mixed_face(const FacePlan& from, const MemberDraft& draft, double t) const;
+  FacePlan face_at_chosen_distance(const FamilyPlan& family_plan, const MemberDraft& draft) const;
+  double max_distance_from_founder_mm(const FamilyPlan& family_plan) const;
+  bool resembles_parents(const FamilyPlan& family_plan, const FaceSpace::Point& point) const;
 
   const CastingOptions& casting_;
   const FamilyOptions& family_;
   const FaceJudge& judge_;
-  const UnrelatedFaces& unrelated_;
+  const UnrelatedFaces& unrelated_faces_;
   std::vector<KnownParent> parents_;  ///< #parents; empty entries for parents that are missing
   std::vector<std::size_t> missing_parents_;  ///< indices of the parents that were not in the crowd
-  std::vector<FaceSearch::Found> new_parents_;
+  std::vector<FaceSearch::FoundFace> new_parents_;
   /// parameters of the third contributor, who provides features that members inherit from neither
   /// parent
-  FaceKind contributor_kind_;
+  FaceKind third_contributor_kind_;
   /// replaces the parents' targets by targets of the family's group
   SubstituteHeads target_substitutes_;
   /// by band: replaces the parents' sources by sources of the family's group; empty: no group

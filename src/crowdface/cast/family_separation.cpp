@@ -20,11 +20,11 @@ double largest(const FaceSpace::Point& point, const std::vector<FaceSpace::Point
 
 }  // namespace
 
-bool FamilySeparation::intrudes(const FaceSpace::Point& point,
-                                const std::vector<std::string>& relatives) const {
+bool FamilySeparation::is_too_near_to_family(const FaceSpace::Point& point,
+                                             const std::vector<std::string>& relatives) const {
   return std::any_of(members_.begin(), members_.end(), [&](const Member& member) {
     return std::find(relatives.begin(), relatives.end(), member.family) == relatives.end() &&
-           FaceSpace::distance(point, member.point) <= member.radius_mm;
+           FaceSpace::distance(point, member.point) <= member.distance_to_farthest_member_mm;
   });
 }
 
@@ -37,9 +37,9 @@ void FamilySeparation::add(const std::string& family,
 
 UnrelatedFaces::UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space) {
   for (const FamilyOptions& family : casting.families) {
-    if (!family.parents.empty()) faces_of_group_[family.group].resize(kStrangers);
+    if (!family.parents.empty()) points_by_group_[family.group].resize(kStrangers);
   }
-  for (auto& [group, points] : faces_of_group_) {
+  for (auto& [group, points] : points_by_group_) {
     const FaceKind kind = kind_of_group(casting, group);
     parallel_for_each(static_cast<Index>(kStrangers), [&, &points = points](Index i) {
       const FaceRandomKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
@@ -49,13 +49,13 @@ UnrelatedFaces::UnrelatedFaces(const CastingOptions& casting, const FaceSpace& s
   }
 }
 
-double UnrelatedFaces::fraction_nearer(const FaceSpace::Point& point, double mm,
+double UnrelatedFaces::fraction_nearer(const FaceSpace::Point& point, double distance_mm,
                                        std::optional<std::size_t> group) const {
-  const auto found = faces_of_group_.find(group);
-  if (found == faces_of_group_.end()) return 0;
+  const auto found = points_by_group_.find(group);
+  if (found == points_by_group_.end()) return 0;
   const auto& points = found->second;
   const auto nearer = std::count_if(points.begin(), points.end(), [&](const auto& stranger) {
-    return FaceSpace::distance(point, stranger) < mm;
+    return FaceSpace::distance(point, stranger) < distance_mm;
   });
   return static_cast<double>(nearer) / static_cast<double>(points.size());
 }

@@ -18,15 +18,15 @@ namespace crowdface {
 /// and families that share a parent.
 class FamilySeparation {
  public:
-  /// Returns whether a point is too near to a family: whether some member of the family is at least
-  /// as near to the point as to the farthest member of its own family.
+  /// Returns whether a point is too near to a family: whether, for some member of the family, the
+  /// point is no farther than the farthest other member.
   ///
   /// \param relatives  Families that are not checked.
-  bool intrudes(const FaceSpace::Point& point,
-                const std::vector<std::string>& relatives = {}) const;
+  bool is_too_near_to_family(const FaceSpace::Point& point,
+                             const std::vector<std::string>& relatives = {}) const;
   /// Returns why a face that has no relatives is rejected at this point; nothing if it is accepted.
   std::optional<Reason> rejection_reason(const FaceSpace::Point& stranger) const {
-    return intrudes(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
+    return is_too_near_to_family(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
   }
   /// Adds a family by the points of its members.
   void add(const std::string& family, const std::vector<FaceSpace::Point>& members);
@@ -35,7 +35,8 @@ class FamilySeparation {
   struct Member {
     std::string family;
     FaceSpace::Point point;
-    double radius_mm;  ///< distance from this member to the farthest member of its family
+    /// distance from this member to the farthest member of its family
+    double distance_to_farthest_member_mm;
   };
   std::vector<Member> members_;
 };
@@ -48,12 +49,12 @@ class UnrelatedFaces {
  public:
   UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space);
   /// Returns the fraction (0 … 1) of a group's unrelated faces whose distance from a point is below
-  /// `mm`.
-  double fraction_nearer(const FaceSpace::Point& point, double mm,
+  /// `distance_mm`.
+  double fraction_nearer(const FaceSpace::Point& point, double distance_mm,
                          std::optional<std::size_t> group = std::nullopt) const;
 
  private:
-  std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> faces_of_group_;
+  std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> points_by_group_;
 };
 
 }  // namespace crowdface

@@ -51,7 +51,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   remedy.trial_faces = easier.count;
   const Constraint& constraint = constraint_of(remedy.binding_constraint);
   if (!constraint.is_distance()) return remedy;
-  double& distance = easier.diversity.*constraint.diversity;
+  double& distance = easier.diversity.*constraint.diversity_limit;
   std::uint64_t draws = 0;
   const auto shortfall_at = [&](double mm, const FindMeshDefects& defects) {
     distance = mm;
@@ -64,14 +64,14 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
     return cast.shortfall;
   };
   double works = 0, fails = distance;
-  double next = next_smaller(fails, std::min(shortfall.reached, easier.count), easier.count);
+  double next = next_smaller(fails, std::min(shortfall.cast_count, easier.count), easier.count);
   while ((draws < kMaxDraws || works == 0) && fails >= kNearEnough * works) {
     const double mm = whole_hundredths(next);
     if (mm <= works) break;
     if (const auto missing = shortfall_at(mm, {})) {
       fails = mm;
       next = works > 0 ? std::sqrt(works * fails)
-                       : next_smaller(fails, missing->reached, easier.count);
+                       : next_smaller(fails, missing->cast_count, easier.count);
     } else {
       works = mm;
       next = std::sqrt(works * fails);
@@ -86,7 +86,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 }
 
 std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge) {
-  // spread mode finds at most twice as many faces as first fit; 8 adds a margin
+  // spread mode finds at most twice as many faces as first fit; a factor of 8 leaves a margin
   constexpr std::uint64_t kBetter = 8;
   const bool is_large = casting.count > kBetter * kMaxTried;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||

@@ -48,21 +48,22 @@ HairColour hair_colour_for(const HairColour& hair, Tint tint) {
   HairColour own = hair;
   if (tint == Tint::kBrows) {
     own.eumelanin += 0.1 + 0.15 * (1 - hair.eumelanin);
-    own.grey = 0.6 * hair.grey * hair.grey;
+    own.grey_fraction = 0.6 * hair.grey_fraction * hair.grey_fraction;
   } else if (tint == Tint::kBeard) {
     own.eumelanin -= 0.05;
     own.pheomelanin += 0.15 * (1 - hair.eumelanin);
-    own.grey = 0.9 * hair.grey;
+    own.grey_fraction = 0.9 * hair.grey_fraction;
   } else if (tint == Tint::kLashes) {
     own.eumelanin += 0.3;
-    own.grey = 0.2 * hair.grey;
+    own.grey_fraction = 0.2 * hair.grey_fraction;
   }
   return rounded_colour(own);
 }
 
 HairColour rounded_colour(const HairColour& colour) {
   return {to_step(colour.eumelanin, kEumelaninSteps),
-          to_step(colour.pheomelanin, kPheomelaninSteps), to_step(colour.grey, kGreySteps)};
+          to_step(colour.pheomelanin, kPheomelaninSteps),
+          to_step(colour.grey_fraction, kGreySteps)};
 }
 
 bool is_shade_of(const HairColour& rounded, const HairColour& named) {
@@ -75,18 +76,19 @@ bool are_alike(const HairColour& a, const HairColour& b) {
   constexpr double kRounding = 1e-9;
   return std::abs(a.eumelanin - b.eumelanin) < 0.1 + kRounding &&
          std::abs(a.pheomelanin - b.pheomelanin) < 0.2 + kRounding &&
-         std::abs(a.grey - b.grey) < 0.2 + kRounding;
+         std::abs(a.grey_fraction - b.grey_fraction) < 0.2 + kRounding;
 }
 
 std::string colour_label(const HairColour& colour) {
   return concat('e', percent(colour.eumelanin), 'p', percent(colour.pheomelanin), 'g',
-                percent(colour.grey));
+                percent(colour.grey_fraction));
 }
 
 std::optional<HairColour> parse_hair_label(std::string_view label) {
   HairColour colour;
-  for (const auto& [letter, value] :
-       {std::pair{'e', &colour.eumelanin}, {'p', &colour.pheomelanin}, {'g', &colour.grey}}) {
+  for (const auto& [letter, value] : {std::pair{'e', &colour.eumelanin},
+                                      {'p', &colour.pheomelanin},
+                                      {'g', &colour.grey_fraction}}) {
     const std::size_t end = std::min(label.find_first_not_of("0123456789", 1), label.size());
     if (label.empty() || label[0] != letter) return std::nullopt;
     const auto number = parse_unsigned(label.substr(1, end - 1));
@@ -107,8 +109,8 @@ std::array<float, 3> reflected_light(const HairColour& colour) {
   for (std::size_t c = 0; c < 3; ++c) {
     const double absorbed = kEumelanin[c] * colour.eumelanin + kPheomelanin[c] * colour.pheomelanin;
     const double pigmented = kSurface + kWithoutPigment[c] * std::exp(-absorbed);
-    light[c] = static_cast<float>(
-        std::min(double{kNeutralTextureMean}, pigmented + colour.grey * (kWhite[c] - pigmented)));
+    light[c] = static_cast<float>(std::min(
+        double{kNeutralTextureMean}, pigmented + colour.grey_fraction * (kWhite[c] - pigmented)));
   }
   return light;
 }

@@ -14,8 +14,8 @@ namespace crowdface {
 struct HairColour {
   /// concentration of the brown to black pigment: 0.2 gives blond hair, 1 black hair
   double eumelanin = 0;
-  double pheomelanin = 0;  ///< concentration of the red pigment
-  double grey = 0;         ///< fraction of hairs without pigment (white hairs)
+  double pheomelanin = 0;    ///< concentration of the red pigment
+  double grey_fraction = 0;  ///< fraction of hairs without pigment (white hairs)
   bool operator==(const HairColour&) const = default;
 };
 

@@ -17,7 +17,7 @@ namespace {
 HairColour mix(const HairColour& a, const HairColour& b, double share) {
   return {a.eumelanin + share * (b.eumelanin - a.eumelanin),
           a.pheomelanin + share * (b.pheomelanin - a.pheomelanin),
-          a.grey + share * (b.grey - a.grey)};
+          a.grey_fraction + share * (b.grey_fraction - a.grey_fraction)};
 }
 
 /// Returns the index of the share that a random number from 0 to 1 selects. Returns −1 if the
@@ -45,7 +45,7 @@ HairChooser::HairChooser(HairOptions options, const std::vector<FacePlan>& crowd
 }
 
 HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
-  const bool is_twin = face.family && options_.twins.contains(*face.family);
+  const bool is_twin = face.family && options_.twin_families.contains(*face.family);
   const std::string person = is_twin ? *face.family : face.index ? std::string() : face.id;
   const auto key = [&](const char* what) {
     return person.empty() ? std::string(what) : concat(what, '/', person);
@@ -62,7 +62,7 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
   own.pheomelanin += kScatter * (scatter[1] - 0.5);
   base_colours_[face.id] = own;
-  own.grey = std::max(own.grey, grey_fraction(face, head, key("hair/grey")));
+  own.grey_fraction = std::max(own.grey_fraction, grey_fraction(face, head, key("hair/grey")));
   return rounded_colour(own);
 }
 
@@ -125,9 +125,9 @@ std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
 std::optional<HairColour> HairChooser::colour_of_parent(const std::string& parent) const {
   if (const auto face = base_colours_.find(parent); face != base_colours_.end())
     return face->second;
-  const auto head = std::ranges::find(options_.heads, parent);
-  if (head == options_.heads.end()) return std::nullopt;
-  return colour_of_tags(head - options_.heads.begin(), concat("hair/tone/", parent));
+  const auto head = std::ranges::find(options_.head_names, parent);
+  if (head == options_.head_names.end()) return std::nullopt;
+  return colour_of_tags(head - options_.head_names.begin(), concat("hair/tone/", parent));
 }
 
 /// Returns the hair colour that the head's tags name. If the tags name no colour, returns a random

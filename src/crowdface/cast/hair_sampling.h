@@ -18,10 +18,10 @@ namespace crowdface {
 /// The parameters of HairChooser. Its members have the same meaning as in AttachmentOptions.
 struct HairOptions {
   std::uint64_t seed = 1;
-  HeadTags tags;                   ///< the tags of each head
-  std::vector<std::string> heads;  ///< names of the heads; some parents of families are heads
+  HeadTags tags;                        ///< the tags of each head
+  std::vector<std::string> head_names;  ///< names of the heads; some parents of families are heads
   std::map<std::string, std::map<std::string, double>> hair_colours;
-  std::set<std::string> twins;
+  std::set<std::string> twin_families;
 };
 
 /// Chooses the hair colours of faces, in the order of the plan; see choose_attachments. The colour
@@ -46,7 +46,8 @@ class HairChooser {
   double grey_fraction(const FacePlan& face, Index head, const std::string& purpose) const;
 
   HairOptions options_;
-  /// by face: the key of its entry in `hair_colours`, and its index among the faces of this entry
+  /// by face: the key of the entry in `hair_colours` that applies to the face, and the face's index
+  /// among the faces of this entry
   std::map<std::string, std::pair<std::string, std::uint64_t>> entry_indices_;
   std::map<std::string, std::uint64_t> entry_sizes_;  ///< by entry: how many faces use the entry
   /// by entry: for each face that uses the entry, the index of the face's colour in the entry, or

@@ -53,7 +53,7 @@ class LikenessTree {
       if (near.size() > count) near.pop_back();
       if (near.size() < count) return;
       bound = static_cast<float>(near.back().distance_mm * near.back().distance_mm *
-                                 (1 + PointBlocks::kRounding));
+                                 (1 + PointBlocks::kRoundingTolerance));
     };
     for (const auto& [of, tree] : variants_) {
       const PointBlocks& points = tree.points();
@@ -137,7 +137,7 @@ std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points,
 
 }  // namespace
 
-Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbours) {
+Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbour_count) {
   Likeness likeness;
   if (points.empty()) return likeness;
   const std::vector<bool> none_gone(points.size(), false);
@@ -145,7 +145,7 @@ Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t 
   likeness.neighbours.resize(points.size());
   parallel_for_each(points.size(), kBlock, [&](std::size_t place) {
     const std::size_t face = tree.face(place);
-    likeness.neighbours[face] = tree.nearest(face, neighbours);
+    likeness.neighbours[face] = tree.nearest(face, neighbour_count);
   });
   likeness.order = walk(points, likeness.neighbours);
   return likeness;

@@ -28,8 +28,8 @@ struct Likeness {
 /// with the nearest face that it has not visited. So two faces that are each other's nearest face
 /// are adjacent. Of equally near faces, the walk takes the first.
 ///
-/// \param neighbours  Number of neighbours to keep for each face.
+/// \param neighbour_count  Number of neighbours to keep for each face.
 /// \throws Interrupted.
-Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbours);
+Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t neighbour_count);
 
 }  // namespace crowdface

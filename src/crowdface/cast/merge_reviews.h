@@ -15,7 +15,7 @@ struct MergedReviews {
   std::vector<std::string> conflicts;
 };
 
-/// Merges reviews whose reviewers did not see each other's results (see Review::seen_reviews).
+/// Merges reviews whose reviewers did not see each other's results (see Review::seen_review_count).
 /// Equal requests apply once: a face that both reviews reject is redrawn once, and a change that
 /// both reviews request is made once. Both notes stay. If two reviews disagree,
 ///

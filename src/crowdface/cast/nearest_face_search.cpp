@@ -27,27 +27,27 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
   std::iota(rows.begin(), rows.end(), 0U);
   for (const std::uint32_t row : rows) {
     const auto& [blocks, at] = sources[row];
-    for (Index d = 0; d < leading.cols(); ++d) leading(row, d) = blocks->value(at, d);
+    for (Index d = 0; d < leading.cols(); ++d) leading(row, d) = blocks->coordinate(at, d);
   }
   tree_ = MedianSplitTree(std::move(rows), leading, kLeafSize);
   std::vector<float> values(static_cast<std::size_t>(points_.padded_dimensions()));
   for (const std::uint32_t row : tree_.order) {
     const auto& [blocks, at] = sources[row];
     for (std::size_t d = 0; d < values.size(); ++d) {
-      values[d] = blocks->value(at, static_cast<Index>(d));
+      values[d] = blocks->coordinate(at, static_cast<Index>(d));
     }
     points_.add(blocks->number(at), values.data());
   }
   for (const auto& [begin, end, second] : tree_.nodes) {
     Bounds bounds{{}, points_.number(begin), points_.number(begin)};
     for (std::size_t d = 0; d < LeadingCoordinatesBox::kDimensions; ++d) {
-      bounds.box.low[d] = bounds.box.high[d] = points_.value(begin, static_cast<Index>(d));
+      bounds.box.low[d] = bounds.box.high[d] = points_.coordinate(begin, static_cast<Index>(d));
     }
     for (Index at = begin; at < end; ++at) {
       bounds.min_number = std::min(bounds.min_number, points_.number(at));
       bounds.max_number = std::max(bounds.max_number, points_.number(at));
       for (std::size_t d = 0; d < LeadingCoordinatesBox::kDimensions; ++d) {
-        const float value = points_.value(at, static_cast<Index>(d));
+        const float value = points_.coordinate(at, static_cast<Index>(d));
         bounds.box.low[d] = std::min(bounds.box.low[d], value);
         bounds.box.high[d] = std::max(bounds.box.high[d], value);
       }
@@ -56,21 +56,24 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
   }
 }
 
-void PointTree::search(const std::vector<float>& query, Index begin, Index end, double enough,
-                       NearestPoint& best) const {
+void PointTree::search(const std::vector<float>& query, Index begin, Index end,
+                       double enough_squared, NearestPoint& best) const {
   const auto wanted = [&](float squared, const Bounds& node) {
-    return !(best.squared_distance < enough) && node.min_number < end && node.max_number >= begin &&
-           static_cast<double>(squared) * (1 - PointBlocks::kRounding) <= best.squared_distance;
+    return !(best.squared_distance < enough_squared) && node.min_number < end &&
+           node.max_number >= begin &&
+           static_cast<double>(squared) * (1 - PointBlocks::kRoundingTolerance) <=
+               best.squared_distance;
   };
   visit(query, wanted, [&](Index block) { points_.search(query, block, begin, end, best); });
 }
 
 void PointTrees::add(const Eigen::VectorXf& point) {
-  newest_.add(size_++, newest_.padded_query(point).data());
-  if (newest_.size() < kMaxNewestPoints) return;
-  // Merge the newest points with all trees that contain at most as many points.
-  std::vector<const PointBlocks*> joined = {&newest_};
-  Index count = newest_.size();
+  newest_points_.add(size_++, newest_points_.padded_query(point).data());
+  if (newest_points_.size() < kMaxNewestPoints) return;
+  // Merge the newest points with the last tree, as long as this tree contains at most as many
+  // points as have been merged so far.
+  std::vector<const PointBlocks*> joined = {&newest_points_};
+  Index count = newest_points_.size();
   std::size_t kept = trees_.size();
   while (kept > 0 && trees_[kept - 1].points().size() <= count) {
     joined.push_back(&trees_[--kept].points());
@@ -79,42 +82,43 @@ void PointTrees::add(const Eigen::VectorXf& point) {
   PointTree tree(dimensions_, joined);
   trees_.erase(trees_.begin() + static_cast<std::ptrdiff_t>(kept), trees_.end());
   trees_.push_back(std::move(tree));
-  newest_.clear();
+  newest_points_.clear();
 }
 
-NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
-                                 double enough) const {
-  NearestPoint best{-1, limit};
-  const std::vector<float> padded = newest_.padded_query(query);
+NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit_squared, Index begin,
+                                 Index end, double enough_squared) const {
+  NearestPoint best{-1, limit_squared};
+  const std::vector<float> padded = newest_points_.padded_query(query);
   for (const PointTree& tree : trees_) {
-    tree.search(padded, begin, end, enough, best);
-    if (best.point >= 0 && best.squared_distance < enough) return best;
+    tree.search(padded, begin, end, enough_squared, best);
+    if (best.point >= 0 && best.squared_distance < enough_squared) return best;
   }
-  const Index first_newest = size_ - newest_.size();
-  const Index last = std::min(end - first_newest, newest_.size());
+  const Index first_newest = size_ - newest_points_.size();
+  const Index last = std::min(end - first_newest, newest_points_.size());
   for (Index block = std::max(begin - first_newest, Index{0}) / PointBlocks::kLanes;
        block * PointBlocks::kLanes < last; ++block) {
-    newest_.search(padded, block, begin, end, best);
+    newest_points_.search(padded, block, begin, end, best);
   }
   return best;
 }
 
 void NearestFaceSearch::add(const FaceSpace::Point& point) {
-  as_built_.add(point.as_built);
-  unextrapolated_.add(point.unextrapolated);
-  extrapolated_ = extrapolated_ || point.as_built != point.unextrapolated;
+  as_built_trees_.add(point.as_built);
+  unextrapolated_trees_.add(point.unextrapolated);
+  has_extrapolated_faces_ = has_extrapolated_faces_ || point.as_built != point.unextrapolated;
 }
 
 NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point& point,
                                                           double limit_mm, Index begin, Index end,
                                                           double enough_mm) const {
   if (end < 0) end = size();
-  const double enough = enough_mm * enough_mm;
-  NearestPoint hit = as_built_.nearest(point.as_built, limit_mm * limit_mm, begin, end, enough);
-  const bool done = hit.point >= 0 && hit.squared_distance < enough;
-  if (!done && (extrapolated_ || point.as_built != point.unextrapolated)) {
-    const NearestPoint other =
-        unextrapolated_.nearest(point.unextrapolated, hit.squared_distance, begin, end, enough);
+  const double enough_squared = enough_mm * enough_mm;
+  NearestPoint hit =
+      as_built_trees_.nearest(point.as_built, limit_mm * limit_mm, begin, end, enough_squared);
+  const bool done = hit.point >= 0 && hit.squared_distance < enough_squared;
+  if (!done && (has_extrapolated_faces_ || point.as_built != point.unextrapolated)) {
+    const NearestPoint other = unextrapolated_trees_.nearest(
+        point.unextrapolated, hit.squared_distance, begin, end, enough_squared);
     if (other.point >= 0) hit = other;
   }
   if (hit.point < 0) return {};

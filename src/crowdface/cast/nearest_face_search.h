@@ -20,7 +20,7 @@ class PointTree {
   PointTree(Index dimensions, const std::vector<const PointBlocks*>& points);
 
   const PointBlocks& points() const { return points_; }
-  void search(const std::vector<float>& query, Index begin, Index end, double enough,
+  void search(const std::vector<float>& query, Index begin, Index end, double enough_squared,
               NearestPoint& best) const;
 
   /// The box around the points of a node, and the range of their numbers.
@@ -31,24 +31,28 @@ class PointTree {
   /// Visits the blocks of points in the leaves. Of two child nodes, visits the child nearer to the
   /// query first.
   ///
-  /// \param wanted  wanted(squared distance from the query, bounds): whether to visit a node.
-  /// \param use     Called with the number of each visited block.
-  template <class Wanted, class Use>
-  void visit(const std::vector<float>& query, const Wanted& wanted, const Use& use,
-             std::uint32_t at = 0) const {
-    const MedianSplitTree::Node& node = tree_.nodes[at];
+  /// \param is_wanted    is_wanted(squared distance from the query, bounds): whether to visit a
+  ///                     node.
+  /// \param visit_block  Called with the number of each visited block.
+  template <class IsWanted, class VisitBlock>
+  void visit(const std::vector<float>& query, const IsWanted& is_wanted,
+             const VisitBlock& visit_block, std::uint32_t node_index = 0) const {
+    const MedianSplitTree::Node& node = tree_.nodes[node_index];
     if (node.is_leaf()) {
       for (Index block = node.begin / PointBlocks::kLanes; block * PointBlocks::kLanes < node.end;
            ++block) {
-        use(block);
+        visit_block(block);
       }
       return;
     }
-    const auto squared = [&](std::uint32_t n) { return bounds_[n].box.squared_distance(query); };
-    std::pair near{squared(at + 1), at + 1}, far{squared(node.second), node.second};
+    const auto squared_distance = [&](std::uint32_t n) {
+      return bounds_[n].box.squared_distance(query);
+    };
+    std::pair near{squared_distance(node_index + 1), node_index + 1},
+        far{squared_distance(node.second_child), node.second_child};
     if (far.first < near.first) std::swap(near, far);
     for (const auto& [distance, child] : {near, far}) {
-      if (wanted(distance, bounds_[child])) visit(query, wanted, use, child);
+      if (is_wanted(distance, bounds_[child])) visit(query, is_wanted, visit_block, child);
     }
   }
 
@@ -63,36 +67,36 @@ class PointTree {
 /// The newest points are in a list.
 class PointTrees {
  public:
-  explicit PointTrees(Index dimensions) : dimensions_(dimensions), newest_(dimensions) {}
+  explicit PointTrees(Index dimensions) : dimensions_(dimensions), newest_points_(dimensions) {}
 
   /// Adds a point. Points are numbered in the order in which they are added, from 0.
   void add(const Eigen::VectorXf& point);
   Index size() const { return size_; }
   /// Returns the nearest of the points with numbers in [begin, end) whose squared distance is below
-  /// `limit`; of equally near points, the first. The result does not depend on the other points,
-  /// not even in its last bits.
+  /// `limit_squared`; of equally near points, the first. The result does not depend on the other
+  /// points, not even in its last bits.
   ///
-  /// \param enough  Squared distance, at most `limit`. The search ends at the first point that is
-  ///                nearer than this.
-  NearestPoint nearest(const Eigen::VectorXf& query, double limit, Index begin, Index end,
-                       double enough = 0) const;
+  /// \param enough_squared  Squared distance, at most `limit_squared`. The search ends at the first
+  ///                        point that is nearer than this.
+  NearestPoint nearest(const Eigen::VectorXf& query, double limit_squared, Index begin, Index end,
+                       double enough_squared = 0) const;
 
  private:
   Index dimensions_;
   Index size_ = 0;
   /// from the oldest points to the newest; each tree contains more points than the next tree
   std::vector<PointTree> trees_;
-  PointBlocks newest_;
+  PointBlocks newest_points_;
 };
 
 /// A set of faces with nearest-face queries.
 class NearestFaceSearch {
  public:
   explicit NearestFaceSearch(Index dimensions)
-      : as_built_(dimensions), unextrapolated_(dimensions) {}
+      : as_built_trees_(dimensions), unextrapolated_trees_(dimensions) {}
 
   void add(const FaceSpace::Point& point);
-  Index size() const { return as_built_.size(); }
+  Index size() const { return as_built_trees_.size(); }
 
   struct NearestFace {
     Index face = -1;  ///< number of the face; −1: no face is within the limit
@@ -108,9 +112,9 @@ class NearestFaceSearch {
 
  private:
   /// one set of trees for each variant of the points, see FaceSpace::Point
-  PointTrees as_built_, unextrapolated_;
+  PointTrees as_built_trees_, unextrapolated_trees_;
   /// whether at least one face has an extrapolation factor other than 1
-  bool extrapolated_ = false;
+  bool has_extrapolated_faces_ = false;
 };
 
 }  // namespace crowdface

@@ -14,20 +14,20 @@ constexpr double kRidge = 0.1;
 }  // namespace
 
 Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::VectorXf>& heads,
-                                                  Index count_of_heads, Index left_out) {
+                                                  Index head_count, Index left_out) {
   Metric metric;
   for (std::size_t h = 0; h < heads.size(); ++h) {
-    if (static_cast<Index>(h) % count_of_heads == left_out) continue;
-    metric.offsets.emplace_back(heads[h].data(), heads[h].data() + heads[h].size());
+    if (static_cast<Index>(h) % head_count == left_out) continue;
+    metric.head_offsets.emplace_back(heads[h].data(), heads[h].data() + heads[h].size());
   }
-  const std::size_t count = metric.offsets.size();
-  metric.mean.assign(metric.offsets[0].size(), 0.0);
-  for (const auto& head : metric.offsets) {
+  const std::size_t count = metric.head_offsets.size();
+  metric.mean.assign(metric.head_offsets[0].size(), 0.0);
+  for (const auto& head : metric.head_offsets) {
     for (std::size_t d = 0; d < head.size(); ++d) metric.mean[d] += head[d];
   }
   for (double& value : metric.mean) value /= static_cast<double>(count);
   double variance = 0;
-  for (auto& head : metric.offsets) {
+  for (auto& head : metric.head_offsets) {
     for (std::size_t d = 0; d < head.size(); ++d) head[d] -= metric.mean[d];
     variance += fixed_order_dot(head, head);
   }
@@ -36,7 +36,7 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
   std::vector<std::vector<double>> gram(count, std::vector<double>(count));
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
-      gram[a][b] = gram[b][a] = fixed_order_dot(metric.offsets[a], metric.offsets[b]);
+      gram[a][b] = gram[b][a] = fixed_order_dot(metric.head_offsets[a], metric.head_offsets[b]);
     }
     gram[a][a] += metric.ridge * freedom;
   }
@@ -46,12 +46,12 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
 
 /// Returns zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1). Computes it by the Woodbury identity as (‖z‖²
 /// − (Y z)ᵀ (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
-double Plausibility::squared_distance(const Metric& metric, const Eigen::VectorXf& at) {
+double Plausibility::squared_distance(const Metric& metric, const Eigen::VectorXf& point) {
   std::vector<double> z(metric.mean.size()), along;
   for (std::size_t d = 0; d < z.size(); ++d) {
-    z[d] = static_cast<double>(at[static_cast<Index>(d)]) - metric.mean[d];
+    z[d] = static_cast<double>(point[static_cast<Index>(d)]) - metric.mean[d];
   }
-  for (const auto& head : metric.offsets) along.push_back(fixed_order_dot(head, z));
+  for (const auto& head : metric.head_offsets) along.push_back(fixed_order_dot(head, z));
   const std::vector<double> solved =
       solve_lower(metric.cholesky_factor, std::move(along), metric.cholesky_factor.size());
   return (fixed_order_dot(z, z) - fixed_order_dot(solved, solved)) / metric.ridge;
@@ -64,8 +64,8 @@ Plausibility::Plausibility(const FaceSpace& space) {
     heads.push_back(space.head_point(h).as_built);
   }
   metric_ = metric_without(heads, count, -1);
-  // one head alone has no variance, so no head can be left out: use the first head's distance
-  // instead
+  // If one of two heads is left out, the other head has no variance. So use the distance of the
+  // first head, with no head left out.
   if (count < 3) {
     typical_distance_ = std::sqrt(squared_distance(metric_, heads[0]));
   } else {

@@ -25,7 +25,7 @@ class Plausibility {
   struct Metric {
     std::vector<double> mean;  ///< mean of the points of the heads, #D
     /// for each head: the head's point minus the mean, #D
-    std::vector<std::vector<double>> offsets;
+    std::vector<std::vector<double>> head_offsets;
     std::vector<std::vector<double>>
         cholesky_factor;  ///< Cholesky factor of ridge·(H − 1)·I + Y Yᵀ
     double ridge = 1;
@@ -33,12 +33,12 @@ class Plausibility {
   /// Returns the metric of all heads except one.
   ///
   /// \param heads           The heads, then their mirror images if faces may be mirrored.
-  /// \param count_of_heads  Number of heads without mirror images.
+  /// \param head_count  Number of heads without mirror images.
   /// \param left_out        Head that is left out together with its mirror image; −1: no head is
   ///                        left out.
-  static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index count_of_heads,
+  static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index head_count,
                                Index left_out);
-  static double squared_distance(const Metric& metric, const Eigen::VectorXf& at);
+  static double squared_distance(const Metric& metric, const Eigen::VectorXf& point);
 
   Metric metric_;
   /// the Mahalanobis distance from the mean that a new head typically has

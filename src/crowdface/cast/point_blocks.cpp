@@ -11,12 +11,12 @@ PointBlocks::PointBlocks(Index dimensions)
     : dimensions_((dimensions + kChunk - 1) / kChunk * kChunk),
       chunks_(static_cast<std::size_t>(dimensions_ / kChunk)) {}
 
-void PointBlocks::add(Index number, const float* values) {
+void PointBlocks::add(Index number, const float* coordinates) {
   if (size() % kLanes == 0) {
     for (auto& chunk : chunks_) chunk.resize(chunk.size() + kChunk * kLanes);
   }
   for (Index d = 0; d < dimensions_; ++d) {
-    chunks_[static_cast<std::size_t>(d / kChunk)][chunk_offset(size(), d)] = values[d];
+    chunks_[static_cast<std::size_t>(d / kChunk)][chunk_offset(size(), d)] = coordinates[d];
   }
   numbers_.push_back(number);
 }

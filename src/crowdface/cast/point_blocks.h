@@ -18,10 +18,11 @@ struct NearestPoint {
 
   /// Replaces the stored point by another point if the other point is nearer. Of two equally near
   /// points, keeps the point with the smaller number.
-  void update(Eigen::Index other, double squared) {
-    if (squared > squared_distance || (squared == squared_distance && (point < 0 || other > point)))
+  void update(Eigen::Index other, double other_squared_distance) {
+    if (other_squared_distance > squared_distance ||
+        (other_squared_distance == squared_distance && (point < 0 || other > point)))
       return;
-    *this = {other, squared};
+    *this = {other, other_squared_distance};
   }
 };
 
@@ -34,8 +35,8 @@ struct LeadingCoordinatesBox {
   float squared_distance(const std::vector<float>& query) const {
     std::array<float, kDimensions> squares;
     for (std::size_t d = 0; d < kDimensions; ++d) {
-      const float beyond = std::max(std::max(low[d] - query[d], query[d] - high[d]), 0.F);
-      squares[d] = beyond * beyond;
+      const float distance_outside = std::max(std::max(low[d] - query[d], query[d] - high[d]), 0.F);
+      squares[d] = distance_outside * distance_outside;
     }
     float sum = 0;
     for (const float square : squares) sum += square;
@@ -52,20 +53,19 @@ class PointBlocks {
   static constexpr Index kLanes = 16;
   /// Relative tolerance for the rounding of sums in single precision. A search skips points that
   /// are farther than the best point by more than this tolerance.
-  static constexpr double kRounding = 1e-4;
+  static constexpr double kRoundingTolerance = 1e-4;
 
   explicit PointBlocks(Index dimensions);
 
-  /// \param values  the point's coordinates, padded with zeros to padded_dimensions() values.
-  void add(Index number, const float* values);
+  /// \param coordinates  the point's coordinates, padded with zeros to padded_dimensions() values.
+  void add(Index number, const float* coordinates);
   void clear();
   Index size() const { return static_cast<Index>(numbers_.size()); }
   Index padded_dimensions() const { return dimensions_; }
-  /// Returns the number of the point at index `at`, where points are indexed in the order in which
-  /// they were added.
-  Index number(Index at) const { return numbers_[static_cast<std::size_t>(at)]; }
-  float value(Index at, Index dimension) const {
-    return chunk_of(dimension)[chunk_offset(at, dimension)];
+  /// Returns the number of a point. Indices count the points in the order in which they were added.
+  Index number(Index index) const { return numbers_[static_cast<std::size_t>(index)]; }
+  float coordinate(Index index, Index dimension) const {
+    return chunk_of(dimension)[chunk_offset(index, dimension)];
   }
 
   /// Returns the query, padded with zeros to padded_dimensions() values.
@@ -84,10 +84,10 @@ class PointBlocks {
   /// number of coordinates that are summed before the sums are compared with the bound
   static constexpr Index kChunk = 16;
 
-  /// Returns the offset, within its chunk, of coordinate `dimension` of the point at index `at`.
-  static std::size_t chunk_offset(Index at, Index dimension) {
-    return static_cast<std::size_t>((at / kLanes * kChunk + dimension % kChunk) * kLanes +
-                                    at % kLanes);
+  /// Returns the offset of a point's coordinate within the coordinate's chunk.
+  static std::size_t chunk_offset(Index index, Index dimension) {
+    return static_cast<std::size_t>((index / kLanes * kChunk + dimension % kChunk) * kLanes +
+                                    index % kLanes);
   }
   const std::vector<float>& chunk_of(Index dimension) const {
     return chunks_[static_cast<std::size_t>(dimension / kChunk)];

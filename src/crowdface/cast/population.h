@@ -12,9 +12,9 @@ namespace crowdface {
 /// the candidate with the smallest cost: the candidate that brings the crowd so far nearest to
 /// these distributions. The cost is a sum over the measurements: the root mean square difference
 /// between the crowd's and the requested cumulative distribution (after Cramér and von Mises, on a
-/// grid). Because of the roots, a distribution that the heads cannot reach does not outweigh the
-/// other distributions. A choice depends on earlier faces only, so a larger crowd changes no
-/// choice.
+/// grid). The terms are roots, not squares, so a distribution that the heads cannot reach does not
+/// outweigh the other distributions. A choice depends on earlier faces only, so a larger crowd
+/// changes no choice.
 class PopulationBalance {
  public:
   explicit PopulationBalance(const std::vector<TraitTarget>& targets);
@@ -34,8 +34,8 @@ class PopulationBalance {
     /// for each bin: the number of faces in this bin and all lower bins, minus the number requested
     /// for these bins
     std::vector<double> excess;
-    /// for each bin: the sum of squared `excess` over all bins after a face in this bin has joined
-    /// the crowd
+    /// for each bin: the sum of `excess`² over all bins if the next face that joins the crowd is in
+    /// this bin
     std::vector<double> squared_differences;
   };
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);

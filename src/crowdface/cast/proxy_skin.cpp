@@ -10,7 +10,7 @@ namespace {
 /// are checked for intersection if the enlarged boxes overlap.
 constexpr double kReach = 3;  // in mm
 /// Triangles at most this many edges apart count as neighbours. The intersection check skips
-/// neighbours, because the check for flips detects folds between them.
+/// neighbours, because the check for flips already detects folds between neighbours.
 constexpr int kNeighbourEdges = 3;
 
 /// Sets `marks` to `mark` at all vertices that are at most kNeighbourEdges edges away from a
@@ -59,18 +59,18 @@ std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
 
 ProxySkin::ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
                      const std::vector<Positions>& heads)
-    : triangles_(std::move(triangles)), pairs_(facing_pairs(triangles_, mean)) {
-  for (const Positions& head : heads) heads_.push_back(target_of_samples(head));
+    : triangles_(std::move(triangles)), nearby_pairs_(facing_pairs(triangles_, mean)) {
+  for (const Positions& head : heads) head_targets_.push_back(target_of_samples(head));
 }
 
 ProxySkin::Target ProxySkin::target_of_samples(const Positions& samples) const {
   return {TargetTriangles(triangles_, samples),
           NewIntersections(triangles_, samples.rows(),
-                           intersecting_pairs(triangles_, samples, pairs_))};
+                           intersecting_pairs(triangles_, samples, nearby_pairs_))};
 }
 
 Index ProxySkin::intersecting_triangles(const Positions& samples, const Target& target) const {
-  return target.intersections.count(intersecting_pairs(triangles_, samples, pairs_));
+  return target.intersections.count(intersecting_pairs(triangles_, samples, nearby_pairs_));
 }
 
 }  // namespace crowdface

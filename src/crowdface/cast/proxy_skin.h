@@ -24,7 +24,9 @@ class ProxySkin {
     TargetTriangles triangles;
     NewIntersections intersections;
   };
-  const Target& target_of_head(Index head) const { return heads_[static_cast<std::size_t>(head)]; }
+  const Target& target_of_head(Index head) const {
+    return head_targets_[static_cast<std::size_t>(head)];
+  }
   Target target_of_samples(const Positions& samples) const;
 
   /// Returns the number of triangles that intersect other triangles where the target's triangles do
@@ -34,8 +36,8 @@ class ProxySkin {
 
  private:
   std::vector<Triangle> triangles_;
-  std::vector<TrianglePair> pairs_;
-  std::vector<Target> heads_;
+  std::vector<TrianglePair> nearby_pairs_;
+  std::vector<Target> head_targets_;
 };
 
 }  // namespace crowdface

@@ -20,13 +20,13 @@ struct ReviewMark {
   Verdict verdict = Verdict::kKeep;
   /// Parts that stay the same when the face is redrawn; each is given as region · #bands + band. If
   /// there are no bands, a part is a region.
-  std::vector<std::size_t> locked;
+  std::vector<std::size_t> locked_parts;
   std::optional<std::string> note;
 };
 
-/// A change of one face. A new key needs a member here, a row in config/changes_keys.cpp, and code
-/// for its effect in cast/face_changes.cpp or, if it concerns attachments, in
-/// run/changed_faces.cpp.
+/// A change of one face. To add a config key, add a member here, a row in config/changes_keys.cpp,
+/// and code that applies the change in cast/face_changes.cpp (for attachments: in
+/// run/changed_faces.cpp).
 struct FaceChange {
   enum class AgeStep { kOlder, kYounger };
   std::string id;
@@ -34,10 +34,10 @@ struct FaceChange {
   std::optional<double> age;  ///< age from −1 to 1, see apply_age; excludes `age_step`
   /// id of another face; this face becomes a variant of that face
   std::optional<std::string> variant_of;
-  double distance_mm = 1.5;          ///< distance between this face and `variant_of`
+  double variant_distance_mm = 1.5;  ///< distance between this face and `variant_of`
   std::optional<std::string> group;  ///< group in which the face is redrawn
   /// Parts that stay the same while the other parts are redrawn; encoded as in ReviewMark.
-  std::vector<std::size_t> locked;
+  std::vector<std::size_t> locked_parts;
   /// Limits on the face's measurements. The face is changed only as far as these limits require.
   TraitLimits traits;
   /// Names of attachments that replace the face's attachments of the same kinds. Empty list: the
@@ -49,7 +49,7 @@ struct FaceChange {
   /// heads whose textures are blended for the face; empty: no change
   std::vector<WeightedHead> colours;
 
-  bool needs_redraw() const { return group || !locked.empty() || !traits.empty(); }
+  bool needs_redraw() const { return group || !locked_parts.empty() || !traits.empty(); }
   bool is_empty() const {
     return !age && !age_step && !variant_of && !needs_redraw() && !attachments &&
            removed_attachments.empty() && !hair && colours.empty();
@@ -61,10 +61,10 @@ struct Review {
   /// Number of sampled faces of the crowd that was reviewed. The review applies to this crowd.
   /// Faces with larger numbers are cast after the review, so that a larger crowd changes no
   /// reviewed face. Empty: the whole crowd was reviewed.
-  std::optional<std::uint64_t> count;
+  std::optional<std::uint64_t> reviewed_face_count;
   /// Number of earlier reviews whose results the reviewer saw; see merged_reviews. Empty: the
   /// reviewer saw all earlier reviews.
-  std::optional<std::uint64_t> seen_reviews = {};
+  std::optional<std::uint64_t> seen_review_count = {};
   /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes,
   /// so that these faces stay the same if the crowd's value changes later. Empty: the crowd's
   /// current value applies.

@@ -63,7 +63,7 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
         for (const SourceWeight& part : at.shares) {
           const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
           const float* row = trajectory.data() + term.row * trajectory.cols();
-          const auto f = static_cast<float>(part.weight * term.factor * heads.mm_per_unit);
+          const auto f = static_cast<float>(part.weight * term.row_coefficient * heads.mm_per_unit);
           for (const auto& [begin, end] : heads.sample_ranges[k]) {
             add_scaled(f, row + 3 * begin, static_cast<std::size_t>(3 * (end - begin)),
                        change.data() + 3 * begin);

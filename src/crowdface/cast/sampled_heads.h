@@ -12,7 +12,8 @@
 
 namespace crowdface {
 
-/// The heads, reduced to the samples. These data determine the samples of the face of any recipe.
+/// The heads, reduced to the samples. From these data, the face of any recipe can be computed at
+/// the samples.
 struct SampledHeads {
   /// for each head, the positions of the samples, #S by 3, in millimetres
   std::vector<Positions> heads;

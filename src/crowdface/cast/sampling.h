@@ -86,17 +86,18 @@ struct WeightedHead {
 
 /// Chooses one of several things at random, with probabilities proportional to the things' weights.
 ///
-/// \param random  Random number from 0 to 1 that selects the thing.
+/// \param random_number  Random number from 0 to 1 that selects the thing.
 template <class Things, class Weight>
-const auto& weighted_choice(const Things& things, double random, const Weight& weight) {
+const auto& weighted_choice(const Things& things, double random_number, const Weight& weight) {
   double total = 0;
   for (const auto& thing : things) total += std::invoke(weight, thing);
-  double left = random * total;
+  double remaining = random_number * total;
   for (const auto& thing : things) {
-    if (left < std::invoke(weight, thing)) return thing;
-    left -= std::invoke(weight, thing);
+    if (remaining < std::invoke(weight, thing)) return thing;
+    remaining -= std::invoke(weight, thing);
   }
-  return things.back();  // because of rounding errors, `random` can exceed the sum of the weights
+  // because of rounding errors, `random_number` can exceed the sum of the weights
+  return things.back();
 }
 
 /// Whether faces are mirrored, each as a whole.
@@ -133,15 +134,15 @@ inline bool may_mirror(const SamplingOptions& sampling) {
 /// Returns the distribution of the smoothing level at which a band of a region begins.
 inline const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling,
                                                    std::size_t region, std::size_t band) {
-  const bool own = !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
-  return own ? *sampling.bands[band].regions[region].smoothness
-             : sampling.regions[region].smoothness;
+  const bool has_own = !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
+  return has_own ? *sampling.bands[band].regions[region].smoothness
+                 : sampling.regions[region].smoothness;
 }
 /// Returns the heads that lend detail to a band.
 inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampling,
                                                    std::size_t band) {
-  const bool own = band < sampling.bands.size() && sampling.bands[band].sources;
-  return own ? *sampling.bands[band].sources : sampling.sources;
+  const bool has_own = band < sampling.bands.size() && sampling.bands[band].sources;
+  return has_own ? *sampling.bands[band].sources : sampling.sources;
 }
 
 /// A group of sampled faces that have their own sampling parameters.

@@ -120,11 +120,11 @@ std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count,
 }
 
 std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
-                                 std::uint64_t times) {
+                                 std::uint64_t crowd_count) {
   std::vector<int> schedule;
   std::vector<double> shares;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const std::uint64_t own = groups[g].count.value_or(0) * times;
+    const std::uint64_t own = groups[g].count.value_or(0) * crowd_count;
     schedule.insert(schedule.end(), own, static_cast<int>(g));
     shares.push_back(groups[g].count ? 0 : groups[g].share);
   }

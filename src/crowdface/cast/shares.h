@@ -11,7 +11,7 @@ namespace crowdface {
 
 /// Returns the index of the share that each face is assigned to, or −1 for no share. Of the first n
 /// faces, share q gets at least ⌊q·n⌋. If several shares are due at the same face, some or all of
-/// them get an earlier face instead. The first n entries do not depend on `count`.
+/// these shares get an earlier face. The first n entries do not depend on `count`.
 ///
 /// Faces are assigned as late as possible, by earliest deadline first (Liu & Layland 1973): the
 /// m-th face of share q is due at face ⌈m/q⌉. A face is assigned to a share only if some share
@@ -33,10 +33,10 @@ std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count,
 /// Groups with a fixed count get their faces first, in the order of the groups, then groups with a
 /// share. The first n entries do not depend on `count`.
 ///
-/// \param times  Factor on the groups' counts, for a pool that contains candidates for several
-///               crowds.
+/// \param crowd_count  Number of crowds whose candidates a pool contains: a factor on the groups'
+///                     counts.
 std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
-                                 std::uint64_t times = 1);
+                                 std::uint64_t crowd_count = 1);
 
 /// Returns the parameters of the faces that have no group, followed by the parameters of each
 /// group.

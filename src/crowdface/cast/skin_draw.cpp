@@ -49,7 +49,8 @@ std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>&
 
 void choose_skin_colours_of_children(const SkinOptions& draw, std::vector<FacePlan>& crowd) {
   std::map<std::string, double> tones;  // tones of heads and faces, by name
-  for (std::size_t h = 0; h < draw.heads.size(); ++h) tones[draw.heads[h]] = draw.tones[h];
+  for (std::size_t h = 0; h < draw.head_names.size(); ++h)
+    tones[draw.head_names[h]] = draw.tones[h];
   std::map<std::string, bool> is_parent;
   for (const FacePlan& face : crowd) {
     for (const std::string& parent : face.parents) is_parent[parent] = true;
@@ -67,8 +68,9 @@ void choose_skin_colours_of_children(const SkinOptions& draw, std::vector<FacePl
           return tones.contains(parent);
         });
     if (known && face.recipe.colours.empty()) {
-      const std::string purpose = concat(
-          "skin/", face.family && draw.twins.contains(*face.family) ? *face.family : face.id);
+      const std::string purpose =
+          concat("skin/",
+                 face.family && draw.twin_families.contains(*face.family) ? *face.family : face.id);
       const double place = random_between({draw.seed, 0, purpose}, 0.2, 0.8);
       const double mother = tones[face.parents[0]], father = tones[face.parents[1]];
       face.recipe.colours =

@@ -15,14 +15,14 @@ namespace crowdface {
 /// Parameters for choosing the skin colours of children.
 struct SkinOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> heads;  ///< names of the heads; some parents of families are heads
-  HeadTags tags;                   ///< the tags of each head
+  std::vector<std::string> head_names;  ///< names of the heads; some parents of families are heads
+  HeadTags tags;                        ///< the tags of each head
   /// #heads: tone of each head, which is the mean optical density of its colour texture
   std::vector<double> tones;
   /// Returns the weights of the heads in a face's colours, #heads, summing to one.
   std::function<std::vector<double>(const Recipe&)> colour_weights;
   /// names of families whose members are twins, who share one tone
-  std::set<std::string> twins = {};
+  std::set<std::string> twin_families = {};
 };
 
 /// Gives each face with parents its own colours, Recipe::colours. The tone of the face's skin then

@@ -17,7 +17,7 @@ constexpr Index kNumbersAtATime = 1 << 16;
 
 }  // namespace
 
-SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
+SpanBasis span_basis(FloatRows rows, double tolerance, Index max_directions) {
   const Index count = rows.rows(), size = rows.cols();
   const auto length = static_cast<std::size_t>(size);
   const double enough = tolerance * tolerance;
@@ -28,7 +28,7 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index most) {
         fixed_order_dot(rows.row(n).data(), rows.row(n).data(), length);
   });
   std::vector<Eigen::VectorXf> directions, coordinates;
-  while (static_cast<Index>(directions.size()) < most) {
+  while (static_cast<Index>(directions.size()) < max_directions) {
     const auto longest = std::max_element(left.begin(), left.end());
     if (longest == left.end() || *longest <= enough || *longest == 0) break;
     const auto pivot = static_cast<Index>(longest - left.begin());

@@ -16,8 +16,8 @@ struct SpanBasis {
 
 /// Finds a basis that spans all rows. The row with the longest remainder (the part outside the
 /// basis) gives the next direction (Gram–Schmidt with pivoting, Businger & Golub 1965), until every
-/// remainder is at most `tolerance` long or there are `most` directions. The code uses plain loops,
-/// so that it computes the same bits everywhere.
-SpanBasis span_basis(FloatRows rows, double tolerance, Eigen::Index most);
+/// remainder is at most `tolerance` long or there are `max_directions` directions. The code uses
+/// plain loops, so that it computes the same bits everywhere.
+SpanBasis span_basis(FloatRows rows, double tolerance, Eigen::Index max_directions);
 
 }  // namespace crowdface

@@ -45,21 +45,21 @@ double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, doubl
 
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
                           const std::vector<FaceKind>& kinds, std::uint64_t count,
-                          std::uint64_t times) {
-  const std::uint64_t size = count * times;
-  const std::vector<int> schedule = schedule_groups(casting.groups, size, times);
+                          std::uint64_t crowd_count) {
+  const std::uint64_t size = count * crowd_count;
+  const std::vector<int> schedule = schedule_groups(casting.groups, size, crowd_count);
   std::vector<std::optional<std::pair<FacePlan, FaceSpace::Point>>> drawn(size);
   std::vector<Rejections> rejections(size);
   parallel_for_each(size, [&](std::size_t at) {
     if (at % 1024 == 0) throw_if_interrupted();
     const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
-    const bool limited = judge.traits() != nullptr && !kind.sampling->traits.empty();
+    const bool limited = judge.trait_rules() != nullptr && !kind.sampling->traits.empty();
     const int attempts =
         casting.diversity.max_attempts * (limited ? static_cast<int>(kAttemptFactorWithTraits) : 1);
     for (int attempt = 0; attempt < attempts; ++attempt) {
       const FaceRandomKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
       FacePlan face = random_face_plan(casting, {}, key, kind);
-      const TraitRules* rules = judge.traits();
+      const TraitRules* rules = judge.trait_rules();
       if (rules != nullptr && !rules->measurer().meets(kind.sampling->traits,
                                                        rules->measurer().landmarks(face.recipe))) {
         rejections[at].add(Reason::kTraits);
@@ -80,7 +80,7 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
     if (!drawn[p]) continue;
     pool.faces.push_back(std::move(drawn[p]->first));
     pool.points.push_back(std::move(drawn[p]->second));
-    pool.kinds.push_back(schedule[p]);
+    pool.group_indices.push_back(schedule[p]);
   }
   return pool;
 }
@@ -88,18 +88,19 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
 FarthestPoints::FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd)
     : pool_(pool),
       squared_distances_(pool.points.size(), HUGE_VAL),
-      dropped_(pool.points.size(), false) {
+      removed_(pool.points.size(), false) {
   parallel_for_each(squared_distances_.size(), [&](std::size_t at) {
     const double mm = crowd.nearest_search().nearest(pool_.points[at]).distance_mm;
     squared_distances_[at] = mm * mm;
   });
 }
 
-FarthestPoints::Pick FarthestPoints::farthest(int kind) const {
+FarthestPoints::Pick FarthestPoints::farthest(int group_index) const {
   Pick best;
   double most = -1;
   for (std::size_t p = 0; p < squared_distances_.size(); ++p) {
-    if (dropped_[p] || pool_.kinds[p] != kind || squared_distances_[p] <= most) continue;
+    if (removed_[p] || pool_.group_indices[p] != group_index || squared_distances_[p] <= most)
+      continue;
     most = squared_distances_[p];
     best.candidate = static_cast<Index>(p);
   }
@@ -108,10 +109,10 @@ FarthestPoints::Pick FarthestPoints::farthest(int kind) const {
 }
 
 void FarthestPoints::pick(Index candidate) {
-  drop(candidate);
+  remove(candidate);
   const FaceSpace::Point& picked = pool_.points[static_cast<std::size_t>(candidate)];
   parallel_for_each(squared_distances_.size(), kCandidatesAtATime, [&](std::size_t at) {
-    if (dropped_[at]) return;
+    if (removed_[at]) return;
     squared_distances_[at] = std::min(
         squared_distances_[at], squared_up_to(picked, pool_.points[at], squared_distances_[at]));
   });
@@ -119,31 +120,32 @@ void FarthestPoints::pick(Index candidate) {
 
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
                  const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
-                 CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result) {
+                 CrowdSoFar& crowd, const FaceJoinedCallback& on_face_joined,
+                 CastingResult& result) {
   CandidatePool pool =
       sample_pool(casting, judge, kinds, casting.count, DiversityOptions::kPoolSizeFactor);
   result.rejections.add(pool.rejections);
   FarthestPoints points(pool, crowd);
   for (std::uint64_t index = 1; index <= casting.count; ++index) {
     throw_if_interrupted();
-    const int kind = result.kinds[index - 1];
-    FarthestPoints::Pick pick = points.farthest(kind);
+    const int group_index = result.group_indices[index - 1];
+    FarthestPoints::Pick pick = points.farthest(group_index);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
       // the index that the face has in the crowd if this candidate is picked
       pool.faces[at].index = index;
       std::optional<Reason> why = judge.check_traits(pool.faces[at]);
       if (!why) why = judge.check_skin(pool.faces[at].recipe);
-      if (!why && family_separation.intrudes(pool.points[at])) why = Reason::kFamily;
+      if (!why && family_separation.is_too_near_to_family(pool.points[at])) why = Reason::kFamily;
       if (!why) break;
       result.rejections.add(*why);
-      points.drop(pick.candidate);
-      pick = points.farthest(kind);
+      points.remove(pick.candidate);
+      pick = points.farthest(group_index);
     }
     if (pick.candidate < 0 || pick.distance_mm < casting.diversity.min_distance_mm) {
       Rejections why = pool.rejections;
       if (pick.candidate >= 0) why.add(Reason::kMinDistance, why.total() + 1);
-      result.shortfall = Shortfall{index - 1, why, kind};
+      result.shortfall = Shortfall{index - 1, why, group_index};
       return;
     }
     points.pick(pick.candidate);
@@ -152,7 +154,7 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
     face.id = face_id(casting.name, index);
     face.index = index;
     crowd.add(std::move(face), pool.points[at]);
-    if (joined) joined({});
+    if (on_face_joined) on_face_joined({});
   }
 }
 

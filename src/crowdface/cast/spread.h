@@ -18,17 +18,17 @@ namespace crowdface {
 struct CandidatePool {
   std::vector<FacePlan> faces;
   std::vector<FaceSpace::Point> points;
-  std::vector<int> kinds;  ///< for each candidate: index of its group, or −1
+  std::vector<int> group_indices;  ///< for each candidate: index of its group, or −1
   Rejections rejections;
 };
 
-/// Generates a pool with enough candidates for `times` crowds of `count` faces. Groups have the
-/// same proportions in the pool as in the crowd.
+/// Generates a pool with enough candidates for `crowd_count` crowds of `count` faces each. Groups
+/// have the same proportions in the pool as in the crowd.
 ///
 /// \param kinds  Parameters of faces without a group, then of each group.
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
                           const std::vector<FaceKind>& kinds, std::uint64_t count,
-                          std::uint64_t times = 1);
+                          std::uint64_t crowd_count = 1);
 
 /// Picks candidates from a pool, one after the other. Each pick is the candidate farthest from the
 /// initial crowd and from the candidates picked before (greedy farthest point). The closest pair of
@@ -46,22 +46,23 @@ class FarthestPoints {
   };
   /// Returns the farthest candidate of a group (−1: of the candidates without a group). Does not
   /// pick this candidate.
-  Pick farthest(int kind) const;
+  Pick farthest(int group_index) const;
   /// Picks a candidate, and updates the distances of all other candidates.
   void pick(Index candidate);
   /// Removes a candidate, so that it is never picked.
-  void drop(Index candidate) { dropped_[static_cast<std::size_t>(candidate)] = true; }
+  void remove(Index candidate) { removed_[static_cast<std::size_t>(candidate)] = true; }
 
  private:
   const CandidatePool& pool_;
   /// for each candidate: the squared distance from the nearest picked or initial face
   std::vector<double> squared_distances_;
-  std::vector<bool> dropped_;
+  std::vector<bool> removed_;
 };
 
 /// Casts faces 1 … count: generates a pool of candidates, and picks the faces by FarthestPoints.
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
                  const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
-                 CrowdSoFar& crowd, const FaceJoined& joined, CastingResult& result);
+                 CrowdSoFar& crowd, const FaceJoinedCallback& on_face_joined,
+                 CastingResult& result);
 
 }  // namespace crowdface

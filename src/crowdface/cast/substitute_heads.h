@@ -11,9 +11,9 @@ namespace crowdface {
 /// Replaces heads outside a group by similar heads of the group. Example: if daughters may only be
 /// made of women's heads, a woman's head replaces each head of the father. The substitute is the
 /// head of the group that has the most tags in common with the replaced head. If several heads have
-/// equally many, heads that no parent uses come first. Among these, the head with the nearest point
-/// in face space is chosen, after subtraction of the difference between the mean of the group and
-/// the mean of all other heads.
+/// equally many tags in common, heads that no parent uses come first. Among these, the head with
+/// the nearest point in face space is chosen, after subtraction of the difference between the mean
+/// of the group and the mean of all other heads.
 class SubstituteHeads {
  public:
   /// Makes an object that replaces no head.

@@ -15,11 +15,12 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
       shares[tag] += part.weight;
     }
   }
-  // The score of a head is a sum over its tags: the total weight of the mixture's heads that have
-  // the tag, minus the total weight of the heads that do not.
+  // differences up to this value are only rounding errors
   constexpr double kSame = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;
+  // The score of a head is a sum over its tags: the total weight of the mixture's heads that have
+  // the tag, minus the total weight of the heads that do not.
   for (const SourceWeight& part : recipe.mixture) {
     double agrees = 0;
     for (const std::string& tag : tags[static_cast<std::size_t>(part.head)]) {

@@ -89,8 +89,8 @@ const Keys<Attachment>& item_keys() {
   return keys;
 }
 
-/// Returns whether other files of a face (levels of detail or shapes) already have names that end
-/// like this name.
+/// Returns whether an attachment's name is taken: the names of a face's other files (levels of
+/// detail and shapes) end with this name.
 bool is_ending_taken(const std::string& name, const Config& config) {
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
@@ -278,7 +278,7 @@ void read_attachments_of_folder(const YamlNode& node, Attachments& attachments,
   if (!folder) return;
   const std::filesystem::path file = *folder / "attachments.yaml";
   if (!expect_file(node, file, draft)) return;
-  draft.config.lists.push_back(file);
+  draft.config.tag_and_attachment_files.push_back(file);
   const auto root = read_yaml(file.string(), draft.complaints);
   if (!root) return;
   const YamlEntry* section = root->find("attachments");
@@ -319,7 +319,7 @@ const Keys<Attachments>& attachments_keys() {
   return keys;
 }
 
-/// Warns if `none` or `quotas` of the config replace shares that the folder of attachments sets for
+/// If the config has `none` or `quotas`, all shares of the folder are lost. Warns if this concerns
 /// kinds that the config does not mention.
 ///
 /// \param from  the shares that the folder sets.
@@ -372,9 +372,9 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
 }
 
 std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
-  if (facts.attachments.empty()) return std::nullopt;
+  if (facts.attachments_folder.empty()) return std::nullopt;
   return StarterLines{
-      flow_map({entry("from", write_scalar(facts.attachments.string()))}), "",
+      flow_map({entry("from", write_scalar(facts.attachments_folder.string()))}), "",
       "Hair, beards, … in the folder beside the heads; its file attachments.yaml lists them\n"
       "(docs/attachments.md)."};
 }

@@ -49,8 +49,8 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
   return heads;
 }
 
-/// Keeps the items whose head is in `others` or, if `own` is false, the items whose head is not in
-/// `others`.
+/// If `own` is true, keeps the items whose head is in `others`. Otherwise keeps the items whose
+/// head is not in `others`.
 ///
 /// \param head  returns the head of an item.
 template <class Heads, class Head>
@@ -137,13 +137,13 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_gap", &Believability::max_gap_mm, length(kMaxDistanceMm)),
       key("max_exposed", &Believability::max_exposed_mm2, number(0, 1e6))
           .with_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
-            if (facts.vertices > kMaxJudged) return std::nullopt;
+            if (facts.vertex_count > kMaxJudged) return std::nullopt;
             return StarterLines{"0.5",
                                 "skin that shows its back, in mm²: specks at nostrils and lips"};
           }),
       word_key("meshes", &Believability::meshes)
           .with_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
-            if (facts.vertices > kMaxJudged) return std::nullopt;
+            if (facts.vertex_count > kMaxJudged) return std::nullopt;
             return StarterLines{std::string(word_of(Believability::Meshes::kJudge)), "",
                                 "Casting builds each face and drops it if too much skin passes "
                                 "through other skin: lips, lids."};
@@ -202,7 +202,7 @@ namespace {
 /// config's believability limits.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
   const std::size_t in_group = heads_of_smaller_group(facts);
-  const std::size_t heads = in_group > 0 ? in_group : facts.names.size();
+  const std::size_t heads = in_group > 0 ? in_group : facts.head_names.size();
   struct Proposal {
     std::size_t heads;  ///< smallest number of heads for which this distance is proposed
     const char* distance;
@@ -241,8 +241,7 @@ const Keys<DiversityOptions>& diversity_keys() {
                "like that person."}),
       key("min_distance_to_rejected", &Diversity::min_distance_to_rejected_mm,
           length(kMaxDistanceMm)),
-      key("max_weight", &Diversity::max_weight,
-          refuse_zero(number(0, 1), "a number above 0, up to 1")),
+      key("max_weight", &Diversity::max_weight, nonzero(number(0, 1), "a number above 0, up to 1")),
       {"quotas", refuse_quotas, [](const auto&...) { return ""; }},
       removed_key("candidates", {}),
       removed_key("pool", "10"),

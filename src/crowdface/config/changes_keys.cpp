@@ -133,9 +133,10 @@ void read_variant_of(const YamlNode& node, FaceChange& change, ConfigDraft& draf
 
 std::string write_locked(const FaceChange& change, const WriteContext& context) {
   const std::vector<std::string> parts = context.config.part_names();
-  return change.locked.empty() ? "" : flow_list(texts_of(change.locked, [&](std::size_t part) {
-    return write_scalar(parts[part]);
-  }));
+  return change.locked_parts.empty()
+             ? ""
+             : flow_list(texts_of(change.locked_parts,
+                                  [&](std::size_t part) { return write_scalar(parts[part]); }));
 }
 
 const Keys<FaceChange>& change_keys() {
@@ -171,13 +172,13 @@ const Keys<FaceChange>& change_keys() {
           "variant_of", read_variant_of,
           [](const FaceChange& change, const auto&) { return change.variant_of.value_or(""); }}
           .with_accepted_values("id of a face"),
-      key("distance", &FaceChange::distance_mm, positive_length(kLargestDistanceMm))
+      key("distance", &FaceChange::variant_distance_mm, positive_length(kLargestDistanceMm))
           .written_if(
               [](const FaceChange& change, const auto&) { return change.variant_of.has_value(); }),
       key("group", &FaceChange::group, known_group),
       Key<FaceChange>{"lock",
                       [](const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
-                        change.locked = read_locked_parts(node, draft);
+                        change.locked_parts = read_locked_parts(node, draft);
                       },
                       write_locked}
           .with_accepted_values("list of regions or bands"),

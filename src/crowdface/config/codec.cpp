@@ -55,7 +55,7 @@ Codec<double> iteration_count() {
   return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<double> {
             const std::uint64_t most =
                 draft.config.smoothing.max_iterations.value_or(kMaxIterations);
-            const auto count = read_whole(node, 0, most, draft.complaints);
+            const auto count = read_whole_number(node, 0, most, draft.complaints);
             return count ? std::optional(static_cast<double>(*count)) : std::nullopt;
           },
           [](double count, const auto&) { return concat(static_cast<std::uint64_t>(count)); },
@@ -81,7 +81,7 @@ std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft)
   std::map<Eigen::Index, double> by_tag, by_name;
   for (const YamlEntry& entry : node.entries) {
     const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
-    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
+    const auto weight = read_number(entry.value, 0, kMaxSourceWeight, draft.complaints);
     if (weight == 0.0) {
       draft.complaints.expected(entry.value,
                                 "a weight above 0 (to exclude the head, remove its entry)");
@@ -156,9 +156,11 @@ Codec<double> number(double low, double high) {
       format_number, concat("number, ", plain_number(low), " … ", plain_number(high)));
 }
 
-Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high) {
+Codec<std::uint64_t> whole_number(std::uint64_t low, std::uint64_t high) {
   return plain<std::uint64_t>(
-      [=](const YamlNode& node, Complaints& out) { return read_whole(node, low, high, out); },
+      [=](const YamlNode& node, Complaints& out) {
+        return read_whole_number(node, low, high, out);
+      },
       [](std::uint64_t value) { return concat(value); },
       concat("whole number, ", low, " … ", high));
 }
@@ -195,11 +197,11 @@ Codec<double> length(double high_mm) {
 }
 
 Codec<double> positive_length(double high_mm) {
-  return refuse_zero(length(high_mm),
-                     concat("a length above 0 mm, up to ", plain_number(high_mm), " mm"));
+  return nonzero(length(high_mm),
+                 concat("a length above 0 mm, up to ", plain_number(high_mm), " mm"));
 }
 
-Codec<double> refuse_zero(const Codec<double>& codec, const std::string& expected) {
+Codec<double> nonzero(const Codec<double>& codec, const std::string& expected) {
   Codec<double> above =
       restricted(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
         if (value == 0) draft.complaints.expected(node, expected);
@@ -313,7 +315,7 @@ Codec<std::vector<WeightedHead>> weighted_heads() {
           "`all`, a list of heads and tags, or `{head or tag: weight}`"};
 }
 
-Codec<PlanePoint> point() {
+Codec<PlanePoint> plane_point() {
   return {[coordinate = number(-kMaxPlaneCoordinate, kMaxPlaneCoordinate)](
               const YamlNode& node, ConfigDraft& draft) -> std::optional<PlanePoint> {
             if (node.kind != YamlNode::Kind::kList || node.items.size() != 2) {

@@ -44,7 +44,7 @@ std::string remove_article(std::string_view expected);
 /// Codec for a number in [low, high].
 Codec<double> number(double low, double high);
 /// Codec for a whole number in [low, high].
-Codec<std::uint64_t> whole(std::uint64_t low, std::uint64_t high);
+Codec<std::uint64_t> whole_number(std::uint64_t low, std::uint64_t high);
 /// Codec for the length of one mesh unit: see kUnitChoices.
 Codec<LengthUnit> length_unit();
 /// Codec for a length with a unit. The value is converted to millimetres, and must be in [0,
@@ -55,9 +55,9 @@ Codec<double> positive_length(double high_mm);
 /// Like `codec`, but refuses 0.
 ///
 /// \param expected  what messages name as the expected value, such as "a number above 0".
-Codec<double> refuse_zero(const Codec<double>& codec, const std::string& expected);
-/// Codec for one value (as low and high end) or a range `[low, high]`.
-Codec<Range> range(const Codec<double>& one);
+Codec<double> nonzero(const Codec<double>& codec, const std::string& expected);
+/// Codec for a range, given as `[low, high]` or as one value, which is then both ends.
+Codec<Range> range(const Codec<double>& value_codec);
 Codec<Range> asymmetry();  ///< from 0 to kMaxAsymmetry
 /// from −1 to 1; an age below 0 needs heads with the tag `young`, an age above 0 heads with the tag
 /// `old`
@@ -78,9 +78,10 @@ Codec<Eigen::Index> head();
 /// Codec for a list of heads, each given by its name or by a tag, or `all`. The result is ascending
 /// and has no duplicates.
 Codec<std::vector<Eigen::Index>> head_list();
-/// Codec for a list as in `head_list` (every weight is 1), or a mapping `{head or tag: weight}`.
+/// Codec for heads with weights, given as a mapping `{head or tag: weight}` or as a list (see
+/// head_list; every weight is then 1).
 Codec<std::vector<WeightedHead>> weighted_heads();
-Codec<PlanePoint> point();
+Codec<PlanePoint> plane_point();
 /// Writes weights as "{head: weight}".
 std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context);
 /// Codec for a mapping from names of hair colours to fractions that sum to at most 1: {red: 0.3}.

@@ -9,13 +9,13 @@
 
 namespace crowdface {
 
-void Complaints::add(const YamlPlace& place, std::string what, ExitCode kind) {
-  complaints_.push_back({place, std::move(what), kind});
+void Complaints::add(const YamlPlace& place, std::string what, ExitCode exit_code) {
+  complaints_.push_back({place, std::move(what), exit_code});
 }
 
-void Complaints::add_at(const YamlNode& node, const std::string& what, ExitCode kind) {
+void Complaints::add_at(const YamlNode& node, const std::string& what, ExitCode exit_code) {
   if (node.kind == YamlNode::Kind::kRefused) return;
-  add(node.place, node.path.empty() ? what : concat(node.path, ": ", what), kind);
+  add(node.place, node.path.empty() ? what : concat(node.path, ": ", what), exit_code);
 }
 
 std::nullopt_t Complaints::expected(const YamlNode& node, const std::string& expected) {
@@ -42,7 +42,7 @@ void Complaints::report_to(Problems& problems) const {
   };
   std::ranges::stable_sort(sorted, {}, key);
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxReportedComplaints); ++i) {
-    problems.add(sorted[i].kind, concat(sorted[i].place.text(), ": ", sorted[i].what));
+    problems.add(sorted[i].exit_code, concat(sorted[i].place.text(), ": ", sorted[i].what));
   }
   if (sorted.size() > kMaxReportedComplaints) {
     problems.add(ExitCode::kUsage,

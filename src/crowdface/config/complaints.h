@@ -16,13 +16,13 @@ class Complaints {
   struct Complaint {
     YamlPlace place;
     std::string what;
-    ExitCode kind;
+    ExitCode exit_code;
   };
 
-  void add(const YamlPlace& place, std::string what, ExitCode kind = ExitCode::kUsage);
+  void add(const YamlPlace& place, std::string what, ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: WHAT" at a node's place in the file, unless the node was already
   /// refused (Kind::kRefused).
-  void add_at(const YamlNode& node, const std::string& what, ExitCode kind = ExitCode::kUsage);
+  void add_at(const YamlNode& node, const std::string& what, ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: expected EXPECTED, found …" at a node's place in the file.
   ///
   /// \return `nullopt`, so that a function that reads a value can return the result of this call.

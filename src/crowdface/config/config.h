@@ -64,7 +64,7 @@ enum class SheetTexture {
 };
 
 /// How the smoothed versions of each head are represented.
-enum class Levels {
+enum class LevelRepresentation {
   /// as displacement fields fitted to each head; their number is as large as `tolerance_mm`
   /// requires
   kBasis,
@@ -106,7 +106,7 @@ struct Config {
     std::uint64_t seed = 1;
     /// The number of sampled faces of the crowd in the output folder, if that crowd has this
     /// config. (This is not a config key.)
-    std::optional<std::uint64_t> existing_count;
+    std::optional<std::uint64_t> existing_face_count;
   } crowd;
 
   struct Faces {
@@ -133,14 +133,14 @@ struct Config {
     std::optional<std::uint64_t> max_iterations;  ///< if set, replaces max_size_mm
     Boundary boundary = Boundary::kFixed;
     OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< value of the key `operator`
-    Levels levels = Levels::kBasis;
+    LevelRepresentation levels = LevelRepresentation::kBasis;
     double tolerance_mm = 0.05;  ///< `levels: basis`: largest error at any vertex and level
   } smoothing;
 
   struct Blending {
     Normalization normalization = Normalization::kPartition;
     /// how lips and other nearly touching parts of the skin are treated
-    Contacts contacts = Contacts::kAuto;
+    ContactHandling contacts = ContactHandling::kAuto;
   } blending;
 
   /// How eyes, teeth and lashes follow the skin. The config names such a part by its material, its
@@ -162,14 +162,14 @@ struct Config {
     std::vector<std::string> names;  ///< names of the shapes; empty: there are no shapes
     /// #names, files of the template's shapes; the path is empty if the template lacks the
     /// shape
-    std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> template_files;
     /// #heads by #names, files of the heads' shapes; the path is empty if the head lacks the
     /// shape
-    std::vector<std::vector<std::filesystem::path>> of_head;
+    std::vector<std::vector<std::filesystem::path>> head_files;
   } shapes;
 
   /// files from which tags and attachments have been read
-  std::vector<std::filesystem::path> lists;
+  std::vector<std::filesystem::path> tag_and_attachment_files;
   /// file of points (positions on the heads) that follow each face; empty: none
   std::filesystem::path points;
   /// file of landmarks, which are used instead of landmarks found on the heads; empty: none
@@ -204,9 +204,8 @@ struct Config {
     AttachmentMove moves = AttachmentMove::kBend;
   };
   struct Attachments {
-    /// The head to which all items were fitted. If the mesh `file` is given instead (with the
-    /// heads' topology), the items were fitted to this mesh. Without either, to the mean of the
-    /// heads.
+    /// The head to which all items were fitted. If there is no head, the items were fitted to the
+    /// mesh `file` (with the heads' topology) or, without `file`, to the mean of the heads.
     std::optional<Eigen::Index> head;
     std::filesystem::path file;
     std::vector<Attachment> items;
@@ -232,8 +231,8 @@ struct Config {
 
   struct Plane {
     Layout layout = Layout::kCircle;
-    /// anchors by head, which replace the anchors of the layout; with kManual, every head needs
-    /// one
+    /// anchors by head, which replace the anchors of the layout; with kManual, every head needs an
+    /// anchor
     std::map<Eigen::Index, PlanePoint> anchors;
   } plane;
 
@@ -259,8 +258,8 @@ struct Config {
     std::vector<TraitTarget> targets;  ///< the file's content, sorted by measurement
   };
   TraitTable population;  ///< distributions that the measurements of the sampled faces should have
-  /// distributions that give the quantiles for percentages in `traits`; empty: the heads give the
-  /// quantiles
+  /// a percentage in `traits` is a quantile of these distributions; empty: of the heads'
+  /// measurements
   TraitTable quantiles_of;
 
   struct Reviews {
@@ -277,8 +276,8 @@ struct Config {
   std::filesystem::path edits;
 
   /// The mesh with which each face is compared, vertex by vertex; a colour map shows the distances.
-  struct Comparison {
-    enum class With { kNothing, kTarget, kNearest, kFile } with = With::kNothing;
+  struct MeshComparison {
+    enum class Reference { kNothing, kTarget, kNearest, kFile } reference = Reference::kNothing;
     /// a mesh, or the folder of another crowd whose faces have the same ids
     std::filesystem::path file;
     double scale_mm = 6;  ///< distance that the last colour of the colour scale represents
@@ -290,7 +289,7 @@ struct Config {
     std::vector<View> views = {View::kFront};
     std::vector<SheetLabel> labels = {SheetLabel::kId};
     SheetOrder order = SheetOrder::kPlan;
-    Comparison compare;
+    MeshComparison compare;
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
     /// number of faces whose expressions (blend shapes) are shown on separate pages
     int shapes = 0;

@@ -72,8 +72,8 @@ bool is_same(const YamlNode& a, const YamlNode& b) {
   return paths.empty();
 }
 
-/// Removes keys from each group that have the same value in `sampling`. So a difference in such a
-/// key is reported only once.
+/// From each group, removes the keys whose value is the same in `sampling`. So a difference in such
+/// a key is reported only once.
 void remove_inherited_keys(YamlNode& root) {
   const YamlEntry* sampling = root.find("sampling");
   const auto groups = std::ranges::find(root.entries, "groups", &YamlEntry::key);

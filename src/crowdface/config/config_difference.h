@@ -13,8 +13,8 @@ namespace crowdface {
 /// Compares the config.yaml of a crowd with the config of a run. Ignores comments, layout and the
 /// keys on which no recipe depends (Key::ignored_by_recipes). Unless `diversity.mode` is `spread`,
 /// also ignores a larger `crowd.count`, and smallest distances that apply only to faces that the
-/// crowd does not have. If a key is missing in the old config, its default is compared, because an
-/// older version that did not know the key may have written that config.
+/// old crowd does not have. If a key is missing in the old config, its default is compared, because
+/// an older version that did not know the key may have written that config.
 ///
 /// \param old_text  the crowd's config.yaml.
 /// \param text      the config of the run.

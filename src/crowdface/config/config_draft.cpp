@@ -11,7 +11,7 @@ namespace crowdface {
 
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path) {
   std::filesystem::path resolved = (folder / path).lexically_normal();
-  // this removes a trailing '/'
+  // for a path that ends with '/', parent_path() only removes this '/'
   return resolved.has_filename() ? resolved : resolved.parent_path();
 }
 

@@ -98,12 +98,12 @@ struct Key {
     key.affects_recipes = false;
     return key;
   }
-  /// Returns a copy of this key that is written only if `is(section, writing)` is true.
-  template <class Is>
-  Key written_if(const Is& is) const {
+  /// Returns a copy of this key that is written only if `condition(section, context)` is true.
+  template <class Condition>
+  Key written_if(const Condition& condition) const {
     Key key = *this;
-    key.write = [is, write = write](const Section& section, const WriteContext& context) {
-      return is(section, context) ? write(section, context) : "";
+    key.write = [condition, write = write](const Section& section, const WriteContext& context) {
+      return condition(section, context) ? write(section, context) : "";
     };
     return key;
   }
@@ -118,9 +118,8 @@ std::vector<std::string> names_of(const Keys<Section>& keys) {
   return texts_of(keys, [](const Key<Section>& key) { return key.name; });
 }
 
-/// Returns the lines of `comment_above`, then "key: value   # comment_beside". Each line starts
-/// with '
-/// '.
+/// Returns the lines of `comment_above`, then "key: value   # comment_beside". A line break
+/// precedes each line.
 std::string starter_lines(std::string_view key, const StarterLines& lines);
 
 /// Reads a mapping with these keys into the section.
@@ -151,8 +150,8 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
       continue;
     if (context.written_keys == WriteContext::WrittenKeys::kPlan && !key.affects_recipes) continue;
     const std::string value = key.write(section, context);
-    const bool left_out = !is_whole && value == key.write(Section{}, context);
-    if (!value.empty() && !left_out) entries.push_back(entry(key.name, value));
+    const bool is_left_out = !is_whole && value == key.write(Section{}, context);
+    if (!value.empty() && !is_left_out) entries.push_back(entry(key.name, value));
   }
   return entries;
 }
@@ -177,8 +176,8 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
     if (!key.rows) continue;
     const std::string path =
         section.empty() ? std::string(key.name) : concat(section, '.', key.name);
-    const std::vector<KeyRow> own = key.rows(path);
-    rows.insert(rows.end(), own.begin(), own.end());
+    const std::vector<KeyRow> nested_rows = key.rows(path);
+    rows.insert(rows.end(), nested_rows.begin(), nested_rows.end());
   }
   return rows;
 }
@@ -212,11 +211,11 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
 /// Makes the function that writes a section with these keys into a starter config. The keys must
 /// outlive this function.
 template <class Section>
-Starter starter_section(const Keys<Section>& keys, const std::string& above = {}) {
+Starter starter_section(const Keys<Section>& keys, const std::string& comment_above = {}) {
   return [=, &keys](const StarterFacts& facts) -> std::optional<StarterLines> {
     const std::string lines = starter_keys(keys, facts);
     if (lines.empty()) return std::nullopt;
-    return StarterLines{lines, {}, above};
+    return StarterLines{lines, {}, comment_above};
   };
 }
 
@@ -224,7 +223,7 @@ Starter starter_section(const Keys<Section>& keys, const std::string& above = {}
 /// optional, the key is not written.
 template <class Section, class Member, class Value>
 Key<Section> key(std::string_view name, Member Section::*member, const Codec<Value>& codec,
-                 std::string_view required = {}) {
+                 std::string_view required_example = {}) {
   return {name,
           [=](const YamlNode& node, Section& section, ConfigDraft& draft) {
             if (auto value = codec.read(node, draft))
@@ -238,7 +237,7 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
               return codec.write(static_cast<Value>(section.*member), context);
             }
           },
-          required,
+          required_example,
           {},
           codec.accepted_values};
 }
@@ -251,7 +250,7 @@ using SectionCheck = void (*)(const YamlNode& node, bool is_valid, ConfigDraft& 
 /// Makes a key whose value is a mapping with the given keys.
 template <class Section, class Member>
 Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Member>& keys,
-                         std::string_view required = {}, SectionCheck check = nullptr) {
+                         std::string_view required_example = {}, SectionCheck check = nullptr) {
   return {
       name,
       [=, &keys](const YamlNode& node, Section& section, ConfigDraft& draft) {
@@ -262,7 +261,7 @@ Key<Section> section_key(std::string_view name, Member Section::*member, const K
       [=, &keys](const Section& section, const WriteContext& context) {
         return block_map(write_keys(keys, section.*member, context));
       },
-      required,
+      required_example,
       starter_section(keys),
       {},
       [&keys, member](const std::string& path) { return key_rows(path, keys, Section{}.*member); }};
@@ -270,8 +269,8 @@ Key<Section> section_key(std::string_view name, Member Section::*member, const K
 
 template <class Section, class Value>
 Key<Section> word_key(std::string_view name, Value Section::*member,
-                      std::string_view required = {}) {
-  return key(name, member, word<Value>(), required);
+                      std::string_view required_example = {}) {
+  return key(name, member, word<Value>(), required_example);
 }
 
 /// The top-level keys of a config, in the order in which the keys are read. The functions below
@@ -311,8 +310,10 @@ std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const s
 /// that have this colour.
 template <class Section>
 Key<Section> hair_colours_key(std::map<std::string, double> Section::*shares) {
-  const auto some = [=](const Section& section, const auto&) { return !(section.*shares).empty(); };
-  return key("hair_colours", shares, hair_colours()).written_if(some);
+  const auto is_not_empty = [=](const Section& section, const auto&) {
+    return !(section.*shares).empty();
+  };
+  return key("hair_colours", shares, hair_colours()).written_if(is_not_empty);
 }
 /// Reads a mapping from heads to weights, {head: weight}.
 void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,

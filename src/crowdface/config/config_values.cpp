@@ -26,7 +26,7 @@ std::string unknown_key(const YamlNode& map, const std::string& key,
 std::optional<std::string> number_text(const YamlNode& node, const std::string& expected,
                                        Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar) return out.expected(node, expected);
-  if (node.quoted && parse_double(node.text)) {
+  if (node.is_quoted && parse_double(node.text)) {
     out.add_at(node, concat("expected ", expected, ", found text, ", quoted(node.text),
                             "; leave the quotes out"));
     return std::nullopt;
@@ -96,8 +96,8 @@ std::optional<double> read_number(const YamlNode& node, double low, double high,
   return *value == 0 ? 0.0 : *value;  // turn -0 into 0
 }
 
-std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low, std::uint64_t high,
-                                        Complaints& out) {
+std::optional<std::uint64_t> read_whole_number(const YamlNode& node, std::uint64_t low,
+                                               std::uint64_t high, Complaints& out) {
   const std::string expected = concat("a whole number from ", low, " to ", high);
   const auto text = number_text(node, expected, out);
   if (!text) return std::nullopt;

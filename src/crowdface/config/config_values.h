@@ -42,8 +42,8 @@ class MapReader {
 /// Each of these functions reads one value. If the value is not accepted, the function adds a
 /// complaint and returns nothing. Bounds are inclusive.
 std::optional<double> read_number(const YamlNode& node, double low, double high, Complaints& out);
-std::optional<std::uint64_t> read_whole(const YamlNode& node, std::uint64_t low, std::uint64_t high,
-                                        Complaints& out);
+std::optional<std::uint64_t> read_whole_number(const YamlNode& node, std::uint64_t low,
+                                               std::uint64_t high, Complaints& out);
 /// Reads a text that is not empty and contains no control characters.
 ///
 /// \param expected  what messages name as the expected value, such as "a file name".

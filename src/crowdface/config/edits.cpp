@@ -14,25 +14,25 @@ std::string id_of(const YamlNode& recipe) {
   return id != nullptr ? id->value.text : std::string();
 }
 
-void merge_recipes(const YamlNode& recipes, YamlNode& own) {
-  if (own.kind == YamlNode::Kind::kNothing) own.kind = YamlNode::Kind::kList;
+void merge_recipes(const YamlNode& recipes, YamlNode& config_recipes) {
+  if (config_recipes.kind == YamlNode::Kind::kNothing) config_recipes.kind = YamlNode::Kind::kList;
   for (const YamlNode& recipe : recipes.items) {
-    const auto there = std::ranges::find(own.items, id_of(recipe), id_of);
-    if (there != own.items.end()) {
+    const auto there = std::ranges::find(config_recipes.items, id_of(recipe), id_of);
+    if (there != config_recipes.items.end()) {
       *there = recipe;
     } else {
-      own.items.push_back(recipe);
+      config_recipes.items.push_back(recipe);
     }
   }
 }
 
 }  // namespace
 
-void merge_faces(const YamlNode& faces, YamlNode& own) {
+void merge_faces(const YamlNode& faces, YamlNode& config_faces) {
   const YamlEntry* also = faces.find("also");
   if (also == nullptr) return;
-  const auto there = std::ranges::find(own.entries, "also", &YamlEntry::key);
-  if (there == own.entries.end()) return own.entries.push_back(*also);
+  const auto there = std::ranges::find(config_faces.entries, "also", &YamlEntry::key);
+  if (there == config_faces.entries.end()) return config_faces.entries.push_back(*also);
   std::vector<YamlNode>& items = there->value.items;
   items.insert(items.end(), also->value.items.begin(), also->value.items.end());
 }

@@ -8,9 +8,8 @@
 
 namespace crowdface {
 
-/// Appends the heads that the edits list under `faces.also` to the heads in the config's section
-/// `faces`.
-void merge_faces(const YamlNode& faces, YamlNode& own);
+/// Appends heads to the config's section `faces`: the heads under `faces.also` in the edits.
+void merge_faces(const YamlNode& faces, YamlNode& config_faces);
 
 /// Merges edits into the config `root`. A section of the edits replaces the same section of `root`,
 /// with two exceptions: `faces` (see merge_faces) and `recipes`. Each edited recipe replaces the

@@ -191,7 +191,7 @@ const Keys<Faces>& faces_keys() {
       Key<Faces>{"directory", read_head_directory, [](const auto&...) { return ""; }}
           .with_accepted_values("folder")
           .with_starter([](const StarterFacts& facts) {
-            return StarterLines{write_scalar(facts.heads.string())};
+            return StarterLines{write_scalar(facts.heads_folder.string())};
           }),
       Key<Faces>{"files", read_files, write_files}.with_accepted_values(
           "list of meshes, or a pattern"),
@@ -277,7 +277,7 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
 std::optional<StarterLines> faces_starter(const StarterFacts& facts) {
   return StarterLines{starter_keys(faces_keys(), facts), "",
                       concat("The heads: meshes that share one topology. This folder holds ",
-                             facts.names.size(), ": ", name_some(facts.names), ".")};
+                             facts.head_names.size(), ": ", name_some(facts.head_names), ".")};
 }
 
 std::string write_faces(const Config& config, const WriteContext& context) {

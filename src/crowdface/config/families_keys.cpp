@@ -152,7 +152,8 @@ const Keys<FamilyOptions>& family_keys() {
   using Family = FamilyOptions;
   static const Keys<Family> keys = {
       key("name", &Family::name, name(), "such as smith"),
-      key("members", &Family::members, whole(1, kMaxMembers), "write the number of faces"),
+      key("members", &Family::member_count, whole_number(1, kMaxMembers),
+          "write the number of faces"),
       key("group", &Family::group, group()),
       key("target", &Family::target, head()),
       Key<Family>{"parents", read_parents, write_parents}.with_accepted_values(
@@ -161,8 +162,8 @@ const Keys<FamilyOptions>& family_keys() {
           "`{region or band: mother, father or drawn}`"),
       key("max_distance", &Family::max_distance_mm, positive_length(kMaxDistanceMm)),
       key("min_distance", &Family::min_distance_mm, length(kMaxDistanceMm)),
-      word_key("twins", &Family::twins).written_if([](const Family& family, const auto&) {
-        return family.twins;
+      word_key("twins", &Family::are_twins).written_if([](const Family& family, const auto&) {
+        return family.are_twins;
       }),
       key("age", &Family::age, age()),
       key("traits", &Family::traits, trait_limits())};
@@ -179,7 +180,7 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
     constexpr double kTwinsMm = 0.1, kChildren = 0.4;
     if (item.find("min_distance") == nullptr && !family.parents.empty()) {
       family.min_distance_mm =
-          std::min(family.twins ? kTwinsMm : HUGE_VAL, kChildren * family.max_distance_mm);
+          std::min(family.are_twins ? kTwinsMm : HUGE_VAL, kChildren * family.max_distance_mm);
     }
     if (family.max_distance_mm > 0 && family.min_distance_mm > 2 * family.max_distance_mm) {
       draft.complaints.add_at(item.find("min_distance")->value,
@@ -199,7 +200,7 @@ std::string write_families(const Config& config, const WriteContext& context) {
 
 std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const std::string& crowd) {
   std::vector<std::string> ids;
-  for (int m = 1; m <= family.members; ++m) ids.push_back(member_id(crowd, family.name, m));
+  for (int m = 1; m <= family.member_count; ++m) ids.push_back(member_id(crowd, family.name, m));
   for (const Parent& parent : family.parents) {
     if (parent.is_new) ids.push_back(parent_id(crowd, parent));
   }

@@ -123,7 +123,7 @@ const Keys<Group>& group_keys() {
     Keys<Group> own = {
         key("name", &Group::name, name(), "such as elderly"),
         key("share", &Group::share, number(0, 1)).written_if(has_share),
-        key("count", &Group::count, whole(0, kMaxFaces)),
+        key("count", &Group::count, whole_number(0, kMaxFaces)),
         Key<Group>{"tags", read_group_tags, [](const auto&...) { return ""; }}.with_accepted_values(
             "list of tags")};
     for (const Key<SamplingOptions>& sampled : sampling_keys()) {
@@ -167,8 +167,8 @@ void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   }
 }
 
-/// Divides the share that remains equally among the groups that have neither a share nor a count.
-/// Adds a complaint if the sum of the shares or of the counts is too large.
+/// Divides the remaining share equally among the groups that have neither a share nor a count. Adds
+/// a complaint if the sum of the shares or of the counts is too large.
 void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   auto& groups = draft.config.groups;
   std::uint64_t counted = 0;
@@ -228,7 +228,7 @@ std::size_t heads_of_smaller_group(const StarterFacts& facts) {
   };
   const auto fewest = std::min(heads("female"), heads("male"));
   const bool mixes = fewest > 1;  // at least two heads, because a blend needs two
-  return facts.attachments.empty() || !mixes ? 0 : static_cast<std::size_t>(fewest);
+  return facts.attachments_folder.empty() || !mixes ? 0 : static_cast<std::size_t>(fewest);
 }
 
 Key<Config> groups_key() {

@@ -60,7 +60,7 @@ void read_tags_beside_heads(Config::Faces& faces, ConfigDraft& draft) {
   for (const std::filesystem::path& folder : folders) {
     const std::filesystem::path file = folder / "tags.yaml";
     if (!is_file(file)) continue;
-    draft.config.lists.push_back(file);
+    draft.config.tag_and_attachment_files.push_back(file);
     const auto root = read_yaml(file.string(), draft.complaints);
     const YamlEntry* section = root ? root->find("faces") : nullptr;
     const YamlEntry* tags = section != nullptr ? section->value.find("tags") : nullptr;

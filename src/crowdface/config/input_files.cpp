@@ -184,8 +184,8 @@ std::vector<fs::path> input_files(const Config& config) {
   };
   std::ranges::for_each(config.faces.files, add);
   add(config.shapes.neutral);
-  std::ranges::for_each(config.shapes.files, add);
-  for (const auto& of_head : config.shapes.of_head) std::ranges::for_each(of_head, add);
+  std::ranges::for_each(config.shapes.template_files, add);
+  for (const auto& of_head : config.shapes.head_files) std::ranges::for_each(of_head, add);
   add(config.points);
   add(config.landmarks);
   add(config.population.file);
@@ -195,7 +195,7 @@ std::vector<fs::path> input_files(const Config& config) {
   add(config.neck.rim);
   add(config.neck.body_rim);
   add(config.neck.body_texture);
-  std::ranges::for_each(config.lists, add);
+  std::ranges::for_each(config.tag_and_attachment_files, add);
   add(config.attachments.file);
   for (const Config::Attachment& item : config.attachments.items) add(item.file);
   for (const std::string& mask : config.regions.mask) add_image(mask, files);

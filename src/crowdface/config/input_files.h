@@ -58,8 +58,8 @@ std::vector<std::filesystem::path> input_files(const Config& config);
 /// \throws UsageError if the path is not UTF-8 or contains a control character.
 void require_storable_path(const std::filesystem::path& path);
 
-/// Adds a problem for each input file, and for the crowd's folder, whose absolute path cannot be
-/// stored in a config (see require_storable_path). The crowd's config.yaml stores these paths.
+/// Checks the absolute paths of all input files and of the crowd's folder. Adds a problem for each
+/// path that the crowd's config.yaml cannot store; see require_storable_path.
 void check_paths(const Config& config, Problems& problems);
 
 }  // namespace crowdface

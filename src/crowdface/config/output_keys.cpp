@@ -12,7 +12,7 @@ namespace {
 
 using Sheet = Config::ContactSheet;
 using Output = Config::Output;
-using With = Config::Comparison::With;
+using Reference = Config::MeshComparison::Reference;
 
 constexpr double kLongestScaleMm = 1000;
 constexpr std::uint64_t kMaxFacesPerFolder = 1'000'000;
@@ -20,23 +20,24 @@ constexpr std::uint64_t kMaxFacesPerFolder = 1'000'000;
 void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
   const auto file = path("none, target, nearest, or a file or crowd folder").read(node, draft);
   if (!file) return;
-  const auto& words = words_of<With>();
-  const auto word =
-      std::ranges::find_if(words, [&](const Word<With>& known) { return known.text == node.text; });
+  const auto& words = words_of<Reference>();
+  const auto word = std::ranges::find_if(
+      words, [&](const Word<Reference>& known) { return known.text == node.text; });
   if (word != words.end()) {
-    sheet.compare.with = word->value;
+    sheet.compare.reference = word->value;
   } else {
-    sheet.compare = {With::kFile, *file, sheet.compare.scale_mm};
+    sheet.compare = {Reference::kFile, *file, sheet.compare.scale_mm};
     expect_file(node, *file, draft, "expected none, target, nearest, or an existing file; ");
   }
-  if (sheet.compare.with != With::kNothing && draft.config.output.meshes.empty()) {
+  if (sheet.compare.reference != Reference::kNothing && draft.config.output.meshes.empty()) {
     draft.complaints.add_at(node, "a comparison needs meshes, but output.meshes is empty");
   }
 }
 
 std::string write_comparison(const Sheet& sheet, const WriteContext& context) {
-  return sheet.compare.with == With::kFile ? path("").write(sheet.compare.file, context)
-                                           : std::string(word_of(sheet.compare.with));
+  return sheet.compare.reference == Reference::kFile
+             ? path("").write(sheet.compare.file, context)
+             : std::string(word_of(sheet.compare.reference));
 }
 
 /// Parses a colour such as "#rrggbb".
@@ -136,16 +137,16 @@ bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft)
 
 const Keys<Sheet>& contact_sheet_keys() {
   static const Keys<Sheet> keys = {
-      key("columns", &Sheet::columns, whole(1, 32)).ignored_by_face_files(),
-      key("rows", &Sheet::rows, whole(1, 64)).ignored_by_face_files(),
-      key("cell", &Sheet::cell, whole(32, 2048)),
+      key("columns", &Sheet::columns, whole_number(1, 32)).ignored_by_face_files(),
+      key("rows", &Sheet::rows, whole_number(1, 64)).ignored_by_face_files(),
+      key("cell", &Sheet::cell, whole_number(32, 2048)),
       key("views", &Sheet::views,
           words<View>("a list of views, [front, three_quarter, profile, back]")),
       key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]"))
           .ignored_by_face_files(),
       word_key("order", &Sheet::order).ignored_by_face_files(),
       Key<Sheet>{"compare", read_comparison, write_comparison}
-          .with_accepted_values(concat(quoted_words<With>(), ", or a file or crowd folder"))
+          .with_accepted_values(concat(quoted_words<Reference>(), ", or a file or crowd folder"))
           .ignored_by_face_files(),
       Key<Sheet>{"compare_scale",
                  [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
@@ -159,7 +160,8 @@ const Keys<Sheet>& contact_sheet_keys() {
           .ignored_by_face_files(),
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
           .ignored_by_face_files(),
-      key("shapes", &Sheet::shapes, restricted(whole(0, 64), can_be_shown)).ignored_by_face_files(),
+      key("shapes", &Sheet::shapes, restricted(whole_number(0, 64), can_be_shown))
+          .ignored_by_face_files(),
       word_key("texture", &Sheet::texture)};
   return keys;
 }
@@ -169,7 +171,7 @@ bool fits_on_a_page(const Sheet& sheet) {
   CellSize cell = sheet.plain_cell_size();
   cell.label_lines = std::max(cell.label_lines, static_cast<int>(sheet.labels.size()));
   SheetOptions options{.columns = sheet.columns, .title = "title", .legend = {}, .note = {}};
-  if (sheet.compare.with != With::kNothing) {
+  if (sheet.compare.reference != Reference::kNothing) {
     cell.width += sheet.cell;
     cell.label_lines += 1;
     options.legend.emplace();
@@ -228,7 +230,7 @@ const Keys<Output>& output_keys() {
           "decreasing list of up to 8 percentages"),
       word_key("subdivision", &Output::subdivision),
       word_key("gallery", &Output::gallery),
-      key("faces_per_folder", &Output::faces_per_folder, whole(0, kMaxFacesPerFolder)),
+      key("faces_per_folder", &Output::faces_per_folder, whole_number(0, kMaxFacesPerFolder)),
       Key<Output>{"surfaces", read_surfaces, write_surfaces}.with_accepted_values(
           concat("`{material: surface}`, a surface is one of ", quoted_words<SurfaceKind>(),
                  " or a colour `\"#rrggbb\"`")),

@@ -48,7 +48,7 @@ class OverriddenKeys {
     }
     sampled_ = faces_of_;
     for (const FamilyOptions& family : config.families) {
-      if (family.group) faces_of_[*family.group] += static_cast<std::uint64_t>(family.members);
+      if (family.group) faces_of_[*family.group] += static_cast<std::uint64_t>(family.member_count);
       for (const Parent& parent : family.parents) {
         if (parent.group) ++faces_of_[*parent.group];
       }
@@ -159,7 +159,7 @@ class OverriddenKeys {
   }
 
   void find_in_family(const YamlNode& node, const FamilyOptions& family) {
-    const auto members = static_cast<std::uint64_t>(family.members);
+    const auto members = static_cast<std::uint64_t>(family.member_count);
     const auto is_target = [](const SamplingOptions& sampling, Eigen::Index head) {
       return std::ranges::find(sampling.targets, head, &WeightedHead::head) !=
              sampling.targets.end();

@@ -9,8 +9,9 @@
 
 namespace crowdface {
 
-/// Returns one line of text for each key that another key overrides, among the keys that restrict
-/// faces to heads, tags or shares. Each line names both keys and the number of faces concerned.
+/// Finds keys that have no effect because another key overrides them, among the keys that limit
+/// which heads, tags or shares faces may use. Returns one line of text for each such key, with both
+/// keys and the number of faces concerned.
 ///
 /// \param root    the config file, with all command-line overrides and edits.
 /// \param config  the complete config that was read from `root`.

@@ -29,7 +29,7 @@ bool in_iterations(const HandBand& band, const WriteContext&) {
 
 const Keys<HandBand>& recipe_band_keys() {
   static const Keys<HandBand> keys = {
-      key("position", &HandBand::position, point()),
+      key("position", &HandBand::position, plane_point()),
       Key<HandBand>{"weights", read_band_weights,
                     [](const HandBand& band, const WriteContext& context) {
                       return band.weights.empty() ? "" : write_weights(band.weights, context);
@@ -98,7 +98,7 @@ HandRegion read_region(const YamlNode& node, ConfigDraft& draft) {
 }
 
 /// Reads the values of a recipe's regions. A region without an entry has the values of the entry
-/// `all`. Without this entry too, its values are random.
+/// `all`. If there is no entry `all` either, the region's values are random.
 void read_regions_of(const YamlNode& node, ManualRecipe& recipe, ConfigDraft& draft) {
   if (!draft.complaints.expect_map(node, "a mapping from regions, or all, to their values")) return;
   const std::vector<std::string>& names = draft.config.regions.names;
@@ -201,7 +201,7 @@ void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
   bool is_valid = true;
   for (const YamlEntry& entry : node.entries) {
     const auto head = find_head(entry.key, entry.key_place, node.path, draft);
-    const auto weight = read_number(entry.value, 0, kLargestWeight, draft.complaints);
+    const auto weight = read_number(entry.value, 0, kMaxSourceWeight, draft.complaints);
     sum += weight.value_or(0);
     is_valid = is_valid && weight;
     if (head && weight) weights.push_back({*head, *weight});

@@ -92,7 +92,7 @@ void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
-  if (facts.mask.empty()) {
+  if (facts.mask_file.empty()) {
     return StarterLines{
         "none", "",
         "Regions of the face that are blended separately need a mask image: one colour channel "
@@ -100,7 +100,7 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
         "the\nhead is a single region.\nregions: {names: [top, middle, bottom], mask: bands.png}"};
   }
   return StarterLines{block_map({concat("names: [", join(facts.regions), ']'),
-                                 entry("mask", write_scalar(facts.mask))}),
+                                 entry("mask", write_scalar(facts.mask_file))}),
                       "",
                       "Regions of the face that are blended separately: each colour channel of the "
                       "image masks one\nregion. \"regions: none\" makes the head a single region."};

@@ -37,13 +37,13 @@ bool is_new_parent(const std::string& id, const Config& config) {
 }
 
 void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
-  mark.locked = read_locked_parts(node, draft);
+  mark.locked_parts = read_locked_parts(node, draft);
   mark.verdict = Verdict::kReject;
 }
 
 void read_verdict(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   mark.verdict = word<Verdict>().read(node, draft).value_or(mark.verdict);
-  if (mark.verdict == Verdict::kKeep && !mark.locked.empty()) {
+  if (mark.verdict == Verdict::kKeep && !mark.locked_parts.empty()) {
     draft.complaints.add_at(
         node, "expected mark: reject with lock, found keep; a kept face is not redrawn");
   }
@@ -71,13 +71,13 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   const MapReader map(*root, {"schema", "count", "after", "min_distance", "faces", "changes"},
                       draft.complaints);
   if (const YamlNode* schema = map.require("schema", "write \"schema: 1\"")) {
-    read_whole(*schema, 1, 1, draft.complaints);
+    read_whole_number(*schema, 1, 1, draft.complaints);
   }
   if (const YamlNode* count = map.find("count")) {
-    review.count = read_whole(*count, 0, kMostFaces, draft.complaints);
+    review.reviewed_face_count = read_whole_number(*count, 0, kMostFaces, draft.complaints);
   }
   if (const YamlNode* after = map.find("after")) {
-    review.seen_reviews = read_whole(*after, 0, kMostFaces, draft.complaints);
+    review.seen_review_count = read_whole_number(*after, 0, kMostFaces, draft.complaints);
   }
   if (const YamlNode* distance = map.find("min_distance")) {
     review.min_distance_mm = length(kMaxDistanceMm).read(*distance, draft);
@@ -135,8 +135,8 @@ std::string insert_key(std::string text, const std::string& key) {
 /// Returns the text of a review. If the text has no `count` or no `min_distance`, adds the value
 /// that `kept` has.
 std::string add_missing_keys(std::string text, const Review& review, const Review& kept) {
-  if (!review.count && kept.count) {
-    text = insert_key(std::move(text), concat("count: ", *kept.count));
+  if (!review.reviewed_face_count && kept.reviewed_face_count) {
+    text = insert_key(std::move(text), concat("count: ", *kept.reviewed_face_count));
   }
   if (!review.min_distance_mm && kept.min_distance_mm) {
     text = insert_key(std::move(text), concat("min_distance: ", *kept.min_distance_mm, " mm"));
@@ -160,8 +160,9 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
   }
   const bool is_kept = contains(draft.kept_reviews, file);
   Review whole = review;
-  if (!whole.count) {
-    whole.count = is_kept ? draft.kept_face_count.value_or(config.crowd.count) : config.crowd.count;
+  if (!whole.reviewed_face_count) {
+    whole.reviewed_face_count =
+        is_kept ? draft.kept_face_count.value_or(config.crowd.count) : config.crowd.count;
   }
   if (!whole.min_distance_mm && is_kept) whole.min_distance_mm = draft.kept_min_distance_mm;
   if (!text.empty()) text = add_missing_keys(std::move(text), review, whole);
@@ -173,7 +174,7 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
 
 std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
   std::vector<std::string> entries = {entry("mark", word_of(mark.verdict))};
-  const auto locked = texts_of(mark.locked, [&](std::size_t k) { return parts[k]; });
+  const auto locked = texts_of(mark.locked_parts, [&](std::size_t k) { return parts[k]; });
   if (!locked.empty()) entries.push_back(entry("lock", flow_names(locked)));
   if (mark.note) entries.push_back(entry("note", write_scalar(*mark.note)));
   return entry(write_scalar(mark.id), flow_map(entries));
@@ -253,8 +254,8 @@ std::optional<FaceChange> parse_change(const std::string& id, std::string_view t
 std::string format_review(const Review& review, const Config& config) {
   const std::vector<std::string> parts = config.part_names();
   std::vector<std::string> entries = {"schema: 1"};
-  if (review.count) entries.push_back(concat("count: ", *review.count));
-  if (review.seen_reviews) entries.push_back(concat("after: ", *review.seen_reviews));
+  if (review.reviewed_face_count) entries.push_back(concat("count: ", *review.reviewed_face_count));
+  if (review.seen_review_count) entries.push_back(concat("after: ", *review.seen_review_count));
   if (review.min_distance_mm) {
     entries.push_back(concat("min_distance: ", *review.min_distance_mm, " mm"));
   }

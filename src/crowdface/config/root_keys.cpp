@@ -21,9 +21,9 @@ const Keys<Config::Crowd>& crowd_keys() {
             return StarterLines{write_scalar(facts.crowd_name),
                                 concat("ids start with it: ", facts.crowd_name, "_0001, …")};
           }),
-      key("count", &Crowd::count, whole(0, kMaxCount), "write the number of faces to sample")
+      key("count", &Crowd::count, whole_number(0, kMaxCount), "write the number of faces to sample")
           .with_starter({"24", "how many faces; a larger crowd starts with the same ones"}),
-      key("seed", &Crowd::seed, whole(0, UINT64_MAX))
+      key("seed", &Crowd::seed, whole_number(0, UINT64_MAX))
           .with_starter({"1", "another number, another crowd"})};
   return keys;
 }
@@ -40,7 +40,7 @@ const Keys<Config::Smoothing>& smoothing_keys() {
   };
   static const Keys<Smoothing> keys = {
       key("max_size", &Smoothing::max_size_mm, positive_length(kMaxSizeMm)),
-      key("max_iterations", &Smoothing::max_iterations, whole(1, kMaxIterations)),
+      key("max_iterations", &Smoothing::max_iterations, whole_number(1, kMaxIterations)),
       word_key("boundary", &Smoothing::boundary),
       word_key("operator", &Smoothing::operator_kind),
       word_key("levels", &Smoothing::levels),
@@ -66,7 +66,7 @@ const Keys<Config::Textures>& textures_keys() {
   };
   static const Keys<Textures> keys = {
       word_key("blend", &Textures::blend).ignored_by_recipes(),
-      key("size", &Textures::size, whole(16, 16384)).ignored_by_recipes(),
+      key("size", &Textures::size, whole_number(16, 16384)).ignored_by_recipes(),
       key("formats", &Textures::formats,
           words<TextureFormat>("a list of formats, [png, jpeg, exr]"))
           .ignored_by_recipes(),
@@ -102,14 +102,14 @@ void read_anchors(const YamlNode& node, Plane& plane, ConfigDraft& draft) {
   draft.complaints.expect_map(node, "a mapping from heads to points, {head: [x, y]}");
   for (const YamlEntry& entry : node.entries) {
     const auto head = find_head(entry.key, entry.key_place, node.path, draft);
-    const auto at = point().read(entry.value, draft);
+    const auto at = plane_point().read(entry.value, draft);
     if (head && at) plane.anchors[*head] = *at;
   }
 }
 
 std::string write_anchors(const Plane& plane, const WriteContext& context) {
   return block_map(texts_of(plane.anchors, [&](const auto& anchor) {
-    return entry(context.head(anchor.first), point().write(anchor.second, context));
+    return entry(context.head(anchor.first), plane_point().write(anchor.second, context));
   }));
 }
 
@@ -230,7 +230,7 @@ Key<Config> landmarks_key() {
 }
 
 void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
-  if (node.kind == YamlNode::Kind::kScalar && !node.quoted && parse_unsigned(node.text) == 1U)
+  if (node.kind == YamlNode::Kind::kScalar && !node.is_quoted && parse_unsigned(node.text) == 1U)
     return;
   draft.complaints.add_at(node, concat("this crowdface reads schema 1, found ", describe(node)));
 }
@@ -292,7 +292,7 @@ const Keys<Config>& root_keys() {
 }
 
 std::string one_line_text(std::string_view value) {
-  // how a value that may differ between regions begins
+  // a value that may differ between regions begins with this text
   constexpr std::string_view kEverywhere = "\ndefault: ";
   if (value.starts_with(kEverywhere)) value.remove_prefix(kEverywhere.size());
   return std::string(value);

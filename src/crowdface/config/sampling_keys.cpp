@@ -36,7 +36,7 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
     split.whole = node;
     return split;
   }
-  // Sort the entries: values of regions, the default value, and parameters of a value for all
+  // Tell the entries apart: values of regions, the default value, and parameters of a value for all
   // regions.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
@@ -123,8 +123,8 @@ const Keys<PositionDistribution>& position_keys() {
   static const Keys<Position> keys = {
       word_key("distribution", &Position::kind, "anchored, uniform, around or fixed"),
       key("pull", &Position::pull, number(0, 1)), kHeadOfPositionKey,
-      key("radius", &Position::radius, refuse_zero(number(0, kMaxRadius), "a number above 0")),
-      key("position", &Position::at, point())};
+      key("radius", &Position::radius, nonzero(number(0, kMaxRadius), "a number above 0")),
+      key("position", &Position::at, plane_point())};
   return keys;
 }
 
@@ -244,7 +244,7 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       }
       check_band_name(entry, sampling, draft);
       const bool first = sampling.bands.empty();
-      // the first band, which is the coarsest, does not age if there are others
+      // if there are several bands, the first band (the coarsest) does not age
       const bool is_build = first && node.entries.size() > 1;
       band = sampling.bands.insert(band, {entry.key, {}, {}, is_build ? 0.0 : 1.0});
       band->regions.resize(sampling.regions.size());
@@ -292,13 +292,13 @@ const Keys<SamplingOptions>& sampling_keys() {
                     [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
                       sampling.max_sources.reset();
                       if (is_word(node, "all")) return;
-                      const auto most = whole(1, kMaxSources).read(node, draft);
+                      const auto most = whole_number(1, kMaxSources).read(node, draft);
                       if (most) sampling.max_sources = static_cast<int>(*most);
                     },
                     [](const Sampling& sampling, const WriteContext&) {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
-          .with_accepted_values(concat("`all`, or ", whole(1, kMaxSources).accepted_values))
+          .with_accepted_values(concat("`all`, or ", whole_number(1, kMaxSources).accepted_values))
           .with_starter({"3", "", "How many heads lend their features to each region of a face."}),
       Key<Sampling>{"bands", read_bands, write_bands}
           .with_accepted_values("mapping from names to the keys of a band")

@@ -44,8 +44,8 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
   return shapes;
 }
 
-/// Reads the OBJ files of a folder as shapes. Leaves out the neutral mesh, which is therefore read
-/// first.
+/// Reads the OBJ files of a folder as shapes, except the neutral mesh. (So the key `neutral` is
+/// read before.)
 void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder of OBJ files").read(node, draft);
   if (!folder) return;
@@ -53,12 +53,12 @@ void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& dra
   try {
     for (const auto& [name, file] : list_shapes(node, *folder, shapes.neutral, draft)) {
       shapes.names.push_back(name);
-      shapes.files.push_back(file);
+      shapes.template_files.push_back(file);
     }
   } catch (const MissingInput& error) {
     return draft.complaints.add_at(node, error.what(), error.code());
   }
-  if (shapes.files.empty()) {
+  if (shapes.template_files.empty()) {
     draft.complaints.add_at(node, concat("there is no OBJ file in ", quoted(node.text)));
   }
 }
@@ -66,7 +66,7 @@ void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& dra
 void add_name(const std::string& name, Shapes& shapes) {
   if (contains(shapes.names, name)) return;
   shapes.names.push_back(name);
-  shapes.files.emplace_back();
+  shapes.template_files.emplace_back();
 }
 
 /// Reads the shapes of each head from the subfolder that has the head's name. The subfolder may
@@ -87,7 +87,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
   for (std::size_t h = 0; h < faces.files.size(); ++h) {
     const fs::path of_head = *folder / faces.names[h];
     try {
-      if (!shapes.files.empty() && !path_exists(of_head)) continue;
+      if (!shapes.template_files.empty() && !path_exists(of_head)) continue;
       found[h] = list_shapes(node, of_head, faces.files[h], draft);
     } catch (const MissingInput& error) {
       draft.complaints.add_at(node, error.what(), error.code());
@@ -96,7 +96,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
   }
   // All shape names are known now, so each head's files can be assigned to the names.
   for (const auto& files : found) {
-    std::vector<fs::path>& of_head = shapes.of_head.emplace_back(shapes.names.size());
+    std::vector<fs::path>& of_head = shapes.head_files.emplace_back(shapes.names.size());
     for (const auto& [name, file] : files) {
       const auto at = std::ranges::find(shapes.names, name) - shapes.names.begin();
       of_head[static_cast<std::size_t>(at)] = file;
@@ -123,10 +123,10 @@ const Keys<Shapes>& shapes_keys() {
 /// The template supplies shapes that a head lacks. Adds a complaint about each shape that both a
 /// head and the template lack.
 void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
-  for (std::size_t h = 0; h < shapes.of_head.size(); ++h) {
+  for (std::size_t h = 0; h < shapes.head_files.size(); ++h) {
     std::vector<std::string> lacking;
     for (std::size_t s = 0; s < shapes.names.size(); ++s) {
-      if (shapes.of_head[h][s].empty() && shapes.files[s].empty()) {
+      if (shapes.head_files[h][s].empty() && shapes.template_files[s].empty()) {
         lacking.push_back(shapes.names[s] + ".obj");
       }
     }

@@ -34,7 +34,7 @@ std::string starter_config(const StarterFacts& facts) {
 bool has_attachments(const std::filesystem::path& folder, const StarterFacts& facts,
                      Complaints& complaints) {
   ConfigDraft draft(complaints);
-  draft.config.faces.names = facts.names;
+  draft.config.faces.names = facts.head_names;
   draft.config.faces.tags = facts.tags;
   draft.heads_known = true;
   YamlNode from, section;

@@ -14,24 +14,24 @@ namespace crowdface {
 
 /// What `crowdface init` has found out about a folder of heads.
 struct StarterFacts {
-  std::filesystem::path heads;     ///< folder of the heads, relative to the config's folder
-  std::vector<std::string> names;  ///< name of each head
+  std::filesystem::path heads_folder;   ///< folder of the heads, relative to the config's folder
+  std::vector<std::string> head_names;  ///< name of each head
   LengthUnit units = LengthUnit::kCentimetre;  ///< unit of the heads' positions, which is guessed
   /// why this unit was guessed, such as "the first mesh is 27.3 units high"
   std::string units_reason;
-  double head_height = 0;     ///< height of the first head, in the head's own units
-  Eigen::Index vertices = 0;  ///< number of vertices of each head
+  double head_height = 0;         ///< height of the first head, in the head's own units
+  Eigen::Index vertex_count = 0;  ///< number of vertices of each head
   Axis up = {1, 1};
   Axis front = {2, 1};
   /// true if some heads are rotated or shifted relative to the other heads
   bool align_rigidly = false;
   std::string crowd_name = "crowd";
-  std::string mask;  ///< region mask, relative to the config's folder; empty: none
+  std::string mask_file;  ///< region mask, relative to the config's folder; empty: none
   std::vector<std::string> regions = {"top", "middle", "bottom"};  ///< names of the mask's channels
   std::vector<std::vector<std::string>> tags = {};  ///< the tags of each head, or empty
-  /// folder of attachments of which at least one head may wear some, relative to the config's
-  /// folder; empty: none
-  std::filesystem::path attachments = {};
+  /// folder of attachments, relative to the config's folder; empty: there are no attachments that a
+  /// head may wear
+  std::filesystem::path attachments_folder = {};
 };
 
 /// Returns a config with which users can start: it is short, has comments, and can be run without

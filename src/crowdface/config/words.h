@@ -22,7 +22,7 @@ struct Word {
 template <class Value>
 using Words = std::vector<Word<Value>>;
 
-/// Makes words from values; each word is the value's `name_of`.
+/// Makes words from values; the word for a value is `name_of(value)`.
 template <class Values>
 auto words_by_name(const Values& values) {
   Words<typename Values::value_type> words;
@@ -39,19 +39,20 @@ inline const auto& all_words() {
   using Verdict = ReviewMark::Verdict;
   using AgeStep = FaceChange::AgeStep;
   // kFile has no word, because a config gives the path of the file instead
-  using With = Config::Comparison::With;
+  using Reference = Config::MeshComparison::Reference;
   static const std::tuple words = {
       Words<bool>{{"true", true}, {"false", false}}, words_by_name(all_mesh_formats()),
       Words<AgeStep>{{"older", AgeStep::kOlder}, {"younger", AgeStep::kYounger}},
       Words<Align>{{"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}},
       Words<Boundary>{{"fixed", Boundary::kFixed}, {"free", Boundary::kFree}},
       Words<OperatorKind>{{"umbrella", OperatorKind::kUmbrella}, {"lazy", OperatorKind::kLazy}},
-      Words<Levels>{
-          {"basis", Levels::kBasis}, {"exact", Levels::kExact}, {"cubic", Levels::kCubic}},
+      Words<LevelRepresentation>{{"basis", LevelRepresentation::kBasis},
+                                 {"exact", LevelRepresentation::kExact},
+                                 {"cubic", LevelRepresentation::kCubic}},
       Words<Normalization>{{"partition", Normalization::kPartition},
                            {"printed", Normalization::kPrinted}},
       Words<Mirroring>{{"none", Mirroring::kNone}, {"drawn", Mirroring::kRandom}},
-      Words<Contacts>{{"auto", Contacts::kAuto}, {"none", Contacts::kNone}},
+      Words<ContactHandling>{{"auto", ContactHandling::kAuto}, {"none", ContactHandling::kNone}},
       Words<TextureBlend>{{"auto", TextureBlend::kAuto},
                           {"target", TextureBlend::kTarget},
                           {"none", TextureBlend::kNone}},
@@ -105,7 +106,9 @@ inline const auto& all_words() {
                         {"likeness", SheetOrder::kLikeness}},
       Words<SheetFormat>{
           {"png", SheetFormat::kPng}, {"exr", SheetFormat::kExr}, {"pdf", SheetFormat::kPdf}},
-      Words<With>{{"none", With::kNothing}, {"target", With::kTarget}, {"nearest", With::kNearest}},
+      Words<Reference>{{"none", Reference::kNothing},
+                       {"target", Reference::kTarget},
+                       {"nearest", Reference::kNearest}},
       Words<SurfaceKind>{{"skin", SurfaceKind::kSkin},
                          {"eye", SurfaceKind::kEye},
                          {"iris", SurfaceKind::kIris},

@@ -75,7 +75,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
     YamlNode node = make(YamlNode::Kind::kScalar, mark);
     node.text = value;
-    node.quoted = tag == "!";
+    node.is_quoted = tag == "!";
     attach(std::move(node));
   }
 
@@ -191,7 +191,7 @@ class TreeBuilder : public YAML::EventHandler {
       complain(node.place, concat("expected a key, found ", describe(node)));
       return;
     }
-    if (node.text == "<<" && !node.quoted) {
+    if (node.text == "<<" && !node.is_quoted) {
       complain(node.place, "merge keys (<<) are not supported; write the keys out");
       return;
     }

@@ -36,8 +36,8 @@ void set_value(YamlNode& root, std::string_view assignment, Complaints& out);
 
 /// Sets one value of the tree to a text, without parsing the text as YAML.
 ///
-/// \param shown  what the user typed, for messages: "--count 24".
+/// \param shown_text  what the user typed, for messages: "--count 24".
 void set_text(YamlNode& root, std::string_view key_path, std::string_view text,
-              const std::string& shown, Complaints& out);
+              const std::string& shown_text, Complaints& out);
 
 }  // namespace crowdface

@@ -143,11 +143,11 @@ void set_value(YamlNode& root, std::string_view assignment, Complaints& out) {
 }
 
 void set_text(YamlNode& root, std::string_view key_path, std::string_view text,
-              const std::string& shown, Complaints& out) {
+              const std::string& shown_text, Complaints& out) {
   YamlNode node;
   node.kind = YamlNode::Kind::kScalar;
   node.text = text;
-  put(root, split(key_path, '.'), std::move(node), place_on_command_line(shown), out);
+  put(root, split(key_path, '.'), std::move(node), place_on_command_line(shown_text), out);
 }
 
 }  // namespace crowdface

@@ -36,7 +36,7 @@ struct YamlNode {
   std::string path;
   std::string text;  ///< kScalar: the value as it is written
   /// kScalar: whether the value is in quotes, so that it is a text and not a number
-  bool quoted = false;
+  bool is_quoted = false;
   std::vector<YamlNode> items;     ///< kList: the items of the list
   std::vector<YamlEntry> entries;  ///< kMap: keys and values, in the order of the file
 

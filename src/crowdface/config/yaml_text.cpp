@@ -35,7 +35,7 @@ YamlText::YamlText(std::string_view text, const std::string& source)
   if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
   for (std::size_t i = 0; i < text_.size(); ++i) {
     if (text_[i] == '\n') line_starts_.push_back(i + 1);
-    if (is_utf8_continuation(text_[i])) continuations_.push_back(i);
+    if (is_utf8_continuation(text_[i])) continuation_byte_offsets_.push_back(i);
   }
 }
 
@@ -49,7 +49,8 @@ YamlPlace YamlText::place_of(std::size_t offset) const {
   const auto next = std::ranges::upper_bound(line_starts_, offset);
   const std::size_t line_start = *(next - 1);
   const auto count_to = [&](std::size_t end) {
-    return std::ranges::lower_bound(continuations_, end) - continuations_.begin();
+    return std::ranges::lower_bound(continuation_byte_offsets_, end) -
+           continuation_byte_offsets_.begin();
   };
   const auto bytes = static_cast<std::ptrdiff_t>(offset - line_start);
   const auto characters = bytes - (count_to(offset) - count_to(line_start));

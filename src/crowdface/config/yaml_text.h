@@ -43,7 +43,8 @@ class YamlText {
   std::string_view text_;
   std::shared_ptr<const std::string> source_;
   std::vector<std::size_t> line_starts_;
-  std::vector<std::size_t> continuations_;  ///< offsets of UTF-8 continuation bytes, ascending
+  std::vector<std::size_t>
+      continuation_byte_offsets_;  ///< offsets of UTF-8 continuation bytes, ascending
 };
 
 }  // namespace crowdface

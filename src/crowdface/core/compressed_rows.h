@@ -9,13 +9,12 @@
 
 namespace crowdface {
 
-/// Lists of items, one list per group number. All lists lie one after the other in one array
-/// (compressed rows).
+/// Groups of items, numbered from 0. All groups lie one after the other in one array (compressed
+/// rows).
 template <class T>
 struct CompressedRows {
   std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1 indices into `items`
-  std::vector<T> items;                      ///< group g has the items with the indices
-                                             ///< [offsets[g], offsets[g + 1])
+  std::vector<T> items;  ///< group g: the items at offsets[g] … offsets[g + 1] − 1
 
   std::size_t group_count() const { return offsets.size() - 1; }
   template <std::integral Number>
@@ -28,8 +27,8 @@ struct CompressedRows {
     T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
     return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
   }
-  void reserve(std::size_t groups, std::size_t item_count) {
-    offsets.reserve(groups + 1);
+  void reserve(std::size_t group_count, std::size_t item_count) {
+    offsets.reserve(group_count + 1);
     items.reserve(item_count);
   }
   void add_group(std::span<const T> group) {
@@ -43,13 +42,13 @@ struct CompressedRows {
 /// \param visit  visit(put) calls put(group, item) for each item. `visit` is called twice and must
 ///   pass the same items in the same order both times.
 template <class T, class Visit>
-CompressedRows<T> compressed_rows(std::size_t groups, const Visit& visit) {
-  CompressedRows<T> result{.offsets = std::vector<std::uint32_t>(groups + 1, 0), .items = {}};
+CompressedRows<T> compressed_rows(std::size_t group_count, const Visit& visit) {
+  CompressedRows<T> result{.offsets = std::vector<std::uint32_t>(group_count + 1, 0), .items = {}};
   visit([&](std::size_t group, const T&) { ++result.offsets[group + 1]; });
-  for (std::size_t g = 0; g < groups; ++g) result.offsets[g + 1] += result.offsets[g];
+  for (std::size_t g = 0; g < group_count; ++g) result.offsets[g + 1] += result.offsets[g];
   result.items.resize(result.offsets.back());
-  std::vector<std::uint32_t> next(result.offsets.begin(), result.offsets.end() - 1);
-  visit([&](std::size_t group, const T& item) { result.items[next[group]++] = item; });
+  std::vector<std::uint32_t> next_offsets(result.offsets.begin(), result.offsets.end() - 1);
+  visit([&](std::size_t group, const T& item) { result.items[next_offsets[group]++] = item; });
   return result;
 }
 

@@ -25,10 +25,10 @@ inline void subtract_scaled(double factor, std::span<const double> x, std::span<
 /// Subtracts from `vector` its components along orthonormal directions and scales it to unit length
 /// (Gram–Schmidt, two passes against rounding errors).
 /// \param count       number of orthonormal directions.
-/// \param direction   direction(m) returns direction m, as long as `vector`.
+/// \param direction   direction(m) returns direction m, a span of the size of `vector`.
 /// \param on_removal  on_removal(m, component) is called once per direction m and pass, with the
 ///                    component along the direction that the pass removes.
-/// \return            length of `vector` after the subtraction and before the scaling.
+/// \return            Euclidean norm of `vector` after the subtraction and before the scaling.
 template <class Direction, class OnRemoval>
 double orthonormalize(std::span<double> vector, std::size_t count, const Direction& direction,
                       const OnRemoval& on_removal) {
@@ -51,8 +51,8 @@ template <class Matrix>
 Matrix cholesky(Matrix a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      const double rest = a[i][j] - fixed_order_dot({a[i].data(), j}, {a[j].data(), j});
-      a[i][j] = i == j ? std::sqrt(rest) : rest / a[j][j];
+      const double remaining = a[i][j] - fixed_order_dot({a[i].data(), j}, {a[j].data(), j});
+      a[i][j] = i == j ? std::sqrt(remaining) : remaining / a[j][j];
     }
   }
   return a;

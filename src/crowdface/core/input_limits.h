@@ -14,8 +14,7 @@ struct InputLimits {
   std::uint64_t faces = 1ULL << 26U;         ///< number of polygons of a mesh
   std::uint64_t image_pixels = 1ULL << 28U;  ///< width times height of a mask or texture
   std::uint64_t image_bytes = 1ULL << 32U;   ///< memory for the pixels of all images together
-  std::uint64_t textures = 1000;             ///< number of textures that the material files of one
-                                             ///< head may name
+  std::uint64_t textures = 1000;             ///< number of textures of one head
   std::uint64_t yaml_bytes = 1ULL << 20U;    ///< size of a config or review file
   std::uint64_t yaml_depth = 64;             ///< nesting depth of lists and mappings
 };

@@ -42,8 +42,8 @@ struct Sinks {
     if (!failure) failure = what;
   }
 
-  /// Runs calls to a log sink. These calls may throw, whereas errors in calls to the logger go to
-  /// the error handler above.
+  /// Runs a direct call to a log sink, and notes the error if the call throws. (Calls to the logger
+  /// do not throw: the logger passes errors to the error handler above.)
   template <class Work>
   void guarded(const Work& work) {
     try {

@@ -20,9 +20,9 @@ LogLevel log_level();
 void add_log_file(const std::filesystem::path& path);
 /// Stops writing to the log file added last.
 void close_log_file() noexcept;
-/// Flushes the log files. Returns the message of the first error in writing a log file, which names
-/// the file; nothing if all lines were written. Logging itself never throws, so that work
-/// continues; the caller checks for an error at the end.
+/// Flushes the log files. Returns the message of the first failed write to a log file; the message
+/// names this file. Returns nothing if all lines were written. Logging itself never throws, so that
+/// work continues; the caller checks for an error at the end.
 std::optional<std::string> first_log_file_error();
 
 /// Keeps the last 1000 log lines while the object lives, for a log file that is opened later.

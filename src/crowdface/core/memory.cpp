@@ -50,24 +50,24 @@ std::atomic<bool> ran_out = false;
 
 }  // namespace
 
-std::uint64_t usable_memory() {
+std::uint64_t usable_memory_bytes() {
   const std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                               static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-  return std::min(bytes, control_group_memory_limit().value_or(bytes));
+  return std::min(bytes, control_group_memory_limit_bytes().value_or(bytes));
 }
 
-std::optional<std::uint64_t> control_group_memory_limit(const std::filesystem::path& groups,
-                                                        const std::filesystem::path& root) {
+std::optional<std::uint64_t> control_group_memory_limit_bytes(
+    const std::filesystem::path& groups_file, const std::filesystem::path& mount_folder) {
   std::optional<std::uint64_t> least;
   const auto lower = [&](const std::string& controllers, const std::string& group) {
-    if (controllers.empty()) lower_to_groups(least, root, group, "memory.max");
+    if (controllers.empty()) lower_to_groups(least, mount_folder, group, "memory.max");
     if (contains(split(controllers, ','), "memory")) {
-      lower_to_groups(least, root / "memory", group, "memory.limit_in_bytes");
+      lower_to_groups(least, mount_folder / "memory", group, "memory.limit_in_bytes");
     }
   };
   lower("", "");  // for systems that do not list the groups
   lower("memory", "");
-  std::ifstream lines(groups);
+  std::ifstream lines(groups_file);
   for (std::string line; std::getline(lines, line);) {
     // Version 1: "4:memory:/group". Version 2 lists no controllers: "0::/group".
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);

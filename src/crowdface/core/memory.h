@@ -11,14 +11,14 @@ namespace crowdface {
 
 /// Bytes of memory that this process may use: the machine's physical memory or the limit of the
 /// process's control groups, whichever is less.
-std::uint64_t usable_memory();
+std::uint64_t usable_memory_bytes();
 /// The smallest memory limit, in bytes, among the control groups of this process and all parents of
 /// these groups (version 2, or the controller `memory` of version 1); nothing if there is no limit.
-/// \param groups  the file that names the control groups of the process.
-/// \param root    where the control groups are mounted.
-std::optional<std::uint64_t> control_group_memory_limit(
-    const std::filesystem::path& groups = "/proc/self/cgroup",
-    const std::filesystem::path& root = "/sys/fs/cgroup");
+/// \param groups_file  the file that names the control groups of the process.
+/// \param mount_folder  where the control groups are mounted.
+std::optional<std::uint64_t> control_group_memory_limit_bytes(
+    const std::filesystem::path& groups_file = "/proc/self/cgroup",
+    const std::filesystem::path& mount_folder = "/sys/fs/cgroup");
 
 /// Peak resident memory of this process so far, in bytes.
 std::uint64_t peak_memory_bytes();

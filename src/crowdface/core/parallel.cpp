@@ -48,8 +48,9 @@ class HandOver {
 /// Runs the items of a loop. ThreadSanitizer sees all items as ordered after the code that precedes
 /// the loop and before the code that follows it, but not among themselves, so it reports races
 /// between items. The first exception is kept until the loop ends, and items that have not started
-/// by then are skipped. TBB must not see exceptions: it would cancel loops nested in other items,
-/// including Embree's, and these would return incomplete results without an error.
+/// by then are skipped. TBB must not see exceptions: TBB would cancel the loops that run inside
+/// other items, including Embree's loops, and the cancelled loops would return incomplete results
+/// without an error.
 class LoopItems {
  public:
   ~LoopItems() { after_.take(); }
@@ -139,7 +140,7 @@ void detail::run_items(std::ptrdiff_t count, const std::function<void(std::ptrdi
 }
 
 struct BackgroundTasks::Group {
-  // The closures that wait to run. This list and not TBB's tasks holds the closures, so that
+  // The closures that wait to run. The closures are in this list and not in TBB's tasks, so that
   // ThreadSanitizer sees how threads receive them.
   std::deque<std::function<void()>> pending;
   tbb::task_group tasks;

@@ -23,10 +23,10 @@ std::atomic<bool> has_listener = false;
 std::mutex listener_mutex;
 ProgressListener progress_listener;  ///< guarded by listener_mutex
 
-void tell_listener(const std::string& stage, std::size_t done, std::size_t total) {
+void tell_listener(const std::string& stage, std::size_t finished_steps, std::size_t total) {
   if (!has_listener) return;
   const std::lock_guard lock(listener_mutex);
-  if (progress_listener) progress_listener(stage, done, total);
+  if (progress_listener) progress_listener(stage, finished_steps, total);
 }
 
 }  // namespace
@@ -48,29 +48,30 @@ SecondsClock steady_seconds_clock() {
 
 Progress::Progress(std::string stage, std::size_t total, std::size_t burst, SecondsClock clock)
     : stage_(std::move(stage)),
-      total_(total),
+      total_steps_(total),
       clock_(std::move(clock)),
-      start_(clock_()),
+      start_seconds_(clock_()),
       rate_(burst),
-      last_shown_(start_) {
-  tell_listener(stage_, 0, total_);
+      last_shown_seconds_(start_seconds_) {
+  tell_listener(stage_, 0, total_steps_);
 }
 
 Progress::~Progress() {
-  if (shown_ && on_terminal()) std::fputs("\r\033[K", stderr);
-  if (done_ == total_) log_info(concat(stage_, ": ", total_, " in ", format_duration(seconds())));
+  if (has_shown_ && on_terminal()) std::fputs("\r\033[K", stderr);
+  if (finished_steps_ == total_steps_)
+    log_info(concat(stage_, ": ", total_steps_, " in ", format_duration(seconds())));
 }
 
 std::optional<double> Progress::seconds_left() const {
   const std::lock_guard lock(mutex_);
-  return seconds_left(done_);
+  return seconds_left(finished_steps_);
 }
 
 /// The estimated remaining time. The caller must hold mutex_.
-std::optional<double> Progress::seconds_left(std::size_t done) const {
+std::optional<double> Progress::seconds_left(std::size_t finished_steps) const {
   const std::optional<double> rate = rate_.rate();
   if (!rate) return std::nullopt;
-  return static_cast<double>(total_ - done) / *rate;
+  return static_cast<double>(total_steps_ - finished_steps) / *rate;
 }
 
 void set_progress_listener(ProgressListener listener) {
@@ -79,22 +80,22 @@ void set_progress_listener(ProgressListener listener) {
   progress_listener = std::move(listener);
 }
 
-void Progress::step(std::size_t amount) {
-  const std::size_t done = done_.fetch_add(amount) + amount;
-  tell_listener(stage_, done, total_);
+void Progress::step(std::size_t step_count) {
+  const std::size_t finished_steps = finished_steps_.fetch_add(step_count) + step_count;
+  tell_listener(stage_, finished_steps, total_steps_);
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock.owns_lock() || done >= total_) return;
-  rate_.record(clock_(), done);
-  show(done);
+  if (!lock.owns_lock() || finished_steps >= total_steps_) return;
+  rate_.record(clock_(), finished_steps);
+  show(finished_steps);
 }
 
-void Progress::show(std::size_t done) {
+void Progress::show(std::size_t finished_steps) {
   const double now = clock_();
-  if (now - last_shown_ < (on_terminal() ? 0.2 : 10.0)) return;
-  last_shown_ = now;
-  shown_ = true;
-  std::string line = concat(stage_, ": ", done, "/", total_);
-  if (const auto left = seconds_left(done)) {
+  if (now - last_shown_seconds_ < (on_terminal() ? 0.2 : 10.0)) return;
+  last_shown_seconds_ = now;
+  has_shown_ = true;
+  std::string line = concat(stage_, ": ", finished_steps, "/", total_steps_);
+  if (const auto left = seconds_left(finished_steps)) {
     const double rate = *rate_.rate();
     line += concat(", ", format_fixed(rate, rate < 10 ? 2 : 0), "/s, ", format_duration(*left),
                    " left");

@@ -33,31 +33,31 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void step(std::size_t amount = 1);
-  double seconds() const { return clock_() - start_; }
+  void step(std::size_t step_count = 1);
+  double seconds() const { return clock_() - start_seconds_; }
   /// Returns an estimate of the time that the remaining steps take; nothing if it is not known yet.
   std::optional<double> seconds_left() const;
 
  private:
-  void show(std::size_t done);
-  std::optional<double> seconds_left(std::size_t done) const;
+  void show(std::size_t finished_steps);
+  std::optional<double> seconds_left(std::size_t finished_steps) const;
 
   std::string stage_;
-  std::size_t total_;
+  std::size_t total_steps_;
   SecondsClock clock_;
-  double start_;
-  std::atomic<std::size_t> done_{0};
+  double start_seconds_;
+  std::atomic<std::size_t> finished_steps_{0};
   mutable std::mutex mutex_;
   StepRate rate_;  ///< guarded by mutex_
-  double last_shown_;
-  bool shown_ = false;
+  double last_shown_seconds_;
+  bool has_shown_ = false;
 };
 
 /// A function that receives the name of a stage, the number of finished steps and the number of all
 /// steps. It is called at the start of a stage and after each step, on any thread, but never by two
 /// threads at the same time.
-using ProgressListener =
-    std::function<void(const std::string& stage, std::size_t done, std::size_t total)>;
+using ProgressListener = std::function<void(const std::string& stage, std::size_t finished_steps,
+                                            std::size_t total_steps)>;
 /// Reports all progress of the process to `listener`; an empty listener ends the reports.
 void set_progress_listener(ProgressListener listener);
 

@@ -40,7 +40,7 @@ double random_between(const RandomKey& key, double low, double high) {
 
 double random_stratified(const RandomKey& key, std::uint64_t strata) {
   // Every `strata` consecutive indices visit all intervals once, in cyclic order. The first
-  // interval and the direction are random.
+  // interval and the cyclic direction are random.
   constexpr std::uint32_t kRunLane = 0x5A17;
   const RandomKey run{key.seed, key.index / strata, key.purpose, key.attempt};
   const auto [place, direction] = random_pair(run, kRunLane);

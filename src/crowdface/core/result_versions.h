@@ -13,36 +13,37 @@ inline constexpr int kBlendVersion = 7;
 inline constexpr int kPartsVersion = 5;
 /// Version of the mirror vertices. Included in the `settings` if faces may be mirrored.
 inline constexpr int kMirrorVersion = 1;
-/// Cache entries of heads, and the faces made from these entries.
+/// Version of the cache entries of heads, and of the faces made from these entries.
 inline constexpr int kPrepareVersion = 6;
-/// Compressed fields of all heads (FieldPatches), and the faces made from these fields.
+/// Version of the compressed fields of all heads (FieldPatches), and of the faces made from these
+/// fields.
 inline constexpr int kPatchVersion = 1;
-/// Coordinates of faces in the space that casting samples, and the plans made from these
-/// coordinates.
+/// Version of the coordinates of faces in the space that casting samples, and of the plans made
+/// from these coordinates.
 inline constexpr int kFaceSpaceVersion = 1;
-/// Crowd plans of unchanged config and heads.
+/// Version of crowd plans; raised if the same config and heads give another plan.
 inline constexpr int kCastVersion = 2;
-/// Cache entries that all heads share: neighbours, masks at vertices, samples and their cells,
-/// mirror vertices.
+/// Version of the cache entries that all heads share: neighbours, masks at vertices, samples and
+/// their cells, mirror vertices.
 inline constexpr int kSharedCacheVersion = 1;
-/// Images, skin measurements and mesh files of a face with unchanged positions.
+/// Version of the images, skin measurements and mesh files made from the positions of a face.
 inline constexpr int kFaceFilesVersion = 25;
-/// Blend shapes transferred to a face with unchanged positions, and rendered images of these
-/// shapes.
+/// Version of the blend shapes transferred to a face, and of the rendered images of these shapes.
 inline constexpr int kShapesVersion = 9;
-/// Points that follow a face with unchanged positions.
+/// Version of the points that follow a face.
 inline constexpr int kPointsVersion = 2;
-/// Joints that follow the face, and the skin weights bound to them.
+/// Version of the joints that follow a face, and of the skin weights bound to these joints.
 inline constexpr int kRigVersion = 1;
-/// Placement of heads and faces on a body, and bending of necks to the body's neck ring.
+/// Version of the placement of heads and faces on a body, and of the bending of necks to the body's
+/// neck ring.
 inline constexpr int kNeckVersion = 4;
-/// Attachments of a face with unchanged positions.
+/// Version of the attachments fitted to a face.
 inline constexpr int kAttachmentsVersion = 6;
-/// Levels of detail of unchanged heads.
+/// Version of the levels of detail of the heads' mesh.
 inline constexpr int kLevelsVersion = 1;
-/// Blended textures of faces.
+/// Version of the blended textures of faces.
 inline constexpr int kTextureVersion = 3;
-/// Contact sheets and galleries whose rendered images are unchanged.
+/// Version of the contact sheets and galleries made from rendered images.
 inline constexpr int kSheetVersion = 17;
 
 }  // namespace crowdface

@@ -13,10 +13,10 @@ template <class Items>
 std::vector<std::ranges::range_value_t<Items>> evenly_spaced_items(const Items& all,
                                                                    std::size_t max_count) {
   const std::size_t count = std::min(all.size(), max_count);
-  std::vector<std::ranges::range_value_t<Items>> some;
-  some.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
-  return some;
+  std::vector<std::ranges::range_value_t<Items>> selected;
+  selected.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) selected.push_back(all[i * all.size() / count]);
+  return selected;
 }
 /// The value that would be at index `rank` if the values were sorted in ascending order.
 /// \param rank  < values.size().

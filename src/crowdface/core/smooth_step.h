@@ -15,8 +15,8 @@ inline double smooth_step(double low, double high, double x) {
 /// Tukey's biweight (1 − x²)²: 1 at x = 0 and 0 at x = 1, with slope 0 at both ends. \param x in
 /// [0, 1].
 inline double biweight(double x) {
-  const double rest = 1 - x * x;
-  return rest * rest;
+  const double one_minus_square = 1 - x * x;
+  return one_minus_square * one_minus_square;
 }
 
 }  // namespace crowdface

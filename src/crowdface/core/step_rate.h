@@ -7,10 +7,10 @@
 
 namespace crowdface {
 
-/// Estimates how many steps a stage makes per second, from the second half of the time since its
-/// first step. The time before the first step does not count, because a stage may need a long
-/// preparation. The first half does not count because steps may become slower, as in a crowd that
-/// is nearly full.
+/// Estimates how many steps a stage makes per second. Uses the second half of the time that has
+/// passed since the first step. The time before the first step does not count, because a stage may
+/// need a long preparation. The first half does not count because steps may become slower, as in a
+/// crowd that is nearly full.
 class StepRate {
  public:
   /// \param burst  number of steps that may end at almost the same time, such as the number of
@@ -19,19 +19,19 @@ class StepRate {
 
   /// Records the number of finished steps.
   /// \param seconds  time of the call; must not be less than in the previous call.
-  void record(double seconds, std::size_t done);
+  void record(double seconds, std::size_t finished_steps);
   /// Returns the steps per second; nothing before the first step of the second burst.
   std::optional<double> rate() const;
 
  private:
   struct Sample {
     double seconds = 0;
-    std::size_t done = 0;
+    std::size_t finished_steps = 0;
   };
   std::size_t burst_;
   double first_seconds_ = 0;
-  std::deque<Sample> samples_;  ///< samples of about the second half of the time since the first
-                                ///< step
+  /// samples of about the second half of the time since the first step
+  std::deque<Sample> samples_;
 };
 
 }  // namespace crowdface

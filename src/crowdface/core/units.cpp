@@ -60,8 +60,8 @@ LengthUnit fitting_unit(double length, double typical_mm) {
   const double mm = typical_mm / std::max(length, 1e-9);
   const double step = std::pow(10, std::floor(std::log10(mm)) - 1);
   const double digits = std::round(mm / step);
-  // For a step below 1, divide by its inverse, which is a whole number, so that 2.3 does not become
-  // 2.3000000000000003.
+  // If the step is below 1, divide by 1/step, which is a whole number; multiplying by 0.1 would
+  // give 2.3000000000000003 instead of 2.3.
   return {step < 1 ? digits / std::round(1 / step) : digits * step};
 }
 

@@ -62,7 +62,7 @@ class TemporaryFile {
       file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
       if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or a file of another machine
       if (!file_.valid()) throw_with_errno<CannotCreate>(target, "cannot be created");
-      if (is_still_own_file()) return;
+      if (lock_if_still_own()) return;
     }
     throw CannotCreate(
         concat(target.string(), ": cannot be created: every temporary file name is taken"));
@@ -109,7 +109,7 @@ class TemporaryFile {
 
  private:
   /// Locks the file. Returns false if remove_temporary_files locked or removed the file first.
-  bool is_still_own_file() const {
+  bool lock_if_still_own() const {
     if (claim(file_.get()) == Claim::kTaken) return false;
     struct stat status {};
     if (::fstat(file_.get(), &status) == 0) return status.st_nlink > 0;

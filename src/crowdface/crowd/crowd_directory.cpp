@@ -129,7 +129,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> folders = crowd_folders(directory);
   std::ranges::reverse(folders);
   for (const std::vector<fs::path>& some :
-       {folders, directory.shard_ledgers(), directory.shard_logs(), directory.all_progress(),
+       {folders, directory.shard_ledgers(), directory.shard_logs(), directory.progress_files(),
         record_files(directory)}) {
     for (const fs::path& path : some) remove_file(path);
   }

@@ -54,7 +54,7 @@ struct CrowdDirectory {
   std::filesystem::path progress(const Shard& shard) const {
     return shard_path(root / "progress.json", shard);
   }
-  std::vector<std::filesystem::path> all_progress() const {
+  std::vector<std::filesystem::path> progress_files() const {
     return existing_shard_paths(root / "progress.json");
   }
   /// Folder with the scripts and logs of the tasks that run on other machines.

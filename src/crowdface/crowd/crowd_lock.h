@@ -22,11 +22,11 @@ class CrowdLock {
 
   /// Checks that the locked folder still has its path. Call this before a run reports success.
   /// \throws IoError if the folder was removed or replaced since the lock was taken.
-  void require_same_folder() const { root_->require_same(); }
+  void require_same_folder() const { root_handle_->require_same(); }
 
  private:
-  std::unique_ptr<DirectoryHandle> root_;
-  std::unique_ptr<FileLock> crowd_, shard_;
+  std::unique_ptr<DirectoryHandle> root_handle_;
+  std::unique_ptr<FileLock> crowd_lock_, shard_lock_;
 };
 
 }  // namespace crowdface

@@ -72,7 +72,7 @@ std::uint64_t shard_count(const CrowdDirectory& directory) {
     if (parse_shard(concat("1/", shards))) return shards;
   }
   std::uint64_t count = 1;
-  for (const auto& files : {directory.shard_ledgers(), directory.all_progress()}) {
+  for (const auto& files : {directory.shard_ledgers(), directory.progress_files()}) {
     for (const fs::path& file : files) {
       const std::string stem = file.stem().string();
       count = std::max(count, parse_shard_name(stem.substr(stem.find('-') + 1))->count);
@@ -101,8 +101,8 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
   status.state = notes->state;
   status.machine = notes->machine;
   status.reason = notes->reason;
-  if (notes->faces_made > 0 && notes->seconds > 0) {
-    status.faces_a_second = static_cast<double>(notes->faces_made) / notes->seconds;
+  if (notes->made_face_count > 0 && notes->seconds > 0) {
+    status.faces_a_second = static_cast<double>(notes->made_face_count) / notes->seconds;
   }
 }
 
@@ -111,12 +111,12 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
 void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
   const TaskEnd end = parse_task_end(
       text_of(directory.task_folder() / "log" / concat("blend-", status.shard.index, ".log")));
-  if (!end.code || *end.code == 0) return;
+  if (!end.exit_code || *end.exit_code == 0) return;
   constexpr auto kAgain = static_cast<std::uint64_t>(ExitCode::kInterrupted);
-  status.state = *end.code == kAgain ? ShardState::kInterrupted : ShardState::kFailed;
+  status.state = *end.exit_code == kAgain ? ShardState::kInterrupted : ShardState::kFailed;
   status.requeued = end.requeued;
   if (!end.reason.empty() || status.reason.empty()) {
-    status.reason = end.reason.empty() ? concat("ended with code ", *end.code) : end.reason;
+    status.reason = end.reason.empty() ? concat("ended with code ", *end.exit_code) : end.reason;
   }
 }
 
@@ -128,9 +128,9 @@ ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
   return status;
 }
 
-/// Computes the final state and the remaining time of a shard. Call this once `done` is known.
+/// Computes the final state and the remaining time of a shard. Requires `finished_face_count`.
 void finish(const CrowdDirectory& directory, ShardStatus& status) {
-  if (status.faces > 0 && status.finished_faces == status.faces) {
+  if (status.face_count > 0 && status.finished_face_count == status.face_count) {
     status.state = ShardState::kDone;
     status.reason.clear();
     status.requeued = false;
@@ -139,8 +139,8 @@ void finish(const CrowdDirectory& directory, ShardStatus& status) {
   status.seconds_since_write =
       seconds_since({directory.progress(status.shard), directory.ledger(status.shard)});
   if (status.faces_a_second) {
-    status.seconds_left =
-        static_cast<double>(status.faces - status.finished_faces) / *status.faces_a_second;
+    status.seconds_left = static_cast<double>(status.face_count - status.finished_face_count) /
+                          *status.faces_a_second;
   }
 }
 
@@ -150,8 +150,8 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
   };
   for (const fs::path& log : list_files(directory.task_folder() / "log", is_log)) {
     const TaskEnd end = parse_task_end(text_of(log));
-    if (!end.code || *end.code == 0 || end.requeued) continue;
-    status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.code,
+    if (!end.exit_code || *end.exit_code == 0 || end.requeued) continue;
+    status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.exit_code,
                                      end.reason.empty() ? "" : ": ", end.reason));
   }
 }
@@ -163,7 +163,7 @@ TaskEnd parse_task_end(std::string_view log) {
   // Skip an incomplete last line, which is still being written.
   for (const std::string_view line : split_lines(log.substr(0, log.rfind('\n') + 1))) {
     if (line.starts_with("=== ended with code ")) {
-      end.code = parse_unsigned(line.substr(line.rfind(' ') + 1));
+      end.exit_code = parse_unsigned(line.substr(line.rfind(' ') + 1));
       end.requeued = false;
     } else if (line == "=== requeued") {
       end.requeued = true;
@@ -190,12 +190,12 @@ CrowdStatus crowd_status(const fs::path& crowd_directory) {
   for_each_line_of(directory.plan(), [&](std::string_view line) {
     const bool done = made.contains(std::string(quoted_after(line, R"({"id":")")));
     if (!status.shards.empty()) {
-      ShardStatus& shard = status.shards[status.faces % shards];
-      ++shard.faces;
-      shard.finished_faces += done ? 1U : 0U;
+      ShardStatus& shard = status.shards[status.face_count % shards];
+      ++shard.face_count;
+      shard.finished_face_count += done ? 1U : 0U;
     }
-    ++status.faces;
-    status.finished_faces += done ? 1U : 0U;
+    ++status.face_count;
+    status.finished_face_count += done ? 1U : 0U;
   });
   for (ShardStatus& shard : status.shards) {
     finish(directory, shard);

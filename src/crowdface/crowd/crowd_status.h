@@ -16,12 +16,12 @@ namespace crowdface {
 struct ShardStatus {
   Shard shard;
   ShardState state = ShardState::kWaiting;
-  std::uint64_t faces = 0;
-  std::uint64_t finished_faces = 0;      ///< number of finished faces according to all ledgers
-  std::optional<double> faces_a_second;  ///< speed of the last run
-  std::optional<double> seconds_left;    ///< set while the shard is working and its speed is known
-  std::optional<double>
-      seconds_since_write;  ///< set while working: seconds since the shard's last write
+  std::uint64_t face_count = 0;
+  std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
+  std::optional<double> faces_a_second;   ///< speed of the last run
+  std::optional<double> seconds_left;     ///< set while the shard is working and its speed is known
+  /// set while the shard is working: seconds since its last write
+  std::optional<double> seconds_since_write;
   std::string machine;
   std::string reason;  ///< why the last run ended early
   /// Whether Slurm will run the shard's task again, although the last run ended early.
@@ -32,11 +32,11 @@ struct ShardStatus {
 };
 
 struct CrowdStatus {
-  bool is_planned = false;           ///< whether the plan exists
-  bool is_gathered = false;          ///< whether the report exists, so that all work is done
-  std::uint64_t faces = 0;           ///< number of faces in the plan
-  std::uint64_t finished_faces = 0;  ///< number of finished faces according to all ledgers
-  std::vector<ShardStatus> shards;   ///< empty if a single run makes the crowd or no run has begun
+  bool is_planned = false;                ///< whether the plan exists
+  bool is_gathered = false;               ///< whether the report exists, so that all work is done
+  std::uint64_t face_count = 0;           ///< number of faces in the plan
+  std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
+  std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun
   std::optional<double> faces_a_second;  ///< total speed of all working shards
   std::optional<double> seconds_left;    ///< until the last working shard finishes
   std::vector<std::string> failures;     ///< last error of each failed task that is not a shard
@@ -44,9 +44,9 @@ struct CrowdStatus {
 
 /// How the last attempt to run a task ended, according to the task's log.
 struct TaskEnd {
-  std::optional<std::uint64_t> code;  ///< exit code; nothing if the task has not ended
-  std::string reason;                 ///< last error in the log
-  bool requeued = false;              ///< the task has asked Slurm to run it again
+  std::optional<std::uint64_t> exit_code;  ///< nothing if the task has not ended
+  std::string reason;                      ///< last error in the log
+  bool requeued = false;                   ///< the task has asked Slurm to run it again
 };
 TaskEnd parse_task_end(std::string_view log);
 

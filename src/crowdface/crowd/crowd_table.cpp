@@ -112,8 +112,8 @@ std::string family_of(const FacePlan& face, const Parenthood& parenthood) {
   return join(families, ";");
 }
 
-/// Role of a member of a family without parents. (family_role may return several roles, for example
-/// "child;mother".)
+/// Role of a member, if the family has no parents. (family_role may return several roles, for
+/// example "child;mother".)
 constexpr const char* kMember = "member";
 
 std::string family_role(const FacePlan& face, const Parenthood& parenthood) {
@@ -147,8 +147,8 @@ void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names, const T
              TableColumns& columns) {
   using Face = const FacePlan&;
   const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
-  const auto kinds = facts.kinds;
-  const auto tags = std::make_shared<const HeadTags>(facts.tags);
+  const auto kinds = facts.attachment_kinds;
+  const auto tags = std::make_shared<const HeadTags>(facts.head_tags);
   const auto family = std::ranges::find(columns, "family", &TableColumn::name);
   family->value = [=](Face face) { return family_of(face, *parenthood); };
   columns.push_back({"family_role", [=](Face face) { return family_role(face, *parenthood); },
@@ -242,11 +242,11 @@ std::string table_line(const TableColumns& columns, const Text& text) {
 
 }  // namespace
 
-std::string srgb_hex(const Eigen::Array3d& light) {
+std::string srgb_hex(const Eigen::Array3d& linear_colour) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   constexpr unsigned kBase = 16;
   std::string text = "#";
-  for (const double channel : light) {
+  for (const double channel : linear_colour) {
     const auto byte = static_cast<unsigned>(std::lround(255 * srgb_of_linear(channel)));
     text += kDigits[byte / kBase];
     text += kDigits[byte % kBase];
@@ -257,8 +257,8 @@ std::string srgb_hex(const Eigen::Array3d& light) {
 TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                                const Digest& settings, const TableFacts& facts) {
   const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
-  return text_of_items(crowd.size(), [&crowd, &names, settings, parenthood, tags = facts.tags,
-                                      is_tagged = has_any_tag(facts.tags)](std::size_t i) {
+  return text_of_items(crowd.size(), [&crowd, &names, settings, parenthood, tags = facts.head_tags,
+                                      is_tagged = has_any_tag(facts.head_tags)](std::size_t i) {
     const FacePlan& face = crowd[i];
     nlohmann::ordered_json line = face_to_json(face, names, settings);
     if (is_tagged) {

@@ -18,8 +18,8 @@ inline const std::vector<Eigen::Array3d> kNoNeckColours;
 
 /// Tags of heads and kinds of attachments, for the columns that describe the person.
 struct TableFacts {
-  HeadTags tags;                   ///< the tags of each head; or empty
-  std::vector<std::string> kinds;  ///< the kind of each attachment; or empty
+  HeadTags head_tags;                         ///< the tags of each head; or empty
+  std::vector<std::string> attachment_kinds;  ///< the kind of each attachment; or empty
 };
 
 /// The text of crowd.csv: the crowd as a flat table (RFC 4180) for spreadsheets, one line for each
@@ -38,6 +38,6 @@ TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNam
                                const Digest& settings, const TableFacts& facts);
 
 /// Converts a colour in linear light to sRGB text such as "#C89F8A".
-std::string srgb_hex(const Eigen::Array3d& light);
+std::string srgb_hex(const Eigen::Array3d& linear_colour);
 
 }  // namespace crowdface

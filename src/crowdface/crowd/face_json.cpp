@@ -86,7 +86,7 @@ Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& se
   if (face.hair) {
     json["hair"] = {{"eumelanin", face.hair->eumelanin},
                     {"pheomelanin", face.hair->pheomelanin},
-                    {"grey", face.hair->grey}};
+                    {"grey", face.hair->grey_fraction}};
   }
   if (face.notes.review) json["note"] = *face.notes.review;
   if (!face.notes.changes.empty()) json["changed"] = face.notes.changes;

@@ -67,8 +67,8 @@ class LedgerReader {
     std::optional<LedgerEntry> entry;
     if (ended) entry = parse_ledger_line(line);
     if (entry && entry->item == kEndItem) {
-      lines.complete = entry->key == before_.digest() &&
-                       (entry->note.empty() || entry->note == count_files(lines.entries));
+      lines.is_complete = entry->key == before_.digest() &&
+                          (entry->note.empty() || entry->note == count_files(lines.entries));
     } else if (entry) {
       lines.entries.push_back(std::move(*entry));
     } else {
@@ -172,30 +172,31 @@ bool files_match(const fs::path& root, const LedgerEntry& entry) {
   });
 }
 
-Ledger::Ledger(fs::path root, const fs::path& own, const std::vector<fs::path>& others)
-    : root_(std::move(root)), own_(own) {
+Ledger::Ledger(fs::path root, const fs::path& own_ledger, const std::vector<fs::path>& others)
+    : root_(std::move(root)), own_ledger_(own_ledger) {
   const auto add = [&](LedgerLines lines) {
     for (LedgerEntry& entry : lines.entries) {
       items_[entry.item].lines.push_back(std::move(entry));
     }
   };
   for (const fs::path& other : others) {
-    if (other == own) continue;
+    if (other == own_ledger) continue;
     other_ledgers_.push_back(other);
     add(read_ledger(other));
   }
-  LedgerLines lines = read_ledger(own);
+  LedgerLines lines = read_ledger(own_ledger);
   if (lines.damaged_count > 0) {
-    log_warning(concat(own.string(), ": ", lines.damaged_count,
+    log_warning(concat(own_ledger.string(), ": ", lines.damaged_count,
                        lines.damaged_count == 1 ? " line is" : " lines are",
                        " damaged; the work that was recorded there is done again"));
   }
-  if (lines.damaged_count > 0 || !path_exists(own)) {
-    write_file(own, text_of_items(lines.entries.size(),
-                                  [&](std::size_t i) { return line_with_end(lines.entries[i]); }));
+  if (lines.damaged_count > 0 || !path_exists(own_ledger)) {
+    write_file(own_ledger, text_of_items(lines.entries.size(), [&](std::size_t i) {
+                 return line_with_end(lines.entries[i]);
+               }));
   }
   add(std::move(lines));
-  file_ = std::make_unique<AppendFile>(own);
+  file_ = std::make_unique<AppendFile>(own_ledger);
 }
 
 std::optional<LedgerEntry> Ledger::find_proven(const std::string& item, const Digest& key) {
@@ -223,12 +224,12 @@ void Ledger::replace_lines(LedgerEntry entry) {
       const auto& files = entry.files;
       const bool stays =
           std::ranges::find(files, file.name, &LedgerEntry::File::name) != files.end();
-      if (!stays) replaced_.push_back(file);
+      if (!stays) replaced_files_.push_back(file);
     }
   }
   item.lines.clear();
   item.lines.push_back(std::move(entry));
-  item.done = true;
+  item.is_finished = true;
 }
 
 void Ledger::record_all(std::vector<LedgerEntry> entries) {
@@ -328,7 +329,7 @@ void Ledger::write_text(const TakePiece& take) const {
   FileCounts counts;
   std::vector<const LedgerEntry*> done;
   for (const auto& [name, item] : items_) {
-    if (!item.done) continue;
+    if (!item.is_finished) continue;
     done.push_back(&item.lines.front());
     add_counts(*done.back(), counts);
   }
@@ -341,9 +342,9 @@ void Ledger::write_text(const TakePiece& take) const {
 }
 
 void Ledger::remove_outdated_files() const {
-  std::vector<LedgerEntry::File> outdated = replaced_;
+  std::vector<LedgerEntry::File> outdated = replaced_files_;
   for (const auto& [name, item] : items_) {
-    if (item.done) continue;
+    if (item.is_finished) continue;
     for (const LedgerEntry& line : item.lines) {
       outdated.insert(outdated.end(), line.files.begin(), line.files.end());
     }
@@ -351,7 +352,7 @@ void Ledger::remove_outdated_files() const {
   if (outdated.empty()) return;
   std::set<std::string_view> kept;
   for (const auto& [name, item] : items_) {
-    if (!item.done) continue;
+    if (!item.is_finished) continue;
     for (const LedgerEntry::File& file : item.lines.front().files) kept.insert(file.name);
   }
   for (const LedgerEntry::File& file : outdated) {
@@ -362,7 +363,7 @@ void Ledger::remove_outdated_files() const {
 void Ledger::compact() {
   remove_outdated_files();
   const TextPieces text = [&](const TakePiece& take) { write_text(take); };
-  if (has_appended_ || !has_content(own_, digest_of(text))) write_file(own_, text);
+  if (has_appended_ || !has_content(own_ledger_, digest_of(text))) write_file(own_ledger_, text);
   for (const fs::path& other : other_ledgers_) {
     std::error_code error;
     if (!fs::remove(other, error) && error) {
@@ -377,9 +378,9 @@ void Ledger::require_files() const {
     throw IoError(
         concat(path.string(), ": was removed during the run; run the same command again"));
   };
-  require(own_);
+  require(own_ledger_);
   for (const auto& [name, item] : items_) {
-    if (!item.done) continue;
+    if (!item.is_finished) continue;
     for (const LedgerEntry::File& file : item.lines.front().files) require(root_ / file.name);
   }
 }

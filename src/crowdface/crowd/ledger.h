@@ -49,7 +49,7 @@ struct LedgerLines {
   std::size_t damaged_count = 0;  ///< number of invalid lines
   /// Whether the ledger is the complete ledger of a finished run: it has all lines of this run, and
   /// the lines list as many files in each folder as the run counted.
-  bool complete = false;
+  bool is_complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
 /// \param item  reads only items whose names start with this text; empty: all items.
@@ -72,11 +72,11 @@ class Ledger {
  public:
   /// Reads all ledgers of the folder. Drops damaged lines with a warning; the items of these lines
   /// count as unfinished.
-  /// \param own     the ledger to append to; created if it does not exist.
-  /// \param others  ledgers of other runs, which are only read. If several ledgers list an item,
-  ///                any of these lines may prove that the item is finished. No line takes
+  /// \param own_ledger  the ledger to append to; created if it does not exist.
+  /// \param others      ledgers of other runs, which are only read. If several ledgers list an
+  ///                item, any of these lines may prove that the item is finished. No line takes
   ///                precedence, because the order in which the lines were written is unknown.
-  Ledger(std::filesystem::path root, const std::filesystem::path& own,
+  Ledger(std::filesystem::path root, const std::filesystem::path& own_ledger,
          const std::vector<std::filesystem::path>& others);
 
   /// Returns a ledger line of the item that has this key and whose files are unchanged. Such a line
@@ -118,11 +118,11 @@ class Ledger {
   void require_files() const;
 
  private:
-  /// The ledger lines of one item. `done` false: the lines that existed when this run began. `done`
-  /// true: the single line that this run proved or recorded.
+  /// The ledger lines of one item. `is_finished` false: the lines that existed when this run began.
+  /// `is_finished` true: the single line that this run proved or recorded.
   struct Item {
     std::vector<LedgerEntry> lines;
-    bool done = false;
+    bool is_finished = false;
   };
 
   void replace_lines(LedgerEntry entry);
@@ -131,11 +131,11 @@ class Ledger {
   void record_remade_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
   void write_text(const TakePiece& take) const;
 
-  std::filesystem::path root_, own_;
+  std::filesystem::path root_, own_ledger_;
   std::vector<std::filesystem::path> other_ledgers_;
   std::map<std::string, Item> items_;
-  std::vector<LedgerEntry::File> replaced_;  ///< files of lines that newer lines replaced
-  bool has_appended_ = false;                ///< whether this run has appended lines
+  std::vector<LedgerEntry::File> replaced_files_;  ///< files of lines that newer lines replaced
+  bool has_appended_ = false;                      ///< whether this run has appended lines
   std::mutex mutex_;
   std::unique_ptr<AppendFile> file_;
 };

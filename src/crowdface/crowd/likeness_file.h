@@ -19,7 +19,7 @@ struct CrowdLikeness {
 };
 
 /// Computes the CrowdLikeness of a crowd that was just cast. Rounds distances to four decimals, as
-/// likeness.json does, so that sheets that are made from this file are equal.
+/// likeness.json does, so that sheets made from likeness.json equal the sheets of this run.
 /// \param points  one point per face.
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points);

@@ -86,7 +86,7 @@ class LineReader {
     if (const Json* changes = found(json, "changed"))
       face.notes.changes = texts(*changes, "changed");
     if (const Json* near = found(json, "nearest")) face.notes.nearest = nearest(*near);
-    result.settings = text(json, "settings");
+    result.settings_hash = text(json, "settings");
     return result;
   }
 

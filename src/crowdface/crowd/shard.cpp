@@ -67,9 +67,9 @@ std::string_view name_of(ShardState state) {
 
 std::string format_shard_notes(const ShardNotes& notes) {
   const Json json = {{"state", name_of(notes.state)},
-                     {"faces", notes.faces},
-                     {"done", notes.finished_faces},
-                     {"made", notes.faces_made},
+                     {"faces", notes.face_count},
+                     {"done", notes.finished_face_count},
+                     {"made", notes.made_face_count},
                      {"seconds", rounded(notes.seconds)},
                      {"machine", notes.machine},
                      {"reason", notes.reason}};
@@ -85,8 +85,8 @@ std::optional<ShardNotes> parse_shard_notes(std::string_view text) {
     if (state == kStateNames.end()) return std::nullopt;
     notes.state = static_cast<ShardState>(state - kStateNames.begin());
     for (const auto& [key, number] :
-         {std::pair("faces", &notes.faces), std::pair("done", &notes.finished_faces),
-          std::pair("made", &notes.faces_made)}) {
+         {std::pair("faces", &notes.face_count), std::pair("done", &notes.finished_face_count),
+          std::pair("made", &notes.made_face_count)}) {
       if (!json.at(key).is_number_unsigned()) return std::nullopt;
       *number = json.at(key).get<std::uint64_t>();
     }

@@ -18,8 +18,8 @@ struct Shard {
   std::uint64_t count = 1;  ///< number of shards; 1: the shard is the whole crowd
 
   bool is_whole_crowd() const { return count == 1; }
-  /// Whether the shard makes the face whose index in the plan (counted from 0) is `face`.
-  bool owns(std::size_t face) const { return face % count == index - 1; }
+  /// Whether the shard makes the face whose index in the plan (counted from 0) is `face_index`.
+  bool owns(std::size_t face_index) const { return face_index % count == index - 1; }
   /// Name such as "2of7", as in the shard's file names.
   std::string name() const;
 };
@@ -48,9 +48,9 @@ std::string_view name_of(ShardState state);
 /// What a shard reports about its latest run, both during this run and at the end of the run.
 struct ShardNotes {
   ShardState state = ShardState::kWorking;
-  std::uint64_t faces = 0;           ///< number of faces in the shard
-  std::uint64_t finished_faces = 0;  ///< number of finished faces in the shard
-  std::uint64_t faces_made = 0;      ///< number of faces that this run has made in `seconds`
+  std::uint64_t face_count = 0;           ///< number of faces in the shard
+  std::uint64_t finished_face_count = 0;  ///< number of finished faces in the shard
+  std::uint64_t made_face_count = 0;      ///< number of faces that this run has made in `seconds`
   double seconds = 0;
   std::string machine;
   std::string reason;  ///< why the run was interrupted or failed

@@ -39,7 +39,7 @@ StatusRow row_of(const ShardStatus& shard) {
   }
   return {concat(shard.shard.index, "/", shard.shard.count),
           std::string(shard.state_name()),
-          concat(shard.finished_faces, "/", shard.faces),
+          concat(shard.finished_face_count, "/", shard.face_count),
           pace(shard.faces_a_second),
           duration(shard.seconds_left),
           shard.machine,
@@ -74,8 +74,8 @@ std::string format_status_table(const CrowdStatus& status) {
                      : status.is_planned ? "planned, not finished"
                                          : "not planned yet";
   if (status.is_planned) {
-    text += concat(": ", status.finished_faces, " of ", status.faces, " faces, ",
-                   percent(status.finished_faces, status.faces));
+    text += concat(": ", status.finished_face_count, " of ", status.face_count, " faces, ",
+                   percent(status.finished_face_count, status.face_count));
   }
   if (status.seconds_left) {
     text += concat(", ", pace(status.faces_a_second), ", ", duration(status.seconds_left), " left");
@@ -91,8 +91,8 @@ std::string format_status_table(const CrowdStatus& status) {
 std::string format_status_json(const CrowdStatus& status) {
   Json json = {{"planned", status.is_planned},
                {"finished", status.is_gathered},
-               {"faces", status.faces},
-               {"done", status.finished_faces},
+               {"faces", status.face_count},
+               {"done", status.finished_face_count},
                {"faces_a_second", rounded_or_null(status.faces_a_second)},
                {"seconds_left", rounded_or_null(status.seconds_left)},
                {"failures", status.failures},
@@ -101,8 +101,8 @@ std::string format_status_json(const CrowdStatus& status) {
     json["shards"].push_back({{"shard", shard.shard.index},
                               {"of", shard.shard.count},
                               {"state", shard.state_name()},
-                              {"faces", shard.faces},
-                              {"done", shard.finished_faces},
+                              {"faces", shard.face_count},
+                              {"done", shard.finished_face_count},
                               {"faces_a_second", rounded_or_null(shard.faces_a_second)},
                               {"seconds_left", rounded_or_null(shard.seconds_left)},
                               {"silent_seconds", rounded_or_null(shard.seconds_since_write)},

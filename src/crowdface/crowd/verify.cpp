@@ -30,7 +30,7 @@ std::map<std::string, LedgerEntry> read_ledgers(const CrowdDirectory& directory,
           concat(path.filename().string(), ": ", lines.damaged_count,
                  lines.damaged_count == 1 ? " line is damaged" : " lines are damaged"));
     }
-    if (path == directory.ledger() && !lines.complete) {
+    if (path == directory.ledger() && !lines.is_complete) {
       check.remarks.push_back(
           concat(path.filename().string(), ": lines are missing, or no run has finished yet"));
     }

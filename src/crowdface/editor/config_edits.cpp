@@ -35,7 +35,7 @@ std::string single_line_yaml(const YamlNode& node) {
       return entry(write_scalar(child.key), single_line_yaml(child.value));
     }));
   }
-  return node.quoted ? write_scalar(node.text) : node.text;
+  return node.is_quoted ? write_scalar(node.text) : node.text;
 }
 
 /// Formats the edits as YAML. Each section and each list item takes one line.

@@ -31,14 +31,14 @@ BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index
     band.weights = mixed_weights(a.weights, b.weights, share);
   }
   band.smoothness = between(a.smoothness, b.smoothness, share);
-  band.iterations = iterations_of(band.smoothness, casting.scale);
+  band.iterations = iterations_of(band.smoothness, casting.level_scale);
   band.extrapolation = between(a.extrapolation, b.extrapolation, share);
   return band;
 }
 
 FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
                   std::uint32_t attempt) {
-  const bool keeps_target = request.original || !request.locked.empty();
+  const bool keeps_target = request.original || !request.locked_parts.empty();
   const FacePlan& old = request.original ? *request.original : request.start_face;
   ManualRecipe open;
   open.id = request.start_face.id;
@@ -60,7 +60,7 @@ FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
                      face.recipe.target, sources_of(casting.sampling, b), casting);
     }
   }
-  copy_bands(request.locked, request.start_face.recipe, face.recipe);
+  copy_bands(request.locked_parts, request.start_face.recipe, face.recipe);
   return face;
 }
 
@@ -75,7 +75,7 @@ std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudg
   for (std::uint32_t i = 0; i < most && faces.size() < request.count; ++i) {
     throw_if_interrupted();
     FacePlan face = draw_one(casting, request, request.first_attempt + i);
-    const TraitRules* rules = judge.traits();
+    const TraitRules* rules = judge.trait_rules();
     if (rules != nullptr && (rules->check(face, rules->measurer().landmarks(face.recipe)) ||
                              judge.check_traits(face))) {
       ++reasons[Reason::kTraits];

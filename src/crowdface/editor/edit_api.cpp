@@ -97,26 +97,26 @@ HttpAnswer EditApi::job(const HttpRequest&, const std::string&) {
 
 HttpAnswer EditApi::mesh(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(build_mutex_);
-  painting_.apply();
-  return binary_answer(session_.mesh());
+  painting_.apply_masks();
+  return binary_answer(session_.mesh_answer());
 }
 
 HttpAnswer EditApi::light(const HttpRequest&, const std::string&) {
-  return binary_answer(session_.light());
+  return binary_answer(session_.ambient_light_answer());
 }
 
 HttpAnswer EditApi::head(const HttpRequest&, const std::string& rest) {
   const std::size_t slash = std::min(rest.find('/'), rest.size());
   const std::string what = rest.substr(slash);
   const auto number = parse_unsigned(std::string_view(rest).substr(0, slash));
-  if (!number || *number >= session_.job().inputs.faces.heads.size()) {
+  if (!number || *number >= session_.job().inputs.head_set.heads.size()) {
     return error_answer(404, "there is no such head");
   }
   const auto head = static_cast<Index>(*number);
-  if (what.empty()) return binary_answer(session_.head(head));
+  if (what.empty()) return binary_answer(session_.head_answer(head));
   if (what == "/thumbnail") return {200, "image/png", pictures_.thumbnail(head)};
   if (what != "/texture") return error_answer(404, "there is nothing at this address");
-  auto texture = session_.textures().picture(head);
+  auto texture = session_.textures().head_jpeg(head);
   if (!texture) return error_answer(404, "the head has no texture");
   return {200, "image/jpeg", std::move(*texture)};
 }
@@ -183,23 +183,23 @@ HttpAnswer EditApi::face_picture(const HttpRequest&, const std::string& rest) {
   if (crowd == nullptr || std::ranges::find(*crowd, rest, &FacePlan::id) == crowd->end()) {
     return error_answer(404, "there is no such face");
   }
-  const auto file = directory_of(session_.job().config).render(rest);
+  const auto file = crowd_directory_of(session_.job().config).render(rest);
   if (!path_exists(file)) return error_answer(404, "the face has no picture");
   return {200, "image/png", read_file(file)};
 }
 
-void EditApi::note_request_number(const std::string& page, std::uint64_t turn) {
+void EditApi::note_request_number(const std::string& page, std::uint64_t request_number) {
   constexpr std::size_t kMaxPages = 64;
   const std::lock_guard lock(newest_requests_mutex_);
   if (newest_requests_.size() > kMaxPages) newest_requests_.clear();
   std::uint64_t& newest = newest_requests_[page];
-  newest = std::max(newest, turn);
+  newest = std::max(newest, request_number);
 }
 
-bool EditApi::is_outdated_request(const std::string& page, std::uint64_t turn) {
+bool EditApi::is_outdated_request(const std::string& page, std::uint64_t request_number) {
   const std::lock_guard lock(newest_requests_mutex_);
   const auto newest = newest_requests_.find(page);
-  return newest != newest_requests_.end() && turn < newest->second;
+  return newest != newest_requests_.end() && request_number < newest->second;
 }
 
 nlohmann::ordered_json EditApi::measures_json(const FaceMeasures& measures) const {
@@ -245,7 +245,7 @@ HttpAnswer EditApi::faults(const HttpRequest& request, const std::string&) {
   Positions positions;
   {
     const std::lock_guard lock(build_mutex_);
-    painting_.apply();
+    painting_.apply_masks();
     positions = session_.build(face.recipe);
   }
   return json_answer({{"faults", session_.mesh_faults(face.recipe, positions)}});
@@ -262,7 +262,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   const std::lock_guard lock(build_mutex_);
   if (!page.empty() && is_outdated_request(page, turn))
     return error_answer(409, "overtaken by a newer request");
-  painting_.apply();
+  painting_.apply_masks();
   const auto begin = std::chrono::steady_clock::now();
   const Positions positions = session_.build(face.recipe);
   const EditExpressions::Moves moves =
@@ -272,8 +272,8 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   Positions shown = positions;
   for (const Displacements& move : moves) move.add_to(shown);
   BinaryAnswer answer;
-  const std::vector<float> points = session_.points(shown);
-  const std::vector<float> normals = session_.normals(shown);
+  const std::vector<float> points = session_.preview_points(shown);
+  const std::vector<float> normals = session_.preview_normals(shown);
   answer.add("positions", std::span(points));
   answer.add("normals", std::span(normals));
   const Json chosen = body.contains("wears") ? body["wears"] : Json::object();
@@ -283,7 +283,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   const auto worn = attachments_.attachments_of(face, opened, chosen, positions, moves);
   answer.head["bare"] = !worn;  // attachments are still being bound; the page asks again
   for (const PlacedAttachment& one : worn.value_or(std::vector<PlacedAttachment>())) {
-    const std::vector<float> places = attachments_.points(one);
+    const std::vector<float> places = attachments_.vertex_positions(one);
     const std::string name = one.look().name();
     answer.head["worn"].push_back(name);
     answer.add(concat("worn ", name), std::span(places));
@@ -307,12 +307,13 @@ HttpAnswer EditApi::skin(const HttpRequest& request, const std::string&) {
   };
   const auto texture_set = pictures_.textures_of(face.recipe);
   if (texture_set && !texture_set->textures.empty()) {
-    add("picture", session_.textures().colours(*texture_set));
+    add("picture", session_.textures().colour_jpeg(*texture_set));
   }
   if (texture_set && !texture_set->slopes.textures.empty()) {
-    add("normals", session_.textures().normals(texture_set->slopes));
+    add("normals", session_.textures().normal_map_jpeg(texture_set->slopes));
   }
-  const auto rough = texture_set ? session_.roughness(*texture_set) : std::vector<std::uint8_t>();
+  const auto rough =
+      texture_set ? session_.preview_roughness(*texture_set) : std::vector<std::uint8_t>();
   if (!rough.empty()) answer.add("rough", std::span(rough));
   const ColourRows colours = pictures_.textures().vertex_colours(face.recipe);
   if (colours.rows() > 0) {

@@ -72,8 +72,8 @@ class EditApi {
   static std::string opened_id(const Json& body);
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json measures_json(const FaceMeasures& measures) const;
-  void note_request_number(const std::string& page, std::uint64_t turn);
-  bool is_outdated_request(const std::string& page, std::uint64_t turn);
+  void note_request_number(const std::string& page, std::uint64_t request_number);
+  bool is_outdated_request(const std::string& page, std::uint64_t request_number);
 
   const EditSession& session_;
   bool may_edit_config_;

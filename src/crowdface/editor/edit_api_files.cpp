@@ -33,7 +33,7 @@ Value word_in(const Json& body, const std::string& key) {
   throw UsageError(concat(key, ": expected ", join(known, " or "), ", found ", quoted(text)));
 }
 
-/// The text of a key; nothing if the value is null.
+/// The text that is the value of a key; nothing if the value is null.
 std::optional<std::string> optional_text_in(const Json& body, const std::string& key) {
   return body[key].is_null() ? std::nullopt : std::optional(text_in(body, key));
 }
@@ -45,7 +45,7 @@ Json file_json(const std::filesystem::path& file) {
 }  // namespace
 
 HttpAnswer EditApi::state(const HttpRequest&, const std::string&) {
-  std::string text = folder_.state();
+  std::string text = folder_.saved_state();
   return {200, "application/json", text.empty() ? "null" : std::move(text)};
 }
 
@@ -86,7 +86,7 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   if (body.contains("ask") && body["ask"] == true && path_exists(file)) {
     return error_answer(409, concat(file.filename().string(), " exists"));
   }
-  painting_.apply();
+  painting_.apply_masks();
   return json_answer(file_json(folder_.save(session_.job(), face, *format, mesh_writer())));
 }
 
@@ -109,7 +109,7 @@ HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
 }
 
 HttpAnswer EditApi::generate(const HttpRequest&, const std::string&) {
-  folder_.require_same();
+  folder_.require_same_folder();
   run_.start();
   return json_answer(Json::object(), 202);
 }
@@ -158,8 +158,8 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
     return json_answer(file_json(folder_.save_change(session_.job().config, *change)));
   }
   if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");
-  mark.locked = parts_in(body, "lock");
-  if (!mark.locked.empty()) mark.verdict = ReviewMark::Verdict::kReject;
+  mark.locked_parts = parts_in(body, "lock");
+  if (!mark.locked_parts.empty()) mark.verdict = ReviewMark::Verdict::kReject;
   if (body.contains("note")) {
     mark.note = text_in(body, "note");
     if (mark.note->size() > kLongestNote) {
@@ -187,23 +187,23 @@ void EditApi::require_masks_of_config() const {
 HttpAnswer EditApi::paint_masks(const HttpRequest& request, const std::string&) {
   const Json body = parse_json_body(request);
   const std::lock_guard lock(build_mutex_);
-  folder_.require_same();
-  painting_.stroke(body);
+  folder_.require_same_folder();
+  painting_.apply_stroke(body);
   return painted_masks();
 }
 
 HttpAnswer EditApi::undo_masks(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(build_mutex_);
-  folder_.require_same();
+  folder_.require_same_folder();
   painting_.undo();
   return painted_masks();
 }
 
 HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(build_mutex_);
-  folder_.require_same();
+  folder_.require_same_folder();
   Json files = Json::array();
-  for (const auto& file : painting_.save(painting_.regions({}), unused_masks())) {
+  for (const auto& file : painting_.save(painting_.changed_regions({}), unused_masks())) {
     files.push_back(file.string());
   }
   return json_answer({{"files", files}});
@@ -235,11 +235,11 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
   std::filesystem::path edits;
   {
     const std::lock_guard lock(build_mutex_);
-    folder_.require_same();
+    folder_.require_same_folder();
     if (body.contains("back")) {
       edits = restore_section(config, "regions", optional_text_in(body, "back"));
     } else {
-      const PaintedRegions regions = painting_.regions(body);
+      const PaintedRegions regions = painting_.changed_regions(body);
       edits = put_regions(config, regions.names, painting_.save(regions, unused_masks()));
     }
     painting_.delete_stored_strokes();
@@ -279,7 +279,7 @@ HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& res
   const auto before = section_in_edits(config.edits, "faces");
   const std::string config_text = read_file(config.file);
   if (body.contains("back")) {
-    folder_.require_same();
+    folder_.require_same_folder();
     restore_section(config.file, "faces", optional_text_in(body, "back"));
     open_again(request, rest);
     return json_answer(Json::object());

@@ -36,7 +36,7 @@ std::optional<std::string> EditAttachments::appearance_json(const std::string& n
     if (item.name != name.substr(0, plus)) continue;
     AttachmentLook look{&item};
     if (plus < name.size()) look.colour = parse_hair_label(std::string_view(name).substr(plus + 1));
-    return shown_.look_as_json(look, surfaces_.at(item));
+    return shown_.appearance_as_json(look, surfaces_.at(item));
   }
   return std::nullopt;
 }

@@ -37,8 +37,8 @@ class EditAttachments {
   /// The attachments of a face. Returns nothing while an attachment is being bound to the heads for
   /// the first time; binding takes seconds if there are expressions.
   /// \param face    the edited face; determines the attachments that are sampled for the face
-  /// \param opened  id of the crowd's face from which the edit began, whose attachments the face
-  ///                keeps; or empty
+  /// \param opened     id of the crowd's face from which the edit began, or empty. The edited face
+  ///                   keeps the attachments of this face.
   /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are sampled
   /// \param moves      displacements of the face, which the attachments follow
   /// \throws UsageError if a kind or a name does not exist.
@@ -48,8 +48,10 @@ class EditAttachments {
                                                               const Positions& positions,
                                                               std::span<const Displacements> moves);
   /// Vertex positions of an attachment on a face, three numbers for each vertex, in the vertex
-  /// order of `look`.
-  std::vector<float> points(const PlacedAttachment& placed) const { return shown_.points(placed); }
+  /// order of appearance_json().
+  std::vector<float> vertex_positions(const PlacedAttachment& placed) const {
+    return shown_.vertex_positions(placed);
+  }
 
  private:
   using BindingFuture = std::shared_future<std::unique_ptr<const FaceAttachments>>;

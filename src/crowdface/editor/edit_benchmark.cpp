@@ -35,8 +35,8 @@ double median_ms(const EditSession& session, Recipe recipe, const Change& change
     change(recipe, static_cast<double>(i) / (kRepetitions + 1));
     const auto begin = std::chrono::steady_clock::now();
     const Positions face = session.build(recipe);
-    session.points(face);
-    session.normals(face);
+    session.preview_points(face);
+    session.preview_normals(face);
     times.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
             .count());
@@ -65,7 +65,7 @@ std::string benchmark_edit(const std::filesystem::path& config_or_crowd,
     RegionRecipe& region = start.regions.back();
     region.extrapolation = sampling.extrapolation.high;
     region.smoothness = 0.5;
-    region.iterations = iterations_of(region.smoothness, casting.scale);
+    region.iterations = iterations_of(region.smoothness, casting.level_scale);
     move(casting, start, start.regions.size() - 1, 0.5);
   }
   const double one = median_ms(
@@ -74,12 +74,12 @@ std::string benchmark_edit(const std::filesystem::path& config_or_crowd,
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) move(casting, recipe, k, turn);
   });
   const double levels = median_ms(session, start, [&](Recipe& recipe, double turn) {
-    recipe.regions[0].iterations = iterations_of(turn, casting.scale);
+    recipe.regions[0].iterations = iterations_of(turn, casting.level_scale);
   });
   const double target = median_ms(session, start, [&](Recipe& recipe, double) {
     recipe.target = (recipe.target + 1) % static_cast<Index>(casting.anchors.size());
   });
-  const auto& faces = session.job().inputs.faces;
+  const auto& faces = session.job().inputs.head_set;
   return concat(
       faces.heads.size(), " heads of ", faces.topology.vertex_count, " vertices, ",
       start.regions.size(), " regions, ", session.preview().vertices.size(), " vertices shown, ",

@@ -33,12 +33,12 @@ EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& w
   if (wanted.empty()) return moves;
   const std::lock_guard lock(mutex_);
   if (!shapes_) shapes_ = std::make_unique<const FaceShapes>(job_.config, job_.inputs);
-  if (face_.rows() != positions.rows() || face_ != positions) {
-    moves_ = shapes_->shapes_of_face(recipe, positions);
-    face_ = positions;
+  if (cached_face_.rows() != positions.rows() || cached_face_ != positions) {
+    cached_moves_ = shapes_->shapes_of_face(recipe, positions);
+    cached_face_ = positions;
   }
   for (const auto& [shape, weight] : wanted) {
-    moves.push_back(moves_[shape]);
+    moves.push_back(cached_moves_[shape]);
     moves.back().moves *= weight;
   }
   return moves;

@@ -26,8 +26,8 @@ class EditExpressions {
 
   /// The names of the expressions.
   std::vector<std::string> names() const;
-  /// The displacements of a face for some expressions. Computes the displacements of all
-  /// expressions of a face at once, and caches them until the face changes.
+  /// Returns the weighted displacements of a face for the expressions in `weights`. Computes the
+  /// displacements of all expressions of a face at once, and caches them until the face changes.
   /// \param weights     {name: weight 0 … 1}; missing expressions have weight 0
   /// \param positions  the face at rest
   /// \throws UsageError if a name does not exist or a weight is outside its range.
@@ -38,8 +38,8 @@ class EditExpressions {
   const Job& job_;
   std::mutex mutex_;
   std::unique_ptr<const FaceShapes> shapes_;
-  Positions face_;  ///< the face for which `moves_` was computed
-  std::vector<Displacements> moves_;
+  Positions cached_face_;  ///< the face for which `cached_moves_` was computed
+  std::vector<Displacements> cached_moves_;
 };
 
 }  // namespace crowdface

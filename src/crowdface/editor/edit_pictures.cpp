@@ -26,7 +26,7 @@ std::string EditPictures::thumbnail(Index head) {
         job_.config, one_picture(View::kFront, kThumbnail), job_.inputs);
   }
   png = thumbnail_renders_->render_png(
-      job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions, head);
+      job_.inputs.head_set.heads[static_cast<std::size_t>(head)].positions, head);
   return png;
 }
 
@@ -39,7 +39,7 @@ const FaceTextures& EditPictures::textures() {
 std::optional<TextureSet> EditPictures::textures_of(const Recipe& recipe) {
   constexpr int kMaxTexels = 1024;
   const Inputs& inputs = job_.inputs;
-  if (!inputs.textures.blend() && !are_any_rendered(inputs.maps)) {
+  if (!inputs.textures.are_blended() && !are_any_rendered(inputs.maps)) {
     return texture_set_of_head(inputs.textures, recipe.target, kMaxTexels);
   }
   FaceTextureSet own(inputs.textures, inputs.maps, recipe.target, kMaxTexels);

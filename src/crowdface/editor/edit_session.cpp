@@ -26,7 +26,7 @@ std::vector<bool> visible_faces(const Surfaces& surfaces) {
 }
 
 Config with_fitted_levels(Config config) {
-  config.smoothing.levels = Levels::kBasis;
+  config.smoothing.levels = LevelRepresentation::kBasis;
   return config;
 }
 
@@ -43,11 +43,11 @@ std::string sentence(Reason reason, const Config& config) {
 /// Measures a face, and adds a warning for each limit that a measurement violates.
 void measure_traits(const FaceTraits& traits, const TraitRules& rules, const FacePlan& face,
                     FaceMeasures& measures) {
-  const TraitDistributions& spread = traits.measurer().spread();
+  const TraitDistributions& spread = traits.measurer().head_distributions();
   const std::vector<double> values = traits.values(face.recipe);
   const TraitLimits limits = rules.limits_of(face);
   for (std::size_t t = 0; t < values.size(); ++t) {
-    const std::size_t trait = traits.traits()[t];
+    const std::size_t trait = traits.trait_indices()[t];
     const std::vector<double>& heads = spread.sorted_values(trait);
     measures.traits.push_back(
         {trait, values[t], values[t] - spread.mean(trait), heads.front(), heads.back()});
@@ -63,7 +63,7 @@ void measure_traits(const FaceTraits& traits, const TraitRules& rules, const Fac
 /// heads, masks and smoothing settings of the job. Returns nothing if there is no plan, or (with a
 /// warning) if the plan was made with other heads, masks or settings.
 std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
-  const CrowdDirectory directory = directory_of(job.config);
+  const CrowdDirectory directory = crowd_directory_of(job.config);
   if (!path_exists(directory.plan())) return std::nullopt;
   const auto refuse = [&](std::string_view why) {
     log_warning(concat(directory.root.string(), ": its faces are not shown: ", why));
@@ -72,7 +72,7 @@ std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
   try {
     std::vector<FacePlan> faces;
     for (PlanLine& line : read_plan(directory.plan(), job.names)) {
-      if (line.settings != job.settings.hex()) {
+      if (line.settings_hash != job.settings.hex()) {
         return refuse("they were planned with other settings");
       }
       faces.push_back(std::move(line.face));
@@ -98,7 +98,7 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       preview_future_(std::async(
           std::launch::async,
           [this, preview_vertices] {
-            const HeadSet& head_set = job_.inputs.faces;
+            const HeadSet& head_set = job_.inputs.head_set;
             return preview_mesh(head_set.topology, textures_.coordinates(), mean_head(head_set),
                                 visible_faces(surfaces_of(job_.config, job_.inputs)),
                                 preview_vertices);
@@ -110,24 +110,25 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       judging_(std::async(std::launch::async, [this] { return judging(); }).share()),
       casting_(casting_options(job_.config, job_.inputs,
                                job_.config.plane.layout == Layout::kSimilarity
-                                   ? judging_.get().space->space.head_distances()
+                                   ? judging_.get().space->face_space.head_distances()
                                    : Eigen::MatrixXd())),
       preview_(preview_future_.get()),
-      vertex_faces_(job_.inputs.faces.topology),
+      vertex_faces_(job_.inputs.head_set.topology),
       sky_shares_(std::async(std::launch::async, [this] {
-                    return vertex_visibility(job_.inputs.faces.topology,
+                    return vertex_visibility(job_.inputs.head_set.topology,
                                              surfaces_of(job_.config, job_.inputs).kinds,
-                                             mean_head(job_.inputs.faces), preview_.vertices);
+                                             mean_head(job_.inputs.head_set), preview_.vertices);
                   }).share()) {
-  if (job_.config.smoothing.levels == Levels::kExact) {
-    fitted_ = prepare(with_fitted_levels(job_.config), job_.inputs, job_.smoothing, cache);
+  if (job_.config.smoothing.levels == LevelRepresentation::kExact) {
+    preview_prepared_ =
+        prepare(with_fitted_levels(job_.config), job_.inputs, job_.smoothing, cache);
   }
 }
 
 EditSession::JudgingData EditSession::judging() const {
   auto searched_space =
       std::make_unique<const CastingSpace>(casting_space(job_.config, job_.inputs, prepared_, {}));
-  const FaceSpace& space = searched_space->space;
+  const FaceSpace& space = searched_space->face_space;
   NearestFaceSearch crowd(space.dimensions());
   if (crowd_) {
     std::vector<FaceSpace::Point> points(crowd_->size());
@@ -135,7 +136,8 @@ EditSession::JudgingData EditSession::judging() const {
                       [&](std::size_t i) { points[i] = space.point((*crowd_)[i].recipe); });
     for (const FaceSpace::Point& point : points) crowd.add(point);
   }
-  FaceJudge judge(space, job_.config.diversity, job_.config.believability, &searched_space->skin);
+  FaceJudge judge(space, job_.config.diversity, job_.config.believability,
+                  &searched_space->proxy_skin);
   auto traits = available_face_traits(job_.config, job_.inputs, prepared_);
   std::unique_ptr<const TraitRules> rules;
   if (traits) rules = std::make_unique<const TraitRules>(traits->measurer(), casting_);
@@ -145,8 +147,8 @@ EditSession::JudgingData EditSession::judging() const {
 }
 
 std::vector<HeadLevels> EditSession::preview_levels() const {
-  if (!fitted_) return head_levels(job_.config, prepared_);
-  return head_levels(with_fitted_levels(job_.config), *fitted_);
+  if (!preview_prepared_) return head_levels(job_.config, prepared_);
+  return head_levels(with_fitted_levels(job_.config), *preview_prepared_);
 }
 
 Positions EditSession::build(const Recipe& recipe) const {
@@ -166,7 +168,7 @@ NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::
   NearestFaceSearch::NearestFace nearest;
   const auto search = [&](Index begin, Index end) {
     if (begin == end) return;
-    const auto found = judging_.get().crowd.nearest(point, nearest.distance_mm, begin, end);
+    const auto found = judging_.get().crowd_search.nearest(point, nearest.distance_mm, begin, end);
     if (found.face >= 0) nearest = found;
   };
   Index begin = 0;
@@ -181,7 +183,7 @@ NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::
 }
 
 double EditSession::distance_mm(const FacePlan& one, const FacePlan& other) const {
-  const FaceSpace& space = judging_.get().space->space;
+  const FaceSpace& space = judging_.get().space->face_space;
   return FaceSpace::distance(space.point(one.recipe), space.point(other.recipe));
 }
 
@@ -223,9 +225,9 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
 }
 
 FacePlan EditSession::steer(FacePlan face, const std::string& trait, double wanted,
-                            const std::vector<std::size_t>& locked) const {
+                            const std::vector<std::size_t>& locked_parts) const {
   const auto& traits = judging_.get().traits;
-  const auto measured = traits ? traits->traits() : std::vector<std::size_t>();
+  const auto measured = traits ? traits->trait_indices() : std::vector<std::size_t>();
   const auto found = find_measurement(trait);
   const auto at = std::ranges::find(measured, found.value_or(measurements().size()));
   if (at == measured.end()) {
@@ -237,7 +239,7 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
   std::vector<SteeredBand> bands;
   const std::size_t count = band_count(casting_.sampling);
   for (std::size_t part = 0; part < count * face.recipe.regions.size(); ++part) {
-    if (std::ranges::find(locked, part) != locked.end()) continue;
+    if (std::ranges::find(locked_parts, part) != locked_parts.end()) continue;
     SteeredBand band{part / count, part % count, sources_of(casting_.sampling, part % count)};
     for (const SourceWeight& lent : target_shares(face.recipe)) band.heads.push_back(lent.head);
     for (const SourceWeight& lent : band_of(face.recipe.regions[band.region], band.band).weights) {
@@ -255,36 +257,37 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
 
 std::vector<FacePlan> EditSession::sample_faces(const SampleRequest& request) const {
   const JudgingData& judging = judging_.get();
-  return crowdface::sample_faces(casting_, judging.judge, judging.crowd, request);
+  return crowdface::sample_faces(casting_, judging.judge, judging.crowd_search, request);
 }
 
-std::vector<float> EditSession::points(const Positions& face) const {
+std::vector<float> EditSession::preview_points(const Positions& face) const {
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> shown =
       face(preview_.vertices, kAllColumns).cast<float>();
   return {shown.data(), shown.data() + shown.size()};
 }
 
-std::vector<std::uint8_t> EditSession::roughness(const TextureSet& texture_set) const {
+std::vector<std::uint8_t> EditSession::preview_roughness(const TextureSet& texture_set) const {
   std::vector<std::uint8_t> roughness;
-  if (texture_set.roughness.of_face.empty()) return roughness;
+  if (texture_set.roughness.texture_of_face.empty()) return roughness;
   const float plain = material_of(SurfaceKind::kSkin).roughness;
   for (std::size_t v = 0; v < preview_.vertices.size(); ++v) {
     const Eigen::Vector2f uv =
         textures_.cell_coordinates({preview_.uvs[2 * v], preview_.uvs[2 * v + 1]});
     const float rough =
-        roughness_at(texture_set, {static_cast<Index>(preview_.faces[v]), uv}).value_or(plain);
+        roughness_at(texture_set, {static_cast<Index>(preview_.face_of_vertex[v]), uv})
+            .value_or(plain);
     roughness.push_back(static_cast<std::uint8_t>(std::lround(255 * rough)));
   }
   return roughness;
 }
 
-std::vector<float> EditSession::normals(const Positions& face) const {
+std::vector<float> EditSession::preview_normals(const Positions& face) const {
   constexpr std::size_t kBlock = 1024;
   std::vector<float> normals(3 * preview_.vertices.size());
   parallel_for_each(preview_.vertices.size(), kBlock, [&](std::size_t i) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const std::uint32_t f : vertex_faces_.items_of(preview_.vertices[i])) {
-      sum += face_area_vector(job_.inputs.faces.topology, f, face);
+      sum += face_area_vector(job_.inputs.head_set.topology, f, face);
     }
     const double length = sum.norm();
     const Eigen::Vector3d normal =

@@ -74,14 +74,14 @@ class EditSession {
   /// A description of the job as JSON. The page loads this description before all other data.
   nlohmann::ordered_json description() const;
   /// Triangles, colours, masks and texture coordinates of the preview, as a BinaryAnswer.
-  std::string mesh() const;
+  std::string mesh_answer() const;
   /// Ambient light at the preview's vertices, computed on the mean head: for each vertex, the
   /// square root of the visible fraction of the sky. Returns a BinaryAnswer. Waits until the
   /// computation is finished.
-  std::string light() const;
+  std::string ambient_light_answer() const;
   /// A BinaryAnswer with a head's positions at the preview's vertices, the head's fields, and the
   /// functions of these fields.
-  std::string head(Index head) const;
+  std::string head_answer(Index head) const;
 
   /// The region masks for blending; zero at vertices of components that are not skin.
   const RegionWeights& masks() const { return builder_.regions(); }
@@ -109,20 +109,21 @@ class EditSession {
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
   /// Changes the weights of a face so that a measurement comes as near to `wanted` as the heads
   /// allow; see steer_trait. Returns the changed face.
-  /// \param locked  parts that do not change, as in SampleRequest
-  /// \throws UsageError if the measurement is not available, or weights cannot be given.
+  /// \param locked_parts  parts that do not change, as in SampleRequest
+  /// \throws UsageError if the measurement is not available, or if the config's normalization does
+  /// not allow weights that come from no position on the plane.
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
-                 const std::vector<std::size_t>& locked) const;
+                 const std::vector<std::size_t>& locked_parts) const;
   /// Samples faces for the user to choose from; see the function sample_faces.
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
   /// preview vertex.
-  std::vector<float> normals(const Positions& face) const;
+  std::vector<float> preview_normals(const Positions& face) const;
   /// Roughness of a face at the preview's vertices, 0 … 255 for the range 0 … 1; empty if there is
   /// no roughness map.
-  std::vector<std::uint8_t> roughness(const TextureSet& texture_set) const;
+  std::vector<std::uint8_t> preview_roughness(const TextureSet& texture_set) const;
   /// Positions of the preview's vertices: three numbers for each preview vertex.
-  std::vector<float> points(const Positions& face) const;
+  std::vector<float> preview_points(const Positions& face) const;
 
  private:
   /// The data for comparing faces and checking them for defects. The computation takes about a
@@ -130,7 +131,7 @@ class EditSession {
   struct JudgingData {
     std::unique_ptr<const CastingSpace> space;
     FaceJudge judge;
-    NearestFaceSearch crowd;
+    NearestFaceSearch crowd_search;
     std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
     std::unique_ptr<const TraitRules> rules;
   };
@@ -150,7 +151,7 @@ class EditSession {
   std::optional<std::vector<FacePlan>> crowd_;
   Prepared prepared_;
   /// set only with `levels: exact`: the heads' fields, for the preview
-  std::optional<Prepared> fitted_;
+  std::optional<Prepared> preview_prepared_;
   FaceBuilder builder_;
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;

@@ -49,7 +49,7 @@ std::string other_lines(const fs::path& plan, const std::string& id, const PlanN
   std::string lines;
   for (const PlanLine& line : read_plan(plan, names)) {
     if (line.face.id == id) continue;
-    const auto settings = parse_digest(line.settings);
+    const auto settings = parse_digest(line.settings_hash);
     lines += format_plan_line(line.face, names, settings.value_or(Digest{})) + '\n';
   }
   return lines;
@@ -85,7 +85,7 @@ std::vector<std::string> EditedFolder::formats() {
   return endings;
 }
 
-std::string EditedFolder::state() const {
+std::string EditedFolder::saved_state() const {
   const fs::path file = path_ / "state.json";
   return path_exists(file) ? read_file(file) : std::string();
 }
@@ -98,7 +98,7 @@ void EditedFolder::take_over(std::string page) {
 bool EditedFolder::save_state(std::string_view text, const std::string& page) {
   const std::lock_guard lock(mutex_);
   if (page != editing_page_) return false;
-  require_same();
+  require_same_folder();
   write_file(path_ / "state.json", text);
   return true;
 }
@@ -114,7 +114,7 @@ void EditedFolder::write_meshes(const FacePlan& face, const std::string& ending,
 fs::path EditedFolder::save(const Job& job, const FacePlan& face, MeshFormat format,
                             const WriteMesh& write) {
   const std::lock_guard lock(mutex_);
-  require_same();
+  require_same_folder();
   const fs::path plan = path_ / kPlan, saving = path_ / concat(kSavingPrefix, face.id);
   const std::string ending(extension_of(format));
   const std::string before = path_exists(plan) ? read_file(plan) : std::string();
@@ -164,13 +164,13 @@ fs::path EditedFolder::save_change(const Config& config, const FaceChange& chang
 
 fs::path EditedFolder::save_review(const Config& config, const std::function<void(Review&)>& edit) {
   const std::lock_guard lock(mutex_);
-  require_same();
+  require_same_folder();
   fs::path file = path_ / "review.yaml";
   Problems problems;
   Review review;
   const std::string before = path_exists(file) ? read_file(file) : std::string();
   if (before.empty() || crowd_has_review(config, before)) {
-    review.seen_reviews = config.review.reviews.size();
+    review.seen_review_count = config.review.reviews.size();
   } else {
     review = parse_review(before, file.string(), config, problems);
   }

@@ -31,12 +31,13 @@ class EditedFolder {
   explicit EditedFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  /// Call this before code outside this class writes to the folder. \throws IoError if another
-  /// folder has replaced this folder.
-  void require_same() const { handle_.require_same(); }
+  /// Checks that this is still the folder that the constructor opened. Code outside this class must
+  /// call this function before it writes to the folder. \throws IoError if another folder has
+  /// replaced the folder.
+  void require_same_folder() const { handle_.require_same(); }
 
   /// Returns the state text that a page saved last; empty if no page has saved a state.
-  std::string state() const;
+  std::string saved_state() const;
   /// Makes `page` the only page that may save the state, because two pages would overwrite each
   /// other's steps.
   void take_over(std::string page);
@@ -60,7 +61,7 @@ class EditedFolder {
   /// Writes a mark or a change of a face to review.yaml, where it replaces the earlier mark or
   /// change of this face. An empty change removes the earlier change. If a run has already applied
   /// the review in this file to the crowd, begins a new review, so that no mark applies twice.
-  /// \throws Error if a config would reject the existing review or the result.
+  /// \throws Error if review.yaml is invalid, or would be invalid afterwards.
   std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
   std::filesystem::path save_change(const Config& config, const FaceChange& change);
 

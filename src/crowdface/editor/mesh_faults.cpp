@@ -6,14 +6,16 @@
 
 namespace crowdface {
 
-std::shared_ptr<const MeshFaults::Target> MeshFaults::target(Index head) const {
+std::shared_ptr<const MeshFaults::TargetFaults> MeshFaults::target_faults(Index head) const {
   const std::lock_guard lock(mutex_);
-  if (!parts_) parts_.emplace(parts_through_skin(job_.config, job_.inputs));
-  std::shared_ptr<const Target>& target = targets_[head];
+  if (!parts_through_skin_)
+    parts_through_skin_.emplace(parts_through_skin(job_.config, job_.inputs));
+  std::shared_ptr<const TargetFaults>& target = target_faults_[head];
   if (!target) {
-    const Positions& positions = job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions;
-    target = std::make_shared<const Target>(
-        Target{skin_check(job_.config, job_.inputs, {head}), parts_->exposed_mm2(positions)});
+    const Positions& positions =
+        job_.inputs.head_set.heads[static_cast<std::size_t>(head)].positions;
+    target = std::make_shared<const TargetFaults>(TargetFaults{
+        skin_check(job_.config, job_.inputs, {head}), parts_through_skin_->exposed_mm2(positions)});
   }
   return target;
 }
@@ -21,13 +23,13 @@ std::shared_ptr<const MeshFaults::Target> MeshFaults::target(Index head) const {
 std::vector<std::string> MeshFaults::faults_of(const Recipe& recipe, const Positions& face) const {
   if (!skin_is_judged(job_.config, job_.inputs)) return {};
   const BelievabilityOptions& limits = job_.config.believability;
-  const std::shared_ptr<const Target> target = this->target(recipe.target);
-  const SkinDefects defects = builder_.defects(target->skin, recipe, face);
+  const std::shared_ptr<const TargetFaults> target = this->target_faults(recipe.target);
+  const SkinDefects defects = builder_.defects(target->skin_check, recipe, face);
   std::vector<std::string> faults;
-  if (parts_->exposed_mm2(face) - target->parts_mm2 > limits.max_exposed_mm2) {
+  if (parts_through_skin_->exposed_mm2(face) - target->exposed_parts_mm2 > limits.max_exposed_mm2) {
     faults.emplace_back("gums, teeth or other parts stand out of the skin");
   }
-  if (defects.exposed_mm2 > limits.max_exposed_mm2) {
+  if (defects.exposed_back_mm2 > limits.max_exposed_mm2) {
     faults.push_back(describe_violation(Reason::kExposed, job_.config.diversity, limits));
   }
   const auto why = exceeded_limit(limits, defects);

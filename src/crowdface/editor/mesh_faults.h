@@ -27,19 +27,18 @@ class MeshFaults {
   std::vector<std::string> faults_of(const Recipe& recipe, const Positions& face) const;
 
  private:
-  /// The faults that a target head itself has. Faces with this target head may have the same
-  /// faults.
-  struct Target {
-    SkinCheck skin;
-    double parts_mm2;  ///< area of the head's parts that protrudes through the skin
+  /// The faults of a target head itself. Faces with this target head may have the same faults.
+  struct TargetFaults {
+    SkinCheck skin_check;
+    double exposed_parts_mm2;  ///< area of the head's parts that protrudes through the skin
   };
-  std::shared_ptr<const Target> target(Index head) const;
+  std::shared_ptr<const TargetFaults> target_faults(Index head) const;
 
   const Job& job_;
   const FaceBuilder& builder_;
   mutable std::mutex mutex_;
-  mutable std::optional<const PartsThroughSkin> parts_;
-  mutable std::map<Index, std::shared_ptr<const Target>> targets_;
+  mutable std::optional<const PartsThroughSkin> parts_through_skin_;
+  mutable std::map<Index, std::shared_ptr<const TargetFaults>> target_faults_;
 };
 
 }  // namespace crowdface

@@ -35,7 +35,7 @@ Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Ind
       json["weights"][heads[static_cast<std::size_t>(source.head)]] = source.weight;
     }
   }
-  if (iterations_of(band.smoothness, casting.scale) == band.iterations) {
+  if (iterations_of(band.smoothness, casting.level_scale) == band.iterations) {
     json["smoothness"] = band.smoothness;
   } else {
     json["iterations"] = band.iterations;
@@ -68,7 +68,7 @@ std::vector<SourceWeight> read_mixture(const Json& json, const Config& config) {
       throw UsageError(concat("mixture: no head is called ", quoted(name)));
     }
     const double value = share.is_number() ? share.get<double>() : -1;
-    if (!(value >= 0 && value <= kLargestWeight)) {
+    if (!(value >= 0 && value <= kMaxSourceWeight)) {
       throw UsageError(concat("mixture.", name, ": expected a number from 0"));
     }
     shares.push_back({static_cast<Index>(head - names.begin()), value});

@@ -56,12 +56,12 @@ Digest hash_painting_base(const EditSession& session) {
 
 RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path& strokes)
     : session_(session),
-      mean_(shape_of_mean(session.job().inputs.faces)),
+      mean_(shape_of_mean(session.job().inputs.head_set)),
       strokes_(strokes, hash_painting_base(session)) {
-  replay();
+  replay_strokes();
 }
 
-void RegionPainting::replay() {
+void RegionPainting::replay_strokes() {
   painter_.reset();
   try {
     for (const Json& stroke : strokes_.strokes()) {
@@ -77,12 +77,12 @@ void RegionPainting::replay() {
   }
 }
 
-void RegionPainting::store(const Json& step) {
+void RegionPainting::store_stroke(const Json& step) {
   try {
     strokes_.add(step);
   } catch (...) {  // restore the masks from the file
-    replay();
-    painted_ = true;
+    replay_strokes();
+    has_unapplied_paint_ = true;
     throw;
   }
 }
@@ -91,7 +91,7 @@ MaskPainter& RegionPainting::painter() {
   if (!painter_) {
     const Job& job = session_.job();
     const HeadAxes axes = head_axes(job.config);
-    const Topology& topology = job.inputs.faces.topology;
+    const Topology& topology = job.inputs.head_set.topology;
     painter_.emplace(topology, mean_.positions,
                      MirrorPlane{axes.side(), symmetry_offset(topology, mean_, axes)},
                      job.inputs.regions.alpha);
@@ -138,19 +138,19 @@ void RegionPainting::paint(const Json& body) {
   std::vector<SurfacePoint> places;
   for (const Json& point : body["points"]) places.push_back(surface_point_of(point));
   painter().paint(region, places, brush, !is_true(body, "begin") && differs_from_config());
-  painted_ = true;
+  has_unapplied_paint_ = true;
 }
 
-void RegionPainting::stroke(const Json& body) {
+void RegionPainting::apply_stroke(const Json& body) {
   paint(body);
-  store(body);
+  store_stroke(body);
 }
 
 void RegionPainting::undo() {
   if (!differs_from_config()) throw UsageError("there is no stroke to undo");
   painter().undo();
-  painted_ = true;
-  store({{kUndo, true}});
+  has_unapplied_paint_ = true;
+  store_stroke({{kUndo, true}});
 }
 
 std::vector<float> RegionPainting::masks() const {
@@ -166,12 +166,12 @@ std::vector<float> RegionPainting::masks() const {
   return masks;
 }
 
-void RegionPainting::apply() {
-  if (painted_) session_.use_masks({painter().alpha(), 0});
-  painted_ = false;
+void RegionPainting::apply_masks() {
+  if (has_unapplied_paint_) session_.use_masks({painter().alpha(), 0});
+  has_unapplied_paint_ = false;
 }
 
-PaintedRegions RegionPainting::regions(const Json& change) {
+PaintedRegions RegionPainting::changed_regions(const Json& change) {
   PaintedRegions regions{session_.casting().region_names, painter().alpha()};
   if (change.contains("add")) {
     regions.names.push_back(text_in(change, "add"));
@@ -191,7 +191,7 @@ PaintedRegions RegionPainting::regions(const Json& change) {
     }
     const std::vector<Band> bands = parse_bands(join(wanted, ","));
     const Config& config = session_.job().config;
-    regions = {names_of(bands), propose_regions(session_.job().inputs.faces.topology, mean_,
+    regions = {names_of(bands), propose_regions(session_.job().inputs.head_set.topology, mean_,
                                                 {config.faces.up, config.faces.front}, bands)};
   }
   return regions;
@@ -199,12 +199,12 @@ PaintedRegions RegionPainting::regions(const Json& change) {
 
 std::vector<std::filesystem::path> RegionPainting::save(const PaintedRegions& regions,
                                                         const std::filesystem::path& path) const {
-  const HeadSet& head_set = session_.job().inputs.faces;
-  const int size = mask_texels(head_set.topology.vertex_count);
+  const HeadSet& head_set = session_.job().inputs.head_set;
+  const int size = mask_side_texels(head_set.topology.vertex_count);
   const MaskFiles images = encode_masks(
-      paint_masks(head_set.topology, head_set.uvs, regions.alpha, mean_.skin, size), path);
-  for (const auto& [file, bytes] : images.files) write_file(file, bytes);
-  return images.masks;
+      paint_masks(head_set.topology, head_set.uvs, regions.alpha, mean_.is_skin, size), path);
+  for (const auto& [file, bytes] : images.png_files) write_file(file, bytes);
+  return images.mask_paths;
 }
 
 }  // namespace crowdface

@@ -34,7 +34,7 @@ class RegionPainting {
   /// radius_mm, strength, falloff, mirror, begin}. Without `begin`, the stroke continues the
   /// previous one.
   /// \throws UsageError if the request cannot be read.
-  void stroke(const nlohmann::ordered_json& body);
+  void apply_stroke(const nlohmann::ordered_json& body);
   /// Undoes the last brush stroke.
   /// \throws UsageError if there is no stroke to undo.
   void undo();
@@ -46,14 +46,14 @@ class RegionPainting {
   std::vector<float> masks() const;
 
   /// Makes the session blend faces with the painted masks from now on.
-  void apply();
+  void apply_masks();
 
   /// Returns the painted regions after one change. {"add": NAME} adds a region without any
   /// vertices. {"remove": NAME} removes a region and distributes the region's weights to the other
   /// regions. {"propose": [NAME…]} replaces all regions by regions that are computed from the shape
   /// of the mean head.
   /// \throws UsageError if the request cannot be read; InvalidInput if no regions can be proposed.
-  PaintedRegions regions(const nlohmann::ordered_json& change);
+  PaintedRegions changed_regions(const nlohmann::ordered_json& change);
 
   /// Writes the masks as images in the heads' texture layout.
   /// \param path  file of the first image, ending in .png
@@ -71,14 +71,14 @@ class RegionPainting {
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   void paint(const nlohmann::ordered_json& body);
   /// Applies all strokes that the file stores.
-  void replay();
+  void replay_strokes();
   /// Appends to the file a stroke that was just painted. If writing fails, undoes the stroke.
-  void store(const nlohmann::ordered_json& step);
+  void store_stroke(const nlohmann::ordered_json& step);
 
   EditSession& session_;
   HeadShape mean_;
   std::optional<MaskPainter> painter_;  ///< created at the first stroke
-  bool painted_ = false;                ///< whether anything was painted since the last `apply`
+  bool has_unapplied_paint_ = false;  ///< whether anything was painted since the last `apply_masks`
   StrokeLog strokes_;
 };
 

@@ -39,7 +39,7 @@ Json axis_to_json(Axis axis) {
   return json;
 }
 
-Json colour_to_json(const Light& light) {
+Json colour_to_json(const LinearRgb& light) {
   return {light[0], light[1], light[2]};
 }
 
@@ -58,7 +58,8 @@ Range fractions_of(const SmoothnessDistribution& smoothness, const LevelScale& s
     if (smoothness.unit == SmoothnessDistribution::Unit::kIterations) {
       share = value / static_cast<double>(scale.max_level);
     } else if (smoothness.unit == SmoothnessDistribution::Unit::kSize && value > 0) {
-      share = static_cast<double>(iterations_of_size(scale.kind, value, scale.edge_length_mm)) /
+      share = static_cast<double>(
+                  iterations_for_wavelength(scale.operator_kind, value, scale.edge_length_mm)) /
               static_cast<double>(scale.max_level);
     }
     return std::min(share, 1.0);
@@ -79,7 +80,7 @@ Json EditSession::regions_json() const {
     regions.push_back(
         {{"name", casting_.region_names[k]},
          {"colour", hex_colour(palette_colour(static_cast<Index>(k)))},
-         {"smoothness", range_to_json(fractions_of(sampling.smoothness, casting_.scale))},
+         {"smoothness", range_to_json(fractions_of(sampling.smoothness, casting_.level_scale))},
          {"extrapolation", range_to_json(sampling.extrapolation)}});
   }
   return regions;
@@ -93,14 +94,15 @@ FacePlan EditSession::first_face() const {
     RegionRecipe region;
     region.finer_bands.resize(band_count(casting_.sampling) - 1);
     for (std::size_t b = 0; b < band_count(region); ++b) {
-      const Range smoothness = fractions_of(smoothness_of(casting_.sampling, k, b), casting_.scale);
+      const Range smoothness =
+          fractions_of(smoothness_of(casting_.sampling, k, b), casting_.level_scale);
       BandRecipe& band = band_of(region, b);
       band.position = casting_.anchors.front();
       band.weights =
           weights_at_position(casting_.anchors, 0, sources_of(casting_.sampling, b), *band.position,
                               casting_.normalization, casting_.sampling.max_sources);
       band.smoothness = (smoothness.low + smoothness.high) / 2;
-      band.iterations = iterations_of(band.smoothness, casting_.scale);
+      band.iterations = iterations_of(band.smoothness, casting_.level_scale);
     }
     face.recipe.regions.push_back(std::move(region));
   }
@@ -117,14 +119,14 @@ Json EditSession::description() const {
   json["mm_per_unit"] = mm_per(config.faces.units);
   json["up"] = axis_to_json(config.faces.up);
   json["front"] = axis_to_json(config.faces.front);
-  json["max_iterations"] = casting_.scale.max_level;
-  json["edge_mm"] = casting_.scale.edge_length_mm;
-  json["vertices"] = job_.inputs.faces.topology.vertex_count;
+  json["max_iterations"] = casting_.level_scale.max_level;
+  json["edge_mm"] = casting_.level_scale.edge_length_mm;
+  json["vertices"] = job_.inputs.head_set.topology.vertex_count;
   json["regions"] = regions_json();
   for (std::size_t b = 0; b < config.sampling.bands.size(); ++b) {
     Json begins = Json::array();  // initial value for each region
     for (std::size_t k = 0; k < casting_.region_names.size(); ++k) {
-      const Range range = fractions_of(smoothness_of(config.sampling, k, b), casting_.scale);
+      const Range range = fractions_of(smoothness_of(config.sampling, k, b), casting_.level_scale);
       begins.push_back((range.low + range.high) / 2);
     }
     json["bands"].push_back({{"name", config.sampling.bands[b].name},
@@ -136,7 +138,7 @@ Json EditSession::description() const {
     json["heads"].push_back({{"name", config.faces.names[h]},
                              {"tags", config.faces.tags[h]},
                              {"anchor", {casting_.anchors[h].x(), casting_.anchors[h].y()}},
-                             {"texture", textures_.has(static_cast<Index>(h))}});
+                             {"texture", textures_.has_textures_of(static_cast<Index>(h))}});
   }
   json["normalization"] =
       config.blending.normalization == Normalization::kPartition ? "partition" : "printed";
@@ -148,11 +150,11 @@ Json EditSession::description() const {
   json["limits"] = {{"head_mm", config.diversity.min_distance_to_faces_mm},
                     {"face_mm", config.diversity.min_distance_mm}};
   for (int step = 0; step <= kLevels; ++step) {
-    const std::uint64_t level = iterations_of(smoothness_at(step), casting_.scale);
+    const std::uint64_t level = iterations_of(smoothness_at(step), casting_.level_scale);
     json["levels"]["smoothness"].push_back(smoothness_at(step));
     json["levels"]["iterations"].push_back(level);
-    json["levels"]["size_mm"].push_back(
-        size_of_iterations(casting_.scale.kind, level, casting_.scale.edge_length_mm));
+    json["levels"]["size_mm"].push_back(wavelength_of_iterations(
+        casting_.level_scale.operator_kind, level, casting_.level_scale.edge_length_mm));
   }
   json["start"] = recipe_to_json(first_face(), casting_, config);
   json["crowd"] = nullptr;
@@ -170,12 +172,12 @@ Json EditSession::description() const {
     }
   }
   json["can_generate"] = true;
-  json["can_paint"] = job_.inputs.faces.uvs.rows() > 0;
+  json["can_paint"] = job_.inputs.head_set.uvs.rows() > 0;
   return json;
 }
 
-std::string EditSession::mesh() const {
-  const HeadSet& head_set = job_.inputs.faces;
+std::string EditSession::mesh_answer() const {
+  const HeadSet& head_set = job_.inputs.head_set;
   const Surfaces surfaces = surfaces_of(job_.config, job_.inputs);
   const Positions mean = mean_head(head_set);
   const VertexColours of_all =
@@ -194,7 +196,8 @@ std::string EditSession::mesh() const {
     for (Index k = 0; k < alpha.cols(); ++k) masks.push_back(static_cast<float>(alpha(v, k)));
     parts.push_back(is_part[v] ? 1 : 0);
   }
-  for (const std::uint32_t face : preview_.faces) textured.push_back(textures_.shows(face) ? 1 : 0);
+  for (const std::uint32_t face : preview_.face_of_vertex)
+    textured.push_back(textures_.covers_face(face) ? 1 : 0);
   Eigen::Array3d low = mean.row(0).array(), high = low;
   for (const Head& head : head_set.heads) {
     low = low.min(head.positions.colwise().minCoeff().transpose().array());
@@ -231,7 +234,7 @@ std::string EditSession::mesh() const {
   return answer.bytes();
 }
 
-std::string EditSession::light() const {
+std::string EditSession::ambient_light_answer() const {
   std::vector<std::uint8_t> roots;
   for (const float share : sky_shares_.get()) {
     roots.push_back(static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share))));
@@ -241,7 +244,7 @@ std::string EditSession::light() const {
   return answer.bytes();
 }
 
-std::string EditSession::head(Index head) const {
+std::string EditSession::head_answer(Index head) const {
   const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
   // Quantise all numbers of a field with the same step size, because the page stores a field in one
   // texture.
@@ -263,12 +266,12 @@ std::string EditSession::head(Index head) const {
   std::vector<float> functions;
   for (int step = 0; step <= kLevels; ++step) {
     for (const double value :
-         levels.functions(iterations_of(smoothness_at(step), casting_.scale))) {
+         levels.functions(iterations_of(smoothness_at(step), casting_.level_scale))) {
       functions.push_back(static_cast<float>(value));
     }
   }
   const std::vector<float> positions =
-      points(job_.inputs.faces.heads[static_cast<std::size_t>(head)].positions);
+      preview_points(job_.inputs.head_set.heads[static_cast<std::size_t>(head)].positions);
   BinaryAnswer answer;
   answer.head["rank"] = levels.fields.rank;
   answer.head["scale"] = steps;

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Stores the brush strokes that are not yet saved as masks in a file, one line of JSON for each
-/// stroke. The strokes therefore survive the end of the editor.
+/// Stores brush strokes in a file, one line of JSON for each stroke, until the painted masks are
+/// saved. The strokes therefore survive the end of the editor.
 class StrokeLog {
  public:
   /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete

@@ -15,11 +15,11 @@ namespace {
 // Maximum width and height, in texels, of one cell and of the whole atlas.
 constexpr int kMaxCellTexels = 2048, kMaxAtlasTexels = 4096;
 
-std::array<std::uint8_t, 3> colour_texel(const Light& light) {
+std::array<std::uint8_t, 3> colour_texel(const LinearRgb& light) {
   return {srgb_byte(light[0]), srgb_byte(light[1]), srgb_byte(light[2])};
 }
 
-std::array<std::uint8_t, 3> normal_texel(const Light& slopes) {
+std::array<std::uint8_t, 3> normal_texel(const LinearRgb& slopes) {
   const Eigen::Vector3f normal = Eigen::Vector3f(slopes[0], slopes[1], 1).normalized();
   std::array<std::uint8_t, 3> texel{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -33,34 +33,34 @@ std::array<std::uint8_t, 3> normal_texel(const Light& slopes) {
 TextureAtlas::TextureAtlas(const Inputs& inputs) : inputs_(inputs) {
   const HeadTextures& textures = inputs.textures;
   int largest = 1;
-  if (textures.blend()) {
+  if (textures.are_blended()) {
     for (const auto& picture : textures.blended.layout.pictures) {
       largest = std::max({largest, picture.width, picture.height});
     }
-    cell_of_face_ = textures.blended.layout.of_face;
-    cells_ = static_cast<std::uint32_t>(textures.blended.layout.pictures.size());
+    cell_of_face_ = textures.blended.layout.picture_of_face;
+    cell_count_ = static_cast<std::uint32_t>(textures.blended.layout.pictures.size());
   } else {
     const auto first = std::ranges::find_if(
         textures.texture_sets,
         [](const TextureSet& texture_set) { return !texture_set.textures.empty(); });
     if (first == textures.texture_sets.end()) return;
-    cell_of_face_ = first->of_face;
-    cells_ = static_cast<std::uint32_t>(first->textures.size());
+    cell_of_face_ = first->texture_of_face;
+    cell_count_ = static_cast<std::uint32_t>(first->textures.size());
     for (const TextureSet& texture_set : textures.texture_sets) {
       for (const auto& texture : texture_set.textures) {
         largest = std::max({largest, texture->width, texture->height});
       }
     }
   }
-  columns_ = static_cast<int>(std::ceil(std::sqrt(cells_)));
-  rows_ = (static_cast<int>(cells_) + columns_ - 1) / columns_;
+  columns_ = static_cast<int>(std::ceil(std::sqrt(cell_count_)));
+  rows_ = (static_cast<int>(cell_count_) + columns_ - 1) / columns_;
   cell_px_ = std::min({largest, kMaxCellTexels, kMaxAtlasTexels / columns_});
 }
 
 TextureCoordinates TextureAtlas::coordinates() const {
-  const Topology& topology = inputs_.faces.topology;
-  const TextureCoordinates& uvs = inputs_.faces.uvs;
-  if (cells_ < 2) return uvs;
+  const Topology& topology = inputs_.head_set.topology;
+  const TextureCoordinates& uvs = inputs_.head_set.uvs;
+  if (cell_count_ < 2) return uvs;
   TextureCoordinates placed = TextureCoordinates::Zero(uvs.rows(), 2);
   // Shrink the used part of each cell by half a texel at each side, so that texture filtering does
   // not mix the colours of neighbouring cells.
@@ -83,46 +83,46 @@ TextureCoordinates TextureAtlas::coordinates() const {
   return placed;
 }
 
-bool TextureAtlas::has(Index head) const {
+bool TextureAtlas::has_textures_of(Index head) const {
   const HeadTextures& textures = inputs_.textures;
   const auto h = static_cast<std::size_t>(head);
-  if (!textures.blend())
+  if (!textures.are_blended())
     return !textures.texture_sets.empty() && !textures.texture_sets[h].textures.empty();
   const auto& maps = textures.blended.maps;
   return std::ranges::any_of(maps, [&](const auto& map) { return map[h] != nullptr; });
 }
 
-std::optional<std::string> TextureAtlas::picture(Index head) const {
-  if (!has(head)) return std::nullopt;
-  return colours(*texture_set_of_head(inputs_.textures, head, cell_px_));
+std::optional<std::string> TextureAtlas::head_jpeg(Index head) const {
+  if (!has_textures_of(head)) return std::nullopt;
+  return colour_jpeg(*texture_set_of_head(inputs_.textures, head, cell_px_));
 }
 
-std::string TextureAtlas::colours(const TextureLayer& layer) const {
-  return encoded(layer, albedo_of(SurfaceKind::kSkin), colour_texel);
+std::string TextureAtlas::colour_jpeg(const TextureLayer& layer) const {
+  return to_jpeg(layer, albedo_of(SurfaceKind::kSkin), colour_texel);
 }
 
-std::string TextureAtlas::normals(const TextureLayer& slopes) const {
-  return encoded(slopes, Light::Zero(), normal_texel);
+std::string TextureAtlas::normal_map_jpeg(const TextureLayer& slopes) const {
+  return to_jpeg(slopes, LinearRgb::Zero(), normal_texel);
 }
 
-std::string TextureAtlas::encoded(const TextureLayer& layer, const Light& elsewhere,
-                                  Texel (*texel_of)(const Light&)) const {
+std::string TextureAtlas::to_jpeg(const TextureLayer& layer, const LinearRgb& default_colour,
+                                  Texel (*texel_of)(const LinearRgb&)) const {
   std::vector<std::uint8_t> pixels;
-  const auto append = [&](const Light& light) {
+  const auto append = [&](const LinearRgb& light) {
     const Texel texel = texel_of(light);
     pixels.insert(pixels.end(), texel.begin(), texel.end());
   };
-  if (cells_ == 1 && layer.textures.size() == 1) {
+  if (cell_count_ == 1 && layer.textures.size() == 1) {
     const Texture& texture = *layer.textures.front();
-    for (const Light& light : texture.texels) append(light);
+    for (const LinearRgb& light : texture.texels) append(light);
     return encode_jpeg(texture.width, texture.height, pixels);
   }
-  std::vector<const Texture*> shown(cells_, nullptr);
-  for (std::size_t f = 0; f < layer.of_face.size(); ++f) {
-    if (layer.of_face[f] == TextureLayer::kNone || cell_of_face_[f] == TextureLayer::kNone)
+  std::vector<const Texture*> shown(cell_count_, nullptr);
+  for (std::size_t f = 0; f < layer.texture_of_face.size(); ++f) {
+    if (layer.texture_of_face[f] == TextureLayer::kNone || cell_of_face_[f] == TextureLayer::kNone)
       continue;
     const Texture*& texture = shown[cell_of_face_[f]];
-    if (texture == nullptr) texture = layer.textures[layer.of_face[f]].get();
+    if (texture == nullptr) texture = layer.textures[layer.texture_of_face[f]].get();
   }
   const int width = columns_ * cell_px_, height = rows_ * cell_px_;
   const auto side = static_cast<float>(cell_px_);
@@ -132,7 +132,7 @@ std::string TextureAtlas::encoded(const TextureLayer& layer, const Light& elsewh
       const Texture* texture = cell < shown.size() ? shown[cell] : nullptr;
       const Eigen::Vector2f uv((static_cast<float>(x % cell_px_) + 0.5F) / side,
                                1 - (static_cast<float>(y % cell_px_) + 0.5F) / side);
-      append(texture != nullptr ? colour_at(*texture, uv) : elsewhere);
+      append(texture != nullptr ? colour_at(*texture, uv) : default_colour);
     }
   }
   return encode_jpeg(width, height, pixels);

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 using TilePlace = std::array<std::int32_t, 2>;
 
-/// A warning if no polygon uses a material that names a texture: the texture is then not shown.
+/// Returns a warning if some materials name textures, but no polygon uses any of these materials.
+/// The textures are then not shown.
 std::optional<std::string> unused_materials(const NamedTextures& named, const ObjFile& file,
                                             Index face_count) {
   const auto colours = named.paths_by_kind.find(TextureKind::kColour);
@@ -63,14 +64,14 @@ HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_materi
                                 std::vector<fs::path>& missing) {
   HeadTextureFiles placed;
   if (of_material.empty()) return placed;
-  placed.of_face.assign(tiles.size(), kNoIndex);
+  placed.file_of_face.assign(tiles.size(), kNoIndex);
   const FaceMaterials materials = face_materials(ranges, static_cast<Index>(tiles.size()));
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();
     const std::uint32_t material = materials.material_of_face[f];
     if (f > 0 && material == materials.material_of_face[f - 1] && tiles[f] == tiles[f - 1]) {
-      placed.of_face[f] = placed.of_face[f - 1];
+      placed.file_of_face[f] = placed.file_of_face[f - 1];
       continue;
     }
     const auto found = of_material.find(materials.names[material]);
@@ -85,7 +86,7 @@ HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_materi
       // files
       missing.push_back(path);
     }
-    placed.of_face[f] = row->second;
+    placed.file_of_face[f] = row->second;
   }
   return placed;
 }
@@ -122,7 +123,7 @@ void remove_files(FoundTextureFiles& textures, const std::set<fs::path>& files) 
       kept.push_back(placed.files[i]);
     }
     placed.files = std::move(kept);
-    for (std::uint32_t& file : placed.of_face) {
+    for (std::uint32_t& file : placed.file_of_face) {
       if (file != kNoIndex) file = row[file];
     }
   }
@@ -135,7 +136,7 @@ std::vector<std::string> remove_unreadable_files(FoundTextureFiles& textures) {
     for (const HeadTextureFiles::File& file : placed.files) {
       if (!seen.insert(file.path).second) continue;
       try {
-        read_image_size(file.path, {.jpeg = true});
+        read_image_size(file.path, {.allows_jpeg = true});
       } catch (const InvalidInput& error) {
         unreadable.insert(file.path);
         warnings.push_back(concat(error.what(), "; the texture is neither blended nor shown"));
@@ -198,7 +199,8 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
       result.warnings.push_back(concat(text, " (", join(heads), ")"));
     }
     if (result.has_files()) {
-      for (HeadTextureFiles& placed : result.heads) placed.of_face.resize(tile.size(), kNoIndex);
+      for (HeadTextureFiles& placed : result.heads)
+        placed.file_of_face.resize(tile.size(), kNoIndex);
     }
     if (kind == TextureKind::kColour || result.has_files()) all.push_back(std::move(result));
   }

@@ -23,7 +23,7 @@ struct HeadTextureFiles {
   };
   std::vector<File> files;  ///< without duplicates, in the order in which polygons first use them
   std::vector<std::uint32_t>
-      of_face;  ///< #F, index into `files` or kNoIndex; empty if no head has any
+      file_of_face;  ///< #F, index into `files` or kNoIndex; empty if no head has any
 };
 
 /// All heads' textures of one kind, and warnings about missing files.

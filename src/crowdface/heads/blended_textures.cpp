@@ -30,8 +30,9 @@ std::vector<std::vector<std::uint32_t>> rows_in_pictures(const HeadTextureFiles&
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
   std::vector<std::set<std::uint32_t>> rows(pictures);
-  for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
-    if (layout.of_face[f] != kNoIndex) rows[layout.of_face[f]].insert(placed.of_face[f]);
+  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
+    if (layout.picture_of_face[f] != kNoIndex)
+      rows[layout.picture_of_face[f]].insert(placed.file_of_face[f]);
   }
   std::vector<std::vector<std::uint32_t>> result;
   for (const auto& of_picture : rows) {
@@ -98,7 +99,7 @@ TextureMap map_of(const Image& image, const NeededMap& needed) {
 }
 
 std::uint64_t map_bytes(const NeededMap& needed) {
-  return sizeof(Density) * static_cast<std::uint64_t>(needed.width) *
+  return sizeof(StoredValue) * static_cast<std::uint64_t>(needed.width) *
          static_cast<std::uint64_t>(needed.height) * static_cast<std::uint64_t>(needed.channels);
 }
 
@@ -110,7 +111,7 @@ std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::pa
   };
   throw_if_interrupted();
   Kept read{reserve_image_memory(needed.path, map_bytes(needed)),
-            map_of(read_image(needed.path, {.jpeg = true}), needed)};
+            map_of(read_image(needed.path, {.allows_jpeg = true}), needed)};
   if (!scratch.empty()) {
     move_to_disk(read.map, scratch);
     read.memory.reset();
@@ -129,11 +130,11 @@ void read_maps(LoadedMaps& maps, const fs::path& scratch) {
 /// Merges several maps, each of which covers some of the image's polygons.
 std::shared_ptr<const TextureMap> compose(
     const HeadSet& heads, const TextureLayout& layout, std::uint32_t picture,
-    const std::vector<std::uint32_t>& of_face,
+    const std::vector<std::uint32_t>& file_of_face,
     const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps,
     const fs::path& scratch) {
   const TextureMap& first = *maps.begin()->second;
-  const std::span<const Density> stored = first.stored();
+  const std::span<const StoredValue> stored = first.stored();
   auto composed = std::make_shared<TextureMap>(
       TextureMap{first.width, first.height, {stored.begin(), stored.end()}, first.coding});
   MapCoding& coding = composed->coding;
@@ -148,11 +149,11 @@ std::shared_ptr<const TextureMap> compose(
   const SurfaceTexels texels(heads.topology, heads.uvs, layout, picture);
   for (int y = 0; y < texels.height(); ++y) {
     for (const SurfaceTexels::Span& span : texels.row(y)) {
-      const TextureMap& from = *maps.at(of_face[texels.triangle(span.triangle).face]);
+      const TextureMap& from = *maps.at(file_of_face[texels.triangle(span.triangle).face]);
       for (int c = 0; c < coding.channels; ++c) {
         std::transform(from.row(c, y) + span.begin, from.row(c, y) + span.end,
                        composed->row(c, y) + span.begin,
-                       [&](Density number) { return coding.encode(from.decode(number)); });
+                       [&](StoredValue number) { return coding.encode(from.decode(number)); });
       }
     }
   }
@@ -194,7 +195,7 @@ NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
     case TextureKind::kNormal:
       return {.content = MapContent::kSlopes, .channels = 2};
     case TextureKind::kBump:
-      if (channels >= 3 && holds_normals(read_image(first, {.jpeg = true}))) {
+      if (channels >= 3 && holds_normals(read_image(first, {.allows_jpeg = true}))) {
         return {.content = MapContent::kSlopes, .channels = 2};
       }
       return {.content = MapContent::kValues, .channels = 1};
@@ -226,12 +227,12 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
     hasher.add(placed.files.size());
     for (const HeadTextureFiles::File& file : placed.files) {
       if (!sizes.contains(file.path)) {
-        sizes[file.path] = read_image_size(file.path, {.jpeg = true});
+        sizes[file.path] = read_image_size(file.path, {.allows_jpeg = true});
         contents[file.path] = hash_file(file.path).digest;
       }
       hasher.add(contents[file.path]);
     }
-    hasher.add_array(std::span<const std::uint32_t>(placed.of_face));
+    hasher.add_array(std::span<const std::uint32_t>(placed.file_of_face));
   }
   choose_sizes(found, sizes, rows, size, layout);
 
@@ -244,7 +245,7 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
         const ImageSize& file = sizes.at(found.heads[h].files[row].path);
         channels = std::max(channels, file.channels);
         name.has_only_bytes = name.has_only_bytes && file.has_bytes;
-        name.holds_floats = name.holds_floats || file.has_floats;
+        name.has_floats = name.has_floats || file.has_floats;
       }
     }
     const auto& first = found.heads[pictures[p].head].files[pictures[p].row].path;
@@ -277,8 +278,8 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) of_row[row] = maps.at(needed(h, row, p));
       if (of_row.size() == 1) map = of_row.begin()->second;
       if (of_row.size() > 1) {
-        map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].of_face, of_row,
-                      out_of_memory);
+        map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].file_of_face,
+                      of_row, out_of_memory);
       }
       if (map) continue;
       const PictureName& name = result.names[p];

@@ -51,12 +51,12 @@ void lay_out(const SquareLayout& squares, Topology& topology, TextureCoordinates
 
 std::shared_ptr<const TextureMap> white_map(int side) {
   TextureMap map{side, side, {}};
-  map.planes.assign(3 * map.texels(), Density{0});
+  map.planes.assign(3 * map.texel_count(), StoredValue{0});
   return std::make_shared<const TextureMap>(std::move(map));
 }
 
 std::shared_ptr<const TextureMap> read_texture_map(const std::filesystem::path& file) {
-  const Image image = read_image(file, {.jpeg = true});
+  const Image image = read_image(file, {.allows_jpeg = true});
   return std::make_shared<const TextureMap>(
       make_texture_map(image.width, image.height, light_of(image)));
 }
@@ -67,8 +67,8 @@ TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
   layout.pictures = {{map.width, map.height}};
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto uvs = topology.face_uvs(f);
-    layout.of_face.push_back(std::ranges::find(uvs, kNoIndex) == uvs.end() ? 0 : kNoIndex);
-    layout.tile.push_back({0, 0});
+    layout.picture_of_face.push_back(std::ranges::find(uvs, kNoIndex) == uvs.end() ? 0 : kNoIndex);
+    layout.tile_of_face.push_back({0, 0});
   }
   return layout;
 }

@@ -36,9 +36,9 @@ std::string_view as_bytes(const void* data, std::size_t size) {
   return {static_cast<const char*>(data), size};
 }
 
-/// Absolute values of floats have the same order as their bit patterns; infinity and NaN come last.
-/// The values are therefore compared as integers, which vectorizes. The limit minus a value that is
-/// too large is negative.
+/// The bit patterns of absolute values have the same order as the values; infinity and NaN come
+/// last. The function therefore compares the bit patterns as integers, which vectorizes. If a value
+/// exceeds the limit, the difference limit − value is negative.
 template <class Integer, class T>
 bool all_coordinates(std::span<const T> values) {
   constexpr auto kMagnitude = std::numeric_limits<Integer>::max();

@@ -169,10 +169,10 @@ class CacheEntry {
     return {reinterpret_cast<const Number*>(at(row)), rows, columns};
   }
 
-  /// Validates a number of the entry. Readers must validate every number that they use as an index
-  /// or a size: the checksum only proves that the file has not changed since it was written, not
-  /// that the numbers were right.
-  /// \throws InvalidInput unless `holds`.
+  /// Rejects the entry if a condition is false. Readers must check every number that they use as an
+  /// index or a size: the checksum only proves that the file has not changed since it was written,
+  /// not that the numbers were right.
+  /// \throws InvalidInput if `holds` is false.
   void require(bool holds) const;
   /// \throws InvalidInput if the file was truncated after it was opened. Arrays in the missing part
   ///         read as zeros.

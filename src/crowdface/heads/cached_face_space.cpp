@@ -39,8 +39,8 @@ constexpr auto kFaceSpaceArrays = [](auto& arrays, auto& tables) {
   arrays("levels", tables.levels);
   arrays("functions", tables.functions);
   arrays("directions", tables.directions);
-  for (std::size_t k = 0; k < tables.metrics.size(); ++k) {
-    arrays(concat("metric ", k), tables.metrics[k]);
+  for (std::size_t k = 0; k < tables.region_metrics.size(); ++k) {
+    arrays(concat("metric ", k), tables.region_metrics[k]);
   }
 };
 
@@ -52,7 +52,7 @@ FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
   const CacheKey key{"face-space", face_space_digest(heads, weights, bands)};
   FaceSpaceTables room;
   if (heads.region_weights.cols() > 1)
-    room.metrics.resize(static_cast<std::size_t>(heads.region_weights.cols()));
+    room.region_metrics.resize(static_cast<std::size_t>(heads.region_weights.cols()));
   auto tables = find_cached(
       cache, key, kFaceSpaceArrays,
       [&](const FaceSpaceTables& found, const CacheEntry&) {

@@ -13,10 +13,10 @@ namespace {
 constexpr auto kPatchArrays = [](auto& arrays, auto& lists) {
   arrays("weights", lists.weights);
   arrays("vertices", lists.vertices);
-  arrays("skeletons", lists.skeletons);
-  arrays("counts", lists.counts);
+  arrays("skeletons", lists.skeleton_sizes);
+  arrays("counts", lists.field_counts);
   arrays("steps", lists.steps);
-  arrays("numbers", lists.numbers);
+  arrays("numbers", lists.quantized_values);
 };
 
 }  // namespace
@@ -30,7 +30,7 @@ CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index 
     const bool path_exists =
         find_cached<PatchLists>(cache, entry_key, kPatchArrays,
                                 [&](PatchLists& lists, const CacheEntry& entry) {
-                                  lists.owner = kept.mapped_file = entry.file();
+                                  lists.memory_owner = kept.mapped_file = entry.file();
                                   auto patches =
                                       FieldPatches::from_lists(lists, vertex_count, ranks);
                                   if (!patches) return false;

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Patches of the heads' fields. They may lie in a memory-mapped cache file, where they use no
-/// memory of the process.
+/// The heads' fields, compressed patch by patch (see FieldPatches). The patches may lie in a
+/// memory-mapped cache file, so that they use no memory of the process.
 struct CachedPatches {
   FieldPatches patches;
   /// the file that holds the patches; null if they lie in memory

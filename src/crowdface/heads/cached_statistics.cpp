@@ -31,8 +31,9 @@ constexpr auto kStatisticsArrays = [](auto& arrays, auto& statistics) {
 
 }  // namespace
 
-Digest statistics_key(const Digest& rows, const Topology& topology, const TextureCoordinates& uvs,
-                      const CrowdTextures& textures, const StatisticsScale& scale) {
+Digest statistics_key(const Digest& row_order, const Topology& topology,
+                      const TextureCoordinates& uvs, const CrowdTextures& textures,
+                      const StatisticsScale& scale) {
   std::vector<const TextureMap*> maps;
   for (const auto& of_picture : textures.maps) {
     for (const auto& map : of_picture) maps.push_back(map.get());
@@ -42,10 +43,10 @@ Digest statistics_key(const Digest& rows, const Topology& topology, const Textur
     if (maps[m] != nullptr) digests[m] = digest_of_map(*maps[m]);
   });
   Hasher hasher;
-  hasher.add(kTextureVersion).add(rows);
+  hasher.add(kTextureVersion).add(row_order);
   hasher.add_array(std::span(topology.corner_uvs));
   hasher.add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
-  hasher.add_array(std::span(textures.layout.of_face));
+  hasher.add_array(std::span(textures.layout.picture_of_face));
   for (const TextureLayout::Picture& picture : textures.layout.pictures) {
     hasher.add(picture.width).add(picture.height);
   }
@@ -59,7 +60,7 @@ SurfaceStatistics cached_statistics(const CacheFolder& cache, const Digest& key,
                                     const std::function<SurfaceStatistics()>& make) {
   SurfaceStatistics room;
   room.coarse_values.resize(heads);
-  room.pairs = heads * (heads + 1) / 2;
+  room.pair_count = heads * (heads + 1) / 2;
   return read_or_make(
       cache, {"texture-statistics", key}, make, kStatisticsArrays,
       [&](const SurfaceStatistics& found, const CacheEntry&) {
@@ -67,7 +68,7 @@ SurfaceStatistics cached_statistics(const CacheFolder& cache, const Digest& key,
           return colours.rows() == static_cast<Index>(vertices);
         };
         return std::ranges::all_of(found.coarse_values, has_all) &&
-               found.covariances.size() == vertices * found.pairs;
+               found.covariances.size() == vertices * found.pair_count;
       },
       std::move(room));
 }

@@ -11,10 +11,11 @@
 namespace crowdface {
 
 /// Hash of everything that the statistics of the heads' maps depend on.
-/// \param rows  hash of the topology's vertices and polygons, and of the positions that determine
+/// \param row_order  hash of the topology's vertices and polygons, and of the positions that determine
 ///              the filter's row order
-Digest statistics_key(const Digest& rows, const Topology& topology, const TextureCoordinates& uvs,
-                      const CrowdTextures& textures, const StatisticsScale& scale);
+Digest statistics_key(const Digest& row_order, const Topology& topology,
+                      const TextureCoordinates& uvs, const CrowdTextures& textures,
+                      const StatisticsScale& scale);
 
 /// Returns the statistics from the cache; if they are not there, calls `make()` and stores the
 /// result.

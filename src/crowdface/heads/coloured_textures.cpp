@@ -27,7 +27,7 @@ std::vector<AttachmentFile> files_of(const AttachmentLook& look) {
 }
 
 std::string coloured_texture(const std::filesystem::path& neutral, const HairColour& colour) {
-  const Image image = read_image(neutral, {.jpeg = true});
+  const Image image = read_image(neutral, {.allows_jpeg = true});
   const std::array<float, 3> factors = tint_factors(colour);
   // For each channel, a table: the sRGB value in the neutral texture is the index, the sRGB value
   // after colouring is the entry.

@@ -140,7 +140,7 @@ void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& hea
     give_mesh(head, other, colours);
     return;
   }
-  // Keep the head's own texture coordinates: the head checks report that they differ.
+  // Keep the head's own texture coordinates, so that the head checks report the difference.
   HeadMesh mesh = *head.mesh;
   mesh.topology.corner_vertices = other.mesh->topology.corner_vertices;
   mesh.topology.vertex_count = other.mesh->topology.vertex_count;
@@ -197,8 +197,8 @@ HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
   return made;
 }
 
-/// Finds the mesh of heads whose exports may have split vertices: corners that share a vertex in
-/// any head share a vertex in the result, if in each head they have the same position.
+/// Finds the mesh of heads whose exports may have split vertices. Corners share a vertex in the
+/// result if they share a vertex in any head and have the same position in each head.
 /// \param heads  their polygons are the same, and reading has not joined vertices
 /// \param made   receives the mesh if no head has it
 /// \return a head with the mesh
@@ -226,8 +226,8 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
   return made;
 }
 
-/// Finds the mesh of heads whose vertices reading has joined by position: corners share a vertex in
-/// the result if in each head they have the same position.
+/// Finds the mesh of heads whose vertices reading has joined by position. Corners share a vertex in
+/// the result if they have the same position in each head.
 /// \param heads  their polygons are the same
 /// \param made   receives the mesh if some vertices have one position in some heads but not in all
 /// \return a head with the mesh
@@ -316,7 +316,7 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours)
                                 libraries.empty() ? std::string() : libraries[0]);
   file.positions = std::move(head.file.positions);
   file.material_libraries = std::move(head.file.material_libraries);
-  file.textures_at = std::move(head.file.textures_at);
+  file.material_base = std::move(head.file.material_base);
   file.notes = std::move(head.file.notes);
   file.topology = {};
   file.uvs.resize(0, 2);
@@ -325,11 +325,10 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours)
   head.mesh_digest = other.mesh_digest;
 }
 
-std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(const Topology& expected,
-                                                                    const Topology& found,
-                                                                    const Positions& there) {
+std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
+    const Topology& expected, const Topology& found, const Positions& found_positions) {
   if (expected.face_offsets != found.face_offsets) return std::nullopt;
-  const double near = same_place(there);
+  const double near = same_place(found_positions);
   Vertices vertices(static_cast<std::size_t>(expected.vertex_count), kNoIndex);
   std::vector<bool> has_corner(static_cast<std::size_t>(found.vertex_count), false);
   for (std::size_t c = 0; c < expected.corner_vertices.size(); ++c) {
@@ -337,7 +336,8 @@ std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(const Topolo
     const std::uint32_t other = found.corner_vertices[c];
     has_corner[other] = true;
     if (vertex == kNoIndex) vertex = other;
-    if (vertex != other && !((there.row(vertex) - there.row(other)).norm() <= near)) {
+    if (vertex != other &&
+        !((found_positions.row(vertex) - found_positions.row(other)).norm() <= near)) {
       return std::nullopt;
     }
   }

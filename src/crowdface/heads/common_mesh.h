@@ -17,12 +17,11 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours 
 /// Matches the vertices of two meshes that have the same polygons in the same order, although an
 /// export may have numbered the vertices anew, split vertices at seams or joined vertices that have
 /// the same position.
-/// \param there  positions of `found`
+/// \param found_positions  positions of `found`
 /// \return #V, a vertex of `found` for each vertex of `expected`; nothing if the corners of an
 ///         expected vertex have several positions, or if the meshes differ otherwise.
-std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(const Topology& expected,
-                                                                    const Topology& found,
-                                                                    const Positions& there);
+std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
+    const Topology& expected, const Topology& found, const Positions& found_positions);
 
 /// Gives heads a common mesh if their meshes differ only by their export: in the order of vertices
 /// and polygons, by triangulation, by vertices that are split at seams, or by vertices that are

@@ -39,10 +39,10 @@ std::vector<Index> vertices_in(const Box& box, const FaceMarks& marks, const Hea
   std::vector<Index> inside;
   double foremost = -std::numeric_limits<double>::max();
   for (Index v = 0; v < head.positions.rows(); ++v) {
-    if (!head.skin[static_cast<std::size_t>(v)]) continue;
+    if (!head.is_skin[static_cast<std::size_t>(v)]) continue;
     const Eigen::Vector3d place = row3(head.positions, v);
-    const double above = place.dot(axes.up) - marks.mouth - box.height * face;
-    const double aside = place.dot(axes.side()) - marks.middle;
+    const double above = place.dot(axes.up) - marks.mouth_height - box.height * face;
+    const double aside = place.dot(axes.side()) - marks.symmetry_offset;
     if (std::abs(above) > box.up * face || std::abs(aside) > box.across * face) continue;
     inside.push_back(v);
     foremost = std::max(foremost, place.dot(axes.front));

@@ -50,7 +50,7 @@ void FaceAttachments::bind(const Config& config, const std::vector<bool>& wanted
   }
   if (meshes.empty()) return;
   skin_ =
-      std::make_unique<const FittedSkin>(inputs_.faces.topology, set.fitted_to,
+      std::make_unique<const FittedSkin>(inputs_.head_set.topology, set.fitted_to,
                                          skin_vertices(inputs_), 1 / mm_per(config.faces.units));
   bound_meshes_.resize(meshes.size());
   parallel_for_each(meshes.size(), [&](std::size_t m) {
@@ -68,7 +68,7 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   std::vector<PlacedAttachment> placed;
   if (face.attachments.empty() || skin_ == nullptr) return placed;
   const Positions normals = skin_->normals(positions);
-  for (const AttachmentLook& look : inputs_.attachments.looks(face)) {
+  for (const AttachmentLook& look : inputs_.attachments.looks_of(face)) {
     const BoundMesh& bound =
         bound_meshes_[mesh_of_item_[inputs_.attachments.index(look.item->name)]];
     placed.push_back({look.item, look.colour, bound.carrier->carry(positions, normals)});

@@ -47,8 +47,9 @@ class FaceAttachments {
   std::vector<PlacedAttachment> attachments_of(const FacePlan& face, const Positions& positions,
                                                std::span<const Displacements> moves = {}) const;
 
-  /// Memory of this object, and the maximum memory of one face's attachments, in bytes.
+  /// Memory of this object, in bytes.
   std::size_t memory_bytes() const;
+  /// Maximum memory of one face's attachments, in bytes.
   std::size_t placed_bytes() const;
 
  private:

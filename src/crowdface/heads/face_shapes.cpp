@@ -35,11 +35,12 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// The weights of the heads' shape sets in a region, with sum 1. Starts with the heads' weights in
-/// the target. Then subtracts, for each band, the heads' weights from level_shares times the
-/// fraction of the shape that smoothing up to the band's level removes.
+/// Returns the weights of the heads' shape sets in a region, normalised to the sum 1. Before the
+/// normalisation, a head's weight is its weight in the target minus a term for each band: the
+/// head's weight in the band (see level_shares) times the fraction of the shape that smoothing up
+/// to the band's level removes.
 /// \param kept  result of kept_by_smoothing
-SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
+ShapeSetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);
   for (const SourceWeight& part : target_shares(recipe)) {
     shares[static_cast<std::size_t>(part.head)] += part.weight;
@@ -52,7 +53,7 @@ SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads,
   }
   double sum = 0;
   for (const double share : shares) sum += share;
-  SetShares result;
+  ShapeSetShares result;
   for (std::uint32_t h = 0; h < heads; ++h) {
     if (shares[h] != 0) result.push_back({h, shares[h] / sum});
   }
@@ -64,7 +65,7 @@ SetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads,
 FaceShapes::FaceShapes(const Config& config, const Inputs& inputs) : inputs_(inputs) {
   const ShapeSet& set = inputs.shapes;
   if (set.shapes.empty()) return;
-  transfer_ = std::make_unique<ShapeTransfer>(inputs.faces, inputs.adjacency, inputs.parts,
+  transfer_ = std::make_unique<ShapeTransfer>(inputs.head_set, inputs.adjacency, inputs.parts,
                                               head_axes(config), set, inputs.regions);
   if (set.head_shapes.empty()) return;
   for (const Shape& shape : set.shapes) {
@@ -78,7 +79,7 @@ std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
   for (const double kept : kept_) {
     RegionShares& of_shape = shares.emplace_back();
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-      of_shape.push_back(shares_in(recipe, k, inputs_.faces.heads.size(), kept));
+      of_shape.push_back(shares_in(recipe, k, inputs_.head_set.heads.size(), kept));
     }
   }
   return shares;
@@ -90,15 +91,15 @@ std::vector<Displacements> FaceShapes::shapes_of_face(const Recipe& recipe, cons
   return transfer_->carry(recipe.target, face, shares_of(recipe), crossing);
 }
 
-std::optional<std::size_t> FaceShapes::companion(std::size_t shape) const {
-  return transfer_->companion(shape);
+std::optional<std::size_t> FaceShapes::prerequisite_of(std::size_t shape) const {
+  return transfer_->prerequisite_of(shape);
 }
 
 std::vector<Displacements> FaceShapes::shapes_of_head(Index head) const {
   if (!transfer_) return {};
-  const SetShares own = {{static_cast<std::uint32_t>(head), 1}};
+  const ShapeSetShares own = {{static_cast<std::uint32_t>(head), 1}};
   const RegionShares everywhere(static_cast<std::size_t>(inputs_.regions.alpha.cols()), own);
-  return transfer_->carry(head, inputs_.faces.heads[static_cast<std::size_t>(head)].positions,
+  return transfer_->carry(head, inputs_.head_set.heads[static_cast<std::size_t>(head)].positions,
                           std::vector<RegionShares>(kept_.size(), everywhere));
 }
 

@@ -29,8 +29,8 @@ class FaceShapes {
   std::vector<Displacements> shapes_of_head(Index head) const;
 
   /// Returns the shape that `shape` corrects when both are applied together, if there is one (see
-  /// companions_of).
-  std::optional<std::size_t> companion(std::size_t shape) const;
+  /// find_prerequisites).
+  std::optional<std::size_t> prerequisite_of(std::size_t shape) const;
   std::size_t memory_bytes() const;
 
  private:

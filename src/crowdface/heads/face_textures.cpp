@@ -42,7 +42,7 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
     : inputs_(inputs), are_blended_(config.textures.blend == TextureBlend::kAuto) {
   blend_textures(config);
   if (!inputs.neck) return;
-  SeamColours seam(inputs, inputs.textures.blend() ? blenders_.front().get() : nullptr);
+  SeamColours seam(inputs, inputs.textures.are_blended() ? blenders_.front().get() : nullptr);
   if (!seam.has_colours()) return;
   seam_.emplace(std::move(seam));
   if (!config.neck.show_body && config.neck.body_texture.empty()) return;
@@ -53,42 +53,44 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
 void FaceTextures::blend_textures(const Config& config) {
   const Inputs& inputs = inputs_;
   if (!has_own_textures(inputs) && inputs.colours.empty()) return;
-  const Topology& topology = inputs.faces.topology;
-  TextureBlending options;
+  const Topology& topology = inputs.head_set.topology;
+  TextureBlendOptions options;
   const auto iterations = [&](double size_mm) {
     return std::max<std::uint64_t>(
-        1, iterations_of_size(OperatorKind::kLazy, size_mm, inputs.edge_length_mm));
+        1, iterations_for_wavelength(OperatorKind::kLazy, size_mm, inputs.edge_length_mm));
   };
-  options.scale = {iterations(kDetailMm), iterations(kStrengthMm)};
-  options.areas = face_vertex_areas(topology, inputs.skin, mean_head(inputs.faces),
-                                    FaceArea::kFront, config.faces.front);
+  options.statistics_scale = {iterations(kDetailMm), iterations(kStrengthMm)};
+  options.vertex_areas =
+      face_vertex_areas(topology, inputs.skin_components, mean_head(inputs.head_set),
+                        FaceArea::kFront, config.faces.front);
   options.is_target_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices) options.is_target_only[vertex] = true;
   }
-  region_shares_ = region_shares(inputs.regions, options.areas);
+  region_shares_ = region_shares(inputs.regions, options.vertex_areas);
   if (!inputs.colours.empty()) target_only_ = options.is_target_only;
   if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
-      inputs.faces.heads.front().positions);
+      inputs.head_set.heads.front().positions);
   const Digest rows =
       Hasher().add(inputs.topology_digest).add(inputs.head_digests.front()).digest();
   const auto add = [&](const HeadTextures& textures) {
     const auto find = [&](const std::function<SurfaceStatistics()>& make) {
       if (inputs.cache.empty()) return make();
-      return cached_statistics(
-          inputs.cache,
-          statistics_key(rows, topology, inputs.faces.uvs, textures.blended, options.scale),
-          static_cast<std::size_t>(topology.vertex_count), inputs.faces.heads.size(), make);
+      return cached_statistics(inputs.cache,
+                               statistics_key(rows, topology, inputs.head_set.uvs, textures.blended,
+                                              options.statistics_scale),
+                               static_cast<std::size_t>(topology.vertex_count),
+                               inputs.head_set.heads.size(), make);
     };
     blenders_.push_back(std::make_unique<TextureBlender>(
-        topology, inputs.faces.uvs, filter, inputs.regions, textures.blended, options, find));
+        topology, inputs.head_set.uvs, filter, inputs.regions, textures.blended, options, find));
     for (std::size_t p = 0; p < textures.names.size(); ++p) {
       pictures_.push_back({blenders_.back().get(), p});
     }
   };
-  if (inputs.textures.blend()) add(inputs.textures);
+  if (inputs.textures.are_blended()) add(inputs.textures);
   for (const HeadTextures& maps : inputs.maps) add(maps);
 }
 
@@ -104,8 +106,8 @@ ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
 }
 
 std::vector<double> FaceTextures::colour_fractions(const Recipe& recipe) const {
-  const std::size_t heads = inputs_.faces.heads.size();
-  if (inputs_.textures.blend() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
+  const std::size_t heads = inputs_.head_set.heads.size();
+  if (inputs_.textures.are_blended() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
     return face_colour_weights(recipe, heads, region_shares_).face;
   }
   std::vector<double> shares(heads, 0.0);
@@ -148,12 +150,12 @@ std::uint64_t texture_bytes(const Inputs& inputs) {
     bytes += static_cast<std::uint64_t>(colours.size());
   }
   for (const TextureMap* map : maps) {
-    if (map != nullptr) bytes += map->planes.size() * sizeof(Density);
+    if (map != nullptr) bytes += map->planes.size() * sizeof(StoredValue);
   }
   std::set<const Texture*> shown;
   for (const TextureSet& texture_set : inputs.textures.texture_sets) {
     for (const auto& texture : texture_set.textures) {
-      if (shown.insert(texture.get()).second) bytes += texture->texels.size() * sizeof(Light);
+      if (shown.insert(texture.get()).second) bytes += texture->texels.size() * sizeof(LinearRgb);
     }
   }
   return bytes;

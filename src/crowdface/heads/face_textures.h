@@ -17,7 +17,7 @@ namespace crowdface {
 std::vector<PictureName> face_picture_names(const Inputs& inputs);
 
 inline bool has_own_textures(const Inputs& inputs) {
-  return inputs.textures.blend() || !inputs.maps.empty();
+  return inputs.textures.are_blended() || !inputs.maps.empty();
 }
 
 /// A recipe that gives a face exactly the colours of one input head.
@@ -47,8 +47,9 @@ class FaceTextures {
   /// The body's texture for a face. Requires body_painter(). Thread-safe.
   BlendedPicture paint_body(const Recipe& recipe) const;
 
-  /// Memory of this object, and the memory needed to blend the largest image, in bytes.
+  /// Memory of this object, in bytes.
   std::uint64_t memory_bytes() const;
+  /// Memory needed to blend the largest image, in bytes.
   std::uint64_t blend_bytes() const;
 
  private:

@@ -22,7 +22,7 @@ std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
   std::iota(all.begin(), all.end(), Index{0});
   for (const Index s : all) {
     const std::uint32_t v = samples[static_cast<std::size_t>(s)];
-    if (!std::ranges::binary_search(seam.neck.vertices(), v) && !contains(seam.rim, v)) {
+    if (!std::ranges::binary_search(seam.neck_bend.vertices(), v) && !contains(seam.rim, v)) {
       above.push_back(s);
     }
   }
@@ -41,7 +41,7 @@ SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
       to.middleCols<3>(3 * static_cast<Index>(i)) = from.middleCols<3>(3 * columns[i]);
     }
   }
-  SampledHeads heads = sample_heads(inputs.faces, regions, samples, own, inputs.max_level, 1);
+  SampledHeads heads = sample_heads(inputs.head_set, regions, samples, own, inputs.max_level, 1);
   heads.owned_trajectories = std::move(own);
   heads.trajectories = heads.owned_trajectories;
   return heads;

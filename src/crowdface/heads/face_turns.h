@@ -21,8 +21,8 @@ class FacePoses {
   FacePoses& operator=(const FacePoses&) = delete;
 
   /// Returns the rigid motion that aligns a blended face, before it is mirrored, with the face that
-  /// the same recipe gives for heads in the common pose. Returns nothing if the recipe uses no head
-  /// of another pose and no mirror image.
+  /// the same recipe gives for heads in the common pose. Returns nothing if the recipe uses only
+  /// heads in the common pose and no mirror image.
   /// \param plane  the plane in which faces are mirrored; needed only for a mirrored or asymmetric
   ///               face
   std::optional<RigidMotion> motion_of(const Recipe& recipe, const MirrorPlane* plane) const;

@@ -19,7 +19,7 @@ std::int64_t nanoseconds(const timespec& time) {
   return time.tv_sec * kSecond + time.tv_nsec;
 }
 
-/// The key has one entry for each device and inode.
+/// The key of the cache entry for a file, which device and inode identify.
 CacheKey seen_key(std::span<const std::int64_t> stamp) {
   return {"seen", Hasher().add(stamp[0]).add(stamp[1]).digest()};
 }

@@ -17,16 +17,16 @@ namespace crowdface {
 /// would have to hash gigabytes before it could show anything.
 class FileFingerprint {
  public:
-  /// \param cache  its folder stores the fingerprints of files that were read before
+  /// \param cache  the cache that stores the fingerprints of files that were read before
   FileFingerprint(const CacheFolder& cache, const std::filesystem::path& file);
 
   /// Hash of the file's bytes; empty unless files that were read before are trusted and this file
   /// has not changed since.
   const std::optional<Digest>& digest() const { return digest_; }
-  /// Stores the hash of the bytes. Before, the caller must have read the bytes (after the
-  /// constructor of this object) and found the bytes valid. Does nothing if seen files are not
-  /// trusted, if the file has changed meanwhile, or if its last change is so recent that a later
-  /// change might leave the times equal.
+  /// Stores the hash of the file's bytes. The caller must read the bytes after constructing this
+  /// object, and must find the bytes valid. Does nothing if seen files are not trusted, if the file
+  /// has changed meanwhile, or if the file's last change is so recent that a later change might
+  /// leave the times equal.
   void remember(const Digest& digest) const;
 
  private:

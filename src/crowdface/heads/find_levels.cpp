@@ -73,7 +73,7 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
   for (std::size_t h = 0; h < set.head_shapes.size(); ++h) {
     moves.clear();
     for (const OwnShape& shape : set.head_shapes[h]) moves.push_back(displacements_of(shape));
-    const LevelError on_head = error_on(inputs.faces.heads[h].positions, moves);
+    const LevelError on_head = error_on(inputs.head_set.heads[h].positions, moves);
     error.max = std::max(error.max, on_head.max);
     squares += on_head.root_mean_square * on_head.root_mean_square;
   }
@@ -102,9 +102,9 @@ MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, doubl
       std::move(detail_levels(typical, inputs.materials.material_of_face, {&share, 1}, borders)[0]);
   require_ring(inputs, level);
   const LevelMap map =
-      find_level_triangles(inputs.faces.topology, inputs.adjacency, level, inputs.mean);
+      find_level_triangles(inputs.head_set.topology, inputs.adjacency, level, inputs.mean_head);
   std::vector<const Positions*> heads;
-  for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
+  for (const Head& head : inputs.head_set.heads) heads.push_back(&head.positions);
   const LevelError of_heads = in_mm(level_error(level, map, heads), mm);
   const LevelError of_shapes = in_mm(error_in_shapes(inputs, level, map), mm);
   return {std::move(level), of_heads, of_shapes};
@@ -114,8 +114,8 @@ MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, doubl
 Digest key_of(const Inputs& inputs, const HeadSet& typical, double share, double mm) {
   Hasher key;
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
-  key.add_array(std::span(inputs.faces.topology.corner_uvs));
-  key.add_array(numbers_of(inputs.faces.uvs));
+  key.add_array(std::span(inputs.head_set.topology.corner_uvs));
+  key.add_array(numbers_of(inputs.head_set.uvs));
   key.add_array(std::span(inputs.materials.material_of_face));
   key.add_array(numbers_of(typical.heads[0].positions));
   for (const Digest& head : inputs.head_digests) key.add(head);
@@ -129,11 +129,11 @@ bool is_sound(const DetailLevel& level, const Topology& whole) {
   const auto& uvs = level.topology.corner_uvs;
   const auto end = [](Index count) { return static_cast<std::uint64_t>(count); };
   return all_below(level.vertices, end(whole.vertex_count)) &&
-         all_below(level.faces, end(whole.face_count())) &&
+         all_below(level.source_faces, end(whole.face_count())) &&
          std::ranges::adjacent_find(level.vertices, std::greater_equal()) == level.vertices.end() &&
-         level.topology.corner_vertices.size() == 3 * level.faces.size() &&
+         level.topology.corner_vertices.size() == 3 * level.source_faces.size() &&
          all_below(level.topology.corner_vertices, level.vertices.size()) &&
-         (uvs.empty() || uvs.size() == 3 * level.faces.size()) &&
+         (uvs.empty() || uvs.size() == 3 * level.source_faces.size()) &&
          are_indices(uvs, end(level.uvs.rows()));
 }
 
@@ -142,12 +142,12 @@ constexpr auto kLevelArrays = [](auto& arrays, auto& measured) {
   arrays("vertices", level.vertices);
   arrays("corner vertices", level.topology.corner_vertices);
   arrays("corner uvs", level.topology.corner_uvs);
-  arrays("faces", level.faces);
+  arrays("faces", level.source_faces);
   arrays("uvs", level.uvs);
-  arrays("most of heads", measured.heads.max);
-  arrays("rms of heads", measured.heads.root_mean_square);
-  arrays("most of shapes", measured.shapes.max);
-  arrays("rms of shapes", measured.shapes.root_mean_square);
+  arrays("most of heads", measured.heads_error.max);
+  arrays("rms of heads", measured.heads_error.root_mean_square);
+  arrays("most of shapes", measured.shapes_error.max);
+  arrays("rms of shapes", measured.shapes_error.root_mean_square);
 };
 
 /// Whether a level read from the cache is valid. Also computes the members that the cache does not
@@ -156,13 +156,14 @@ bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
   DetailLevel& level = measured.level;
   level.share = share;
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());
-  for (std::uint32_t t = 1; t <= level.faces.size(); ++t) {
+  for (std::uint32_t t = 1; t <= level.source_faces.size(); ++t) {
     level.topology.face_offsets.push_back(3 * t);  // the initial 0 is already there
   }
   const auto is_error = [](const LevelError& error) {
     return error.max >= 0 && error.root_mean_square >= 0;
   };
-  return is_sound(level, whole) && is_error(measured.heads) && is_error(measured.shapes);
+  return is_sound(level, whole) && is_error(measured.heads_error) &&
+         is_error(measured.shapes_error);
 }
 
 }  // namespace
@@ -170,8 +171,9 @@ bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
 void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs) {
   if (config.output.lods.empty() || config.output.meshes.empty()) return;
   const double mm = mm_per(config.faces.units);
-  const HeadSet typical{
-      inputs.faces.topology, inputs.faces.uvs, {{"mean", weighted(inputs.mean, inputs.parts)}}};
+  const HeadSet typical{inputs.head_set.topology,
+                        inputs.head_set.uvs,
+                        {{"mean", weighted(inputs.mean_head, inputs.parts)}}};
   inputs.levels.resize(config.output.lods.size());
   parallel_for_each(inputs.levels.size(), [&](std::size_t l) {
     const double share = config.output.lods[l] / 100;
@@ -179,7 +181,7 @@ void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs)
         cache, {"level", key_of(inputs, typical, share, mm)},
         [&] { return measured_level(inputs, typical, share, mm); }, kLevelArrays,
         [&](MeasuredLevel& found, const CacheEntry&) {
-          return is_sound(found, inputs.faces.topology, share);
+          return is_sound(found, inputs.head_set.topology, share);
         });
   });
 }

@@ -13,7 +13,7 @@ namespace {
 /// Whether the fields are consistent: each tile uses the first n fields for some n, the tiles
 /// together use all quantization steps, and each step is zero or a power of two.
 bool are_fields(const LevelFields& fields) {
-  const auto& first = fields.first;
+  const auto& first = fields.first_field_of_tile;
   for (std::size_t t = 0; t + 1 < first.size(); ++t) {
     if (first[t + 1] < first[t] ||
         first[t + 1] - first[t] > static_cast<std::uint32_t>(fields.rank))
@@ -35,9 +35,9 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
   arrays("error rms", error.rms);
   arrays("error level", error.level);
   arrays("trajectory", head.trajectory);
-  arrays("first fields", fields.first);
+  arrays("first fields", fields.first_field_of_tile);
   arrays("steps", fields.steps);
-  arrays("numbers", fields.numbers);
+  arrays("numbers", fields.quantized_values);
 };
 
 /// Whether an entry has these sizes and consistent fields. Also fills in the members that follow
@@ -46,16 +46,16 @@ bool is_head(PreparedHead& head, const HeadCacheSizes& shape) {
   const Eigen::MatrixXd& mixing = head.levels.mixing;
   LevelFields& fields = head.levels.fields;
   std::size_t firsts = 0;
-  if (shape.levels != Levels::kExact) {
-    fields.vertex_count = shape.vertices;
-    fields.rank = shape.levels == Levels::kCubic ? CubicFit::kRank : mixing.cols();
-    firsts = LevelFields::tile_count(static_cast<std::size_t>(shape.vertices)) + 1;
+  if (shape.levels != LevelRepresentation::kExact) {
+    fields.vertex_count = shape.vertex_count;
+    fields.rank = shape.levels == LevelRepresentation::kCubic ? CubicFit::kRank : mixing.cols();
+    firsts = LevelFields::tile_count(static_cast<std::size_t>(shape.vertex_count)) + 1;
   }
-  const Index nodes = shape.levels == Levels::kBasis ? shape.nodes : 0;
-  return head.trajectory.rows() == shape.trajectory_levels &&
-         head.trajectory.cols() == 3 * shape.samples && mixing.rows() == nodes &&
-         mixing.cols() <= nodes && fields.first.size() == firsts && are_fields(fields) &&
-         fields.numbers.size() == fields.steps.size() * kTileValues;
+  const Index nodes = shape.levels == LevelRepresentation::kBasis ? shape.node_count : 0;
+  return head.trajectory.rows() == shape.trajectory_level_count &&
+         head.trajectory.cols() == 3 * shape.sample_count && mixing.rows() == nodes &&
+         mixing.cols() <= nodes && fields.first_field_of_tile.size() == firsts &&
+         are_fields(fields) && fields.quantized_values.size() == fields.steps.size() * kTileValues;
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest
                                           const HeadCacheSizes& shape) {
   return find_cached<PreparedHead>(
       cache, prepared_key(key), kPreparedArrays, [&](PreparedHead& head, const CacheEntry& entry) {
-        head.levels.fields.owner = head.levels.mapped_file = entry.file();
+        head.levels.fields.memory_owner = head.levels.mapped_file = entry.file();
         return is_head(head, shape);
       });
 }

@@ -16,8 +16,8 @@
 
 namespace crowdface {
 
-/// Fitted levels of one head. The fields may lie in a memory-mapped cache file, so that they use no
-/// memory of the process.
+/// The fitted smoothed versions (levels) of one head. The fields may lie in a memory-mapped cache
+/// file, so that they use no memory of the process.
 struct StoredLevels {
   LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
@@ -35,12 +35,12 @@ struct PreparedHead {
 
 /// The sizes that a usable entry must have.
 struct HeadCacheSizes {
-  Index vertices = 0;
-  Index samples = 0;
-  Index trajectory_levels = 0;  ///< rows of the trajectory
-  Index nodes = 0;              ///< number of nodes, for `levels: basis`
+  Index vertex_count = 0;
+  Index sample_count = 0;
+  Index trajectory_level_count = 0;  ///< rows of the trajectory
+  Index node_count = 0;              ///< number of nodes, for `levels: basis`
   std::uint64_t max_level = 0;
-  Levels levels = Levels::kBasis;
+  LevelRepresentation levels = LevelRepresentation::kBasis;
 };
 
 /// Finds a prepared head in the cache. Its fields stay in the memory-mapped file. \return nothing
@@ -48,8 +48,9 @@ struct HeadCacheSizes {
 std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
                                           const HeadCacheSizes& shape);
 
-/// Key and arrays for `write_entry` or `store`.
+/// The cache key of a prepared head.
 CacheKey prepared_key(const Digest& digest);
+/// The arrays of a prepared head, for `write_entry` or `store`.
 std::vector<EntryArray> arrays_of(const PreparedHead& head);
 
 }  // namespace crowdface

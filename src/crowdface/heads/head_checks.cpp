@@ -146,8 +146,8 @@ void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& pro
 std::optional<std::string> check_orientation_and_size(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return std::nullopt;
   // the skin only, without eyeballs: the face is found by the skin's relief alone
-  const HeadShape head{inputs.mean, skin_of(inputs), {}};
-  const Topology& topology = inputs.faces.topology;
+  const HeadShape head{inputs.mean_head, skin_of(inputs), {}};
+  const Topology& topology = inputs.head_set.topology;
   const Orientation asked{config.faces.up, config.faces.front};
   auto marks = find_face_marks(topology, head, axes_of(asked));
   if (!marks) {
@@ -168,7 +168,7 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
   constexpr double kMinMm = 35, kMaxMm = 120;
   const double mm = marks->eye_to_mouth() * mm_per(config.faces.units);
   if (mm >= kMinMm && mm <= kMaxMm) return std::nullopt;
-  const auto up = inputs.faces.heads[0].positions.col(config.faces.up.index);
+  const auto up = inputs.head_set.heads[0].positions.col(config.faces.up.index);
   const double units = up.maxCoeff() - up.minCoeff();
   constexpr double kTypicalMm = 65;
   LengthUnit fitting = nearest_unit(marks->eye_to_mouth(), kTypicalMm, kLengthUnits);
@@ -189,11 +189,12 @@ std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
   // as a fraction of the median distance between a head and its nearest head. kIdenticalMm: largest
   // distance of two copies of one head; needs no other heads to compare with.
   constexpr double kMaxMm = 1, kMaxOfOthers = 0.4, kIdenticalMm = 0.01;
-  const std::vector<Head>& heads = inputs.faces.heads;
+  const std::vector<Head>& heads = inputs.head_set.heads;
   std::vector<Positions> sampled(heads.size());
   std::vector<Index> rows;
-  for (Index v = 0; v < inputs.mean.rows(); ++v) {
-    if (inputs.skin.component_of_vertex[static_cast<std::size_t>(v)] == inputs.skin.largest())
+  for (Index v = 0; v < inputs.mean_head.rows(); ++v) {
+    if (inputs.skin_components.component_of_vertex[static_cast<std::size_t>(v)] ==
+        inputs.skin_components.largest())
       rows.push_back(v);
   }
   const std::size_t step =
@@ -242,7 +243,7 @@ std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
 std::optional<std::string> far_from_origin_warning(const Config& config, const Inputs& inputs) {
   constexpr double kMinMm = 0.01, kHalfStep = 0x1p-24;
   double farthest = 0;
-  for (const Head& head : inputs.faces.heads) {
+  for (const Head& head : inputs.head_set.heads) {
     farthest = std::max(farthest, head.positions.cwiseAbs().maxCoeff());
   }
   const double farthest_mm = farthest * mm_per(config.faces.units);

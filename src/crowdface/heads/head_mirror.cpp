@@ -42,7 +42,7 @@ FoundMirror find_mirror(const Config& config, const Inputs& inputs) {
 
 std::shared_ptr<const MirrorMap> required_mirror_map(const Config& config, const Inputs& inputs,
                                                      const std::string& key) {
-  if (inputs.mirror != nullptr) return inputs.mirror;
+  if (inputs.mirror_map != nullptr) return inputs.mirror_map;
   FoundMirror found = find_mirror(config, inputs);
   if (found.partner_fraction() < kMinShare) {
     throw InvalidInput(concat(config.file.string(), ": ", key, ": the heads are not symmetric ",

@@ -26,22 +26,22 @@ TextureFile read_texture(const fs::path& path, int max_px) {
     ImageMemory memory;
     Texture texture;
   };
-  const Image image = read_image(path, {.jpeg = true});
+  const Image image = read_image(path, {.allows_jpeg = true});
   const auto texels = static_cast<std::uint64_t>(std::min(image.width, max_px)) *
                       static_cast<std::uint64_t>(std::min(image.height, max_px));
-  ImageMemory memory = reserve_image_memory(path, texels * sizeof(Light));
-  const LightRows light = light_of(image);
+  ImageMemory memory = reserve_image_memory(path, texels * sizeof(LinearRgb));
+  const ImageRows light = light_of(image);
   const auto kept = std::make_shared<const Kept>(
-      Kept{std::move(memory), shrunk_texture(light.width, light.height, max_px, light.row)});
+      Kept{std::move(memory), shrunk_texture(light.width, light.height, max_px, light.read_row)});
   return {{kept, &kept->texture}, hash_file(path).digest};
 }
 
 Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb, int max_px) {
-  const std::array<float, 256>& light = light_of_srgb8();
-  return shrunk_texture(width, height, max_px, [&](int y, std::span<Light> texels) {
+  const std::array<float, 256>& light = linear_of_srgb8();
+  return shrunk_texture(width, height, max_px, [&](int y, std::span<LinearRgb> texels) {
     const std::uint8_t* at =
         srgb.data() + 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y);
-    for (Light& texel : texels) {
+    for (LinearRgb& texel : texels) {
       for (int c = 0; c < 3; ++c) texel[c] = light[*at++];
     }
   });
@@ -56,12 +56,12 @@ int finish_texels(int max_px) {
 /// A normal or roughness map as a texture for renders; normals are converted to slopes.
 Texture finish_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
-  const auto row = [&](int y, std::span<Light> texels) {
+  const auto row = [&](int y, std::span<LinearRgb> texels) {
     const std::uint16_t* at =
         picture.values16.data() +
         channels * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(y);
-    for (Light& texel : texels) {
-      texel = Light::Zero();
+    for (LinearRgb& texel : texels) {
+      texel = LinearRgb::Zero();
       for (std::size_t c = 0; c < channels; ++c) {
         texel[static_cast<Index>(c)] = picture.low + picture.step * static_cast<float>(*at++);
       }
@@ -74,9 +74,9 @@ Texture finish_of(const BlendedPicture& picture, bool normals, int max_px) {
 }
 
 Texture finish_of(const TextureMap& map, int max_px) {
-  return shrunk_texture(map.width, map.height, max_px, [&](int y, std::span<Light> texels) {
+  return shrunk_texture(map.width, map.height, max_px, [&](int y, std::span<LinearRgb> texels) {
     for (std::size_t x = 0; x < texels.size(); ++x) {
-      texels[x] = Light::Zero();
+      texels[x] = LinearRgb::Zero();
       for (int c = 0; c < map.coding.channels; ++c) texels[x][c] = map.decode(map.row(c, y)[x]);
     }
   });
@@ -114,15 +114,16 @@ FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<He
     for (std::size_t p = 0; p < layout.pictures.size(); ++p) image_indices_.push_back({kind, p});
     if (kind != TextureKind::kColour && !is_shown_in_previews(kind)) return;
     TextureLayer& layer = layer_of(kind, texture_set_);
-    layer.of_face = layout.of_face;
+    layer.texture_of_face = layout.picture_of_face;
     layer.textures.resize(layout.pictures.size());
   };
-  if (colours.blend()) {
+  if (colours.are_blended()) {
     add_kind(colours);
   } else if (auto of_target = texture_set_of_head(colours, target, max_px)) {
     texture_set_ = std::move(*of_target);
   } else {
-    texture_set_.of_face.assign(maps.front().blended.layout.of_face.size(), TextureLayer::kNone);
+    texture_set_.texture_of_face.assign(maps.front().blended.layout.picture_of_face.size(),
+                                        TextureLayer::kNone);
   }
   for (const HeadTextures& of_kind : maps) add_kind(of_kind);
 }
@@ -149,7 +150,7 @@ std::uint64_t FaceTextureSet::memory_bytes(const HeadTextures& colours,
   for (const HeadTextures& of_kind : maps) {
     if (is_shown_in_previews(of_kind.names.front().kind)) add_kind(of_kind, finish_texels(max_px));
   }
-  return texels * sizeof(Light);
+  return texels * sizeof(LinearRgb);
 }
 
 void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head, int max_px,
@@ -158,14 +159,15 @@ void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head,
     const TextureKind kind = of_kind.names.front().kind;
     if (!is_shown_in_previews(kind)) continue;
     TextureLayer& layer = layer_of(kind, texture_set);
-    layer.of_face = of_kind.blended.layout.of_face;
+    layer.texture_of_face = of_kind.blended.layout.picture_of_face;
     for (std::size_t p = 0; p < of_kind.names.size(); ++p) {
       const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
       layer.textures.push_back(
           map == nullptr ? nullptr
                          : std::make_shared<const Texture>(finish_of(*map, finish_texels(max_px))));
       if (map != nullptr) continue;
-      std::ranges::replace(layer.of_face, static_cast<std::uint32_t>(p), TextureLayer::kNone);
+      std::ranges::replace(layer.texture_of_face, static_cast<std::uint32_t>(p),
+                           TextureLayer::kNone);
     }
   }
 }
@@ -174,7 +176,7 @@ std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Inde
                                               int max_px) {
   const auto h = static_cast<std::size_t>(head);
   if (!textures.texture_sets.empty()) return textures.texture_sets[h];
-  if (!textures.blend()) return std::nullopt;
+  if (!textures.are_blended()) return std::nullopt;
   const TextureLayout& layout = textures.blended.layout;
   TextureSet texture_set;
   std::vector<std::uint32_t> row(layout.pictures.size(), TextureSet::kNone);
@@ -185,8 +187,8 @@ std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Inde
     texture_set.textures.push_back(std::make_shared<const Texture>(
         texture_of(map->width, map->height, srgb8_of(*map), max_px)));
   }
-  for (const std::uint32_t picture : layout.of_face) {
-    texture_set.of_face.push_back(picture == kNoIndex ? TextureSet::kNone : row[picture]);
+  for (const std::uint32_t picture : layout.picture_of_face) {
+    texture_set.texture_of_face.push_back(picture == kNoIndex ? TextureSet::kNone : row[picture]);
   }
   return texture_set;
 }
@@ -205,8 +207,8 @@ HeadTextures load_render_textures(FoundTextureFiles found, int max_px) {
       texture_set.textures.push_back(known->second.texture);
       hasher.add(known->second.content);
     }
-    texture_set.of_face = std::move(placed.of_face);
-    hasher.add_array(std::span<const std::uint32_t>(texture_set.of_face));
+    texture_set.texture_of_face = std::move(placed.file_of_face);
+    hasher.add_array(std::span<const std::uint32_t>(texture_set.texture_of_face));
     result.texture_sets.push_back(std::move(texture_set));
   }
   result.digest = hasher.digest();

@@ -23,7 +23,7 @@ struct PictureName {
   int tile = 0;      ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
   /// Whether every texture file has 8-bit channels, and whether any texture file has floats.
-  bool has_only_bytes = true, holds_floats = false;
+  bool has_only_bytes = true, has_floats = false;
 };
 
 /// The heads' textures of one kind, for blending or for renders.
@@ -39,8 +39,8 @@ struct HeadTextures {
   Digest digest;
   std::vector<std::string> warnings;  ///< messages about missing files
 
-  bool blend() const { return !names.empty(); }
-  bool has_textures() const { return blend() || !texture_sets.empty(); }
+  bool are_blended() const { return !names.empty(); }
+  bool has_textures() const { return are_blended() || !texture_sets.empty(); }
 };
 
 /// Maximum side length, in texels, of textures for renders: contact sheets cannot show finer

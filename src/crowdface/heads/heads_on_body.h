@@ -45,14 +45,14 @@ struct HeadsOnBody {
   Digest digest;  ///< hash of the seam, of `falloff`, and of the body if there is one
 };
 
-/// A rotation about a point. \param turn  see rotation_vector
+/// A rotation about the point `middle`. \param turn  see rotation_vector
 inline RigidMotion rotation_about(const Eigen::Vector3d& middle, const Eigen::Vector3d& turn) {
   return nudged({}, middle, Eigen::Vector3d::Zero(), turn, 0);
 }
 
 /// Returns the mean of the heads before they are placed on a body.
 inline const Positions& unplaced_mean(const Inputs& inputs) {
-  return inputs.neck ? inputs.neck->unplaced_mean : inputs.mean;
+  return inputs.neck ? inputs.neck->unplaced_mean : inputs.mean_head;
 }
 
 }  // namespace crowdface

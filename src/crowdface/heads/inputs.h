@@ -67,10 +67,10 @@ struct AttachmentSet {
   const Attachment& at(const std::string& name) const { return items[index(name)]; }
   std::size_t index(const std::string& name) const;
   /// The attachments that a face wears, in their colours.
-  std::vector<AttachmentLook> looks(const FacePlan& face) const;
-  AttachmentLook look(const std::string& name, const std::optional<HairColour>& hair) const;
+  std::vector<AttachmentLook> looks_of(const FacePlan& face) const;
+  AttachmentLook look_of(const std::string& name, const std::optional<HairColour>& hair) const;
   /// All attachments in all colours that these faces wear, without duplicates, sorted by name.
-  std::vector<AttachmentLook> looks(std::span<const FacePlan> faces) const;
+  std::vector<AttachmentLook> looks_of(std::span<const FacePlan> faces) const;
 };
 
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.
@@ -85,16 +85,16 @@ struct Rig {
 /// A level of detail, and its error relative to the full mesh.
 struct MeasuredLevel {
   DetailLevel level;
-  LevelError heads;   ///< over all heads, mm
-  LevelError shapes;  ///< over all shapes of the template, mm; 0 if there are none
+  LevelError heads_error;   ///< over all heads, mm
+  LevelError shapes_error;  ///< over all shapes of the template, mm; 0 if there are none
 };
 
 /// All inputs of a job, checked: heads, their topology, masks, and data computed from these.
 struct Inputs {
   std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
-  HeadSet faces;
-  Positions mean;                    ///< the mean head
-  std::vector<ObjFile> files;        ///< #heads; topology and positions have moved to `faces`
+  HeadSet head_set;
+  Positions mean_head;               ///< vertex-wise mean of the heads
+  std::vector<ObjFile> head_files;   ///< #heads; topology and positions have moved to `head_set`
   std::vector<Digest> text_digests;  ///< #heads, hashes of the files' bytes
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
   /// colours.
@@ -103,10 +103,10 @@ struct Inputs {
   FaceMaterials materials;  ///< material of each polygon of the first head
   Adjacency adjacency;
   Components components;
-  PartList parts;   ///< empty for `parts: none`
-  Components skin;  ///< the components, with all skin merged into the largest
-  std::shared_ptr<const MirrorMap> mirror;  ///< null unless the config asks for mirrored faces
-  std::shared_ptr<const HeadsOnBody> neck;  ///< null unless the config has `neck`
+  PartList parts;              ///< empty for `parts: none`
+  Components skin_components;  ///< the components, with all skin merged into the largest
+  std::shared_ptr<const MirrorMap> mirror_map;  ///< null unless the config asks for mirrored faces
+  std::shared_ptr<const HeadsOnBody> neck;      ///< null unless the config has `neck`
   ShapeSet shapes;
   Digest shapes_digest;  ///< hash of the shapes, if there are any
   std::vector<MeasuredLevel> levels;
@@ -115,11 +115,11 @@ struct Inputs {
   Rig rig;
   AttachmentSet attachments;
   RegionWeights regions;
-  std::vector<double> distance_mask;  ///< #V, from `distance.mask`; empty if that is not set
-  double edge_length_mm = 0;          ///< rms edge length of the skin, averaged over the heads
-  std::uint64_t max_level = 0;        ///< L_max
-  std::vector<Digest> head_digests;   ///< #heads, hashes of the positions in use
-  std::vector<Digest> own_digests;    ///< #heads, the same before the heads are placed on a body
+  std::vector<double> distance_mask;     ///< #V, from `distance.mask`; empty if that is not set
+  double edge_length_mm = 0;             ///< rms edge length of the skin, averaged over the heads
+  std::uint64_t max_level = 0;           ///< L_max
+  std::vector<Digest> head_digests;      ///< #heads, hashes of the positions in use
+  std::vector<Digest> unplaced_digests;  ///< #heads, the same before the heads are placed on a body
   Digest topology_digest;
   Digest mask_digest;  ///< hash of α
   /// colour textures, if they are blended or rendered; otherwise empty

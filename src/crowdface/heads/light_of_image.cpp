@@ -49,7 +49,7 @@ void write_densities(const Image& image, const std::vector<Number>& numbers, std
 
 }  // namespace
 
-LightRows light_of(const Image& image) {
+ImageRows light_of(const Image& image) {
   const auto row = [&image, &table = light_of_srgb16()](int y, std::span<Eigen::Array3f> texels) {
     const bool grey = image.channels < 3;
     for (int x = 0; x < image.width; ++x) {
@@ -61,9 +61,9 @@ LightRows light_of(const Image& image) {
       }
     }
   };
-  LightRows light = {image.width, image.height, row};
+  ImageRows light = {image.width, image.height, row};
   if (!image.has_floats()) {
-    light.densities = [&image](int y, const std::array<Density*, 3>& planes) {
+    light.read_densities = [&image](int y, const std::array<Density*, 3>& planes) {
       if (const auto* bytes = std::get_if<1>(&image.pixels)) {
         write_densities(image, *bytes, 257, y, planes);
       } else {
@@ -74,7 +74,7 @@ LightRows light_of(const Image& image) {
   return light;
 }
 
-LightRows slopes_of(const Image& image) {
+ImageRows slopes_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
     constexpr float kMinUp = 1.0F / 8;  // steepest slope that MapCoding::slopes() can store
     for (int x = 0; x < image.width; ++x) {
@@ -87,7 +87,7 @@ LightRows slopes_of(const Image& image) {
   return {image.width, image.height, row};
 }
 
-LightRows values_of(const Image& image) {
+ImageRows values_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
     const bool grey = image.channels < 3;
     for (int x = 0; x < image.width; ++x) {

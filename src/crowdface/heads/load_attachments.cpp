@@ -20,15 +20,15 @@ namespace {
 Positions fitted_mesh(const Config& config, const Inputs& inputs) {
   const Config::Attachments& asked = config.attachments;
   const auto read = [&](const std::filesystem::path& file) {
-    return read_positions(file, inputs.faces.topology, config.faces.files.front().string());
+    return read_positions(file, inputs.head_set.topology, config.faces.files.front().string());
   };
   if (!asked.file.empty()) return read(asked.file);
-  if (!asked.head) return inputs.neck ? inputs.neck->unplaced_mean : mean_head(inputs.faces);
+  if (!asked.head) return inputs.neck ? inputs.neck->unplaced_mean : mean_head(inputs.head_set);
   const auto head = static_cast<std::size_t>(*asked.head);
   // Attachments fit the head as its file stores it. Read the file again if rigid alignment or the
   // neck has moved the loaded head.
   if (config.faces.align == Align::kRigid || inputs.neck) return read(config.faces.files[head]);
-  return inputs.faces.heads[head].positions;
+  return inputs.head_set.heads[head].positions;
 }
 
 Attachment item_of(const Config::Attachment& asked, HeadFile read) {
@@ -85,23 +85,23 @@ std::string AttachmentLook::name() const {
   return colour ? concat(item->name, '+', label()) : item->name;
 }
 
-AttachmentLook AttachmentSet::look(const std::string& name,
-                                   const std::optional<HairColour>& hair) const {
+AttachmentLook AttachmentSet::look_of(const std::string& name,
+                                      const std::optional<HairColour>& hair) const {
   const Attachment& item = at(name);
   if (item.tint == Tint::kNone || !hair) return {&item};
   return {&item, hair_colour_for(*hair, item.tint)};
 }
 
-std::vector<AttachmentLook> AttachmentSet::looks(const FacePlan& face) const {
+std::vector<AttachmentLook> AttachmentSet::looks_of(const FacePlan& face) const {
   std::vector<AttachmentLook> looks;
-  for (const std::string& name : face.attachments) looks.push_back(look(name, face.hair));
+  for (const std::string& name : face.attachments) looks.push_back(look_of(name, face.hair));
   return looks;
 }
 
-std::vector<AttachmentLook> AttachmentSet::looks(std::span<const FacePlan> faces) const {
+std::vector<AttachmentLook> AttachmentSet::looks_of(std::span<const FacePlan> faces) const {
   std::map<std::string, AttachmentLook> known;
   for (const FacePlan& face : faces) {
-    for (const AttachmentLook& look : looks(face)) known.emplace(look.name(), look);
+    for (const AttachmentLook& look : looks_of(face)) known.emplace(look.name(), look);
   }
   std::vector<AttachmentLook> all;
   for (const auto& [name, look] : known) all.push_back(look);

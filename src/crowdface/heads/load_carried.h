@@ -25,9 +25,10 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
 /// in the file: a value that is not a position, a missing head, a template with another topology.
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
-/// Loads the rig; the shapes must be loaded before. Its vertices are matched to the heads' vertices
-/// by `_VERTEX_ID`, or by position on the shapes' template or on a head. A vertex of the heads
-/// without a match, or a joint with non-uniform scale, is a problem.
+/// Loads the rig; the shapes must be loaded before. The rig's vertices are matched to the heads'
+/// vertices by `_VERTEX_ID`; without this attribute, by their distance from the vertices of the
+/// shapes' template or of a head. A vertex of the heads without a match, or a joint with
+/// non-uniform scale, is a problem.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the attachments in parallel. A mesh that cannot be read or lies far from the head, or a

@@ -31,10 +31,11 @@ namespace {
 
 /// Reads the vertex colours of the heads, if any head has them.
 void take_colours(Inputs& inputs) {
-  const std::size_t count = inputs.files.size();
+  const std::size_t count = inputs.head_files.size();
   std::vector<ColourRows> colours(count);
   parallel_for_each(count, [&](std::size_t h) {
-    colours[h] = obj_colours(inputs.files[h].file.bytes(), inputs.faces.heads[h].positions.rows());
+    colours[h] =
+        obj_colours(inputs.head_files[h].file.bytes(), inputs.head_set.heads[h].positions.rows());
   });
   const auto has_none = [](const ColourRows& rows) { return rows.rows() == 0; };
   if (std::ranges::all_of(colours, has_none)) return;
@@ -42,7 +43,7 @@ void take_colours(Inputs& inputs) {
   Hasher hasher;
   for (std::size_t h = 0; h < count; ++h) {
     hasher.add_array(numbers_of(colours[h]));
-    if (has_none(colours[h])) without.push_back(inputs.faces.heads[h].name);
+    if (has_none(colours[h])) without.push_back(inputs.head_set.heads[h].name);
   }
   inputs.colours_digest = hasher.digest();
   inputs.colours = std::move(colours);
@@ -57,17 +58,17 @@ void take_heads(const Config& config, std::vector<HeadFile> heads, Inputs& input
   for (std::size_t h = 0; h < heads.size(); ++h) {
     ObjFile& file = heads[h].file;
     file.corner_normals = heads[h].mesh->corner_normals;
-    inputs.faces.heads.push_back({config.faces.names[h], std::move(file.positions)});
-    inputs.files.push_back(std::move(file));
+    inputs.head_set.heads.push_back({config.faces.names[h], std::move(file.positions)});
+    inputs.head_files.push_back(std::move(file));
     inputs.text_digests.push_back(heads[h].text_digest);
   }
-  inputs.faces.topology = std::move(heads[0].mesh->topology);
-  inputs.faces.uvs = std::move(heads[0].mesh->uvs);
+  inputs.head_set.topology = std::move(heads[0].mesh->topology);
+  inputs.head_set.uvs = std::move(heads[0].mesh->uvs);
 }
 
 double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
   const std::uint32_t skin = inputs.components.largest();
-  const std::vector<Head>& heads = inputs.faces.heads;
+  const std::vector<Head>& heads = inputs.head_set.heads;
   std::vector<double> lengths(heads.size());
   parallel_for_each(heads.size(), [&](std::size_t h) {
     lengths[h] = rms_edge_length(inputs.adjacency, inputs.components, skin, heads[h].positions);
@@ -95,8 +96,8 @@ std::optional<std::string> unknown_surfaces(const Config& config, const Inputs& 
 
 std::uint64_t max_level_of(const Config& config, double edge_length_mm) {
   if (config.smoothing.max_iterations) return *config.smoothing.max_iterations;
-  const std::uint64_t level = iterations_of_size(config.smoothing.operator_kind,
-                                                 config.smoothing.max_size_mm, edge_length_mm);
+  const std::uint64_t level = iterations_for_wavelength(
+      config.smoothing.operator_kind, config.smoothing.max_size_mm, edge_length_mm);
   return std::max<std::uint64_t>(level, 1);
 }
 
@@ -157,7 +158,7 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
       config.textures.blend == TextureBlend::kAuto && (shown || !config.output.meshes.empty());
   if (config.textures.blend == TextureBlend::kNone || !(shown || blend)) return;
   try {
-    std::vector<FoundTextureFiles> kinds = find_texture_files(inputs.faces, inputs.files);
+    std::vector<FoundTextureFiles> kinds = find_texture_files(inputs.head_set, inputs.head_files);
     FoundTextureFiles& found = kinds.front();
     const bool asked_for = sheet && sheet->texture == SheetTexture::kYes;
     if (asked_for && !found.has_files()) {
@@ -170,8 +171,8 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
       for (std::string& text : remove_unreadable_files(found)) inputs.warn(std::move(text));
     }
     const auto load_blended = [&](const FoundTextureFiles& textures) {
-      return load_blended_textures(inputs.faces, inputs.materials, textures, config.textures.size,
-                                   cache);
+      return load_blended_textures(inputs.head_set, inputs.materials, textures,
+                                   config.textures.size, cache);
     };
     const auto load_colours = [&](const FoundTextureFiles& textures) {
       if (textures.has_files() && blend && textures.heads_differ()) return load_blended(textures);
@@ -192,7 +193,7 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
         return textures.heads_differ() ? load_blended(textures) : HeadTextures();
       });
       if (!kinds[k].heads_differ()) {
-        if (auto text = told_of_single(kinds[k], inputs.faces)) inputs.warn(std::move(*text));
+        if (auto text = told_of_single(kinds[k], inputs.head_set)) inputs.warn(std::move(*text));
         continue;
       }
       inputs.maps.push_back(std::move(maps));
@@ -253,29 +254,30 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   Inputs inputs;
   take_heads(config, std::move(heads), inputs);
   take_colours(inputs);
-  inputs.materials = face_materials(inputs.files[0].materials, inputs.faces.topology.face_count());
+  inputs.materials =
+      face_materials(inputs.head_files[0].materials, inputs.head_set.topology.face_count());
   inputs.cache = cache;
-  inputs.topology_digest = digest_of_topology(inputs.faces.topology);
+  inputs.topology_digest = digest_of_topology(inputs.head_set.topology);
   find_neighbours(inputs);
   try {
-    for (std::string& text : align_heads(inputs.faces, inputs.components, config.faces.align)) {
+    for (std::string& text : align_heads(inputs.head_set, inputs.components, config.faces.align)) {
       inputs.warn(std::move(text));
     }
   } catch (const RecoverableError& error) {
     problems.add(error);
     return std::nullopt;
   }
-  inputs.own_digests = hash_heads(inputs.faces);
+  inputs.unplaced_digests = hash_heads(inputs.head_set);
   load_neck(config, inputs, problems);
   if (!problems.empty()) return std::nullopt;
-  inputs.head_digests = inputs.neck ? hash_heads(inputs.faces) : inputs.own_digests;
-  inputs.mean = mean_head(inputs.faces);
+  inputs.head_digests = inputs.neck ? hash_heads(inputs.head_set) : inputs.unplaced_digests;
+  inputs.mean_head = mean_head(inputs.head_set);
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
   try {
     if (auto text = check_orientation_and_size(config, inputs)) inputs.warn(std::move(*text));
     const std::string key = mirroring_key(config);
-    if (!key.empty()) inputs.mirror = required_mirror_map(config, inputs, key);
+    if (!key.empty()) inputs.mirror_map = required_mirror_map(config, inputs, key);
   } catch (const RecoverableError& error) {
     problems.add(error);
   }
@@ -286,8 +288,8 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
     inputs.warn(std::move(text));
   }
   for (std::string& text : odd_expressions(
-           inputs.faces, skin_of(inputs), axes_of(Orientation{config.faces.up, config.faces.front}),
-           mm_per(config.faces.units))) {
+           inputs.head_set, skin_of(inputs),
+           axes_of(Orientation{config.faces.up, config.faces.front}), mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
   if (auto text = unknown_surfaces(config, inputs)) inputs.warn(std::move(*text));
@@ -295,7 +297,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   try {
     inputs.regions = load_regions(config, inputs);
     if (config.distance.mask) {
-      inputs.distance_mask = mask_values(inputs.faces.topology, inputs.faces.uvs,
+      inputs.distance_mask = mask_values(inputs.head_set.topology, inputs.head_set.uvs,
                                          MaskSource(*config.distance.mask), skin_of(inputs));
     }
     inputs.max_level = max_level_of(config, inputs.edge_length_mm);
@@ -303,8 +305,8 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
     problems.add(error);
     return std::nullopt;
   }
-  if (inputs.regions.uncovered_vertices > 0) {
-    inputs.warn(concat(inputs.regions.uncovered_vertices,
+  if (inputs.regions.uncovered_vertex_count > 0) {
+    inputs.warn(concat(inputs.regions.uncovered_vertex_count,
                        " vertices are covered by no mask and belong to the last region, ",
                        config.region_names().back()));
   }

@@ -54,7 +54,7 @@ std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mea
   return evenly_spaced_items(above.size() < kFewest ? all : above, kPoints);
 }
 
-/// The rotation of all heads onto a body of which only the ring is known. Returns the identity
+/// The rotation of all heads onto a body that is known only by its ring. Returns the identity
 /// unless the rotation at least halves the distance between the rings. Necks are cut at different
 /// slopes, and a different slope of the cut alone must not tilt the heads.
 Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
@@ -125,7 +125,7 @@ struct Goal {
 };
 
 Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const Poses& poses) {
-  const HeadSet& head_set = inputs.faces;
+  const HeadSet& head_set = inputs.head_set;
   Goal goal;
   if (!config.neck.body.empty()) {
     const Positions ring = poses.mean(head_set, rim, rim);
@@ -156,7 +156,7 @@ void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& he
   for (std::size_t h = 0; h < heads.size(); ++h) {
     if (heads[h].max_bend_mm <= most) continue;
     bent.push_back(
-        concat(inputs.faces.heads[h].name, " (", format_fixed(heads[h].max_bend_mm, 1), " mm)"));
+        concat(inputs.head_set.heads[h].name, " (", format_fixed(heads[h].max_bend_mm, 1), " mm)"));
   }
   if (bent.empty()) return;
   inputs.warn(concat("neck: the rings of ", join(bent), " are farther from the body's ring than ",
@@ -230,7 +230,7 @@ Positions normals_of(Positions areas, const Positions& of_body) {
 }
 
 void place_heads(const Config& config, Inputs& inputs) {
-  HeadSet& head_set = inputs.faces;
+  HeadSet& head_set = inputs.head_set;
   const double mm = mm_per(config.faces.units), falloff = config.neck.falloff_mm / mm;
   const Rim rim = find_neck_rim(config, inputs);
   Positions unplaced_mean = mean_head(head_set);
@@ -247,7 +247,7 @@ void place_heads(const Config& config, Inputs& inputs) {
             goal.body.rim_positions,
             {},
             NeckBend(head_set.topology, inputs.adjacency, mean, rim, falloff)};
-  seam.fit(mean);
+  seam.bend_to_seam(mean);
   const Positions areas = area_vectors_around(head_set.topology, mean, rim);
   goal.body.face_outward(areas);
   seam.normals = normals_of(areas, goal.body.area_vectors);

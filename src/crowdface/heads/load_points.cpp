@@ -69,7 +69,7 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
 void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complaints) {
   if (!complaints.expect_map(node, "a mapping from heads to points")) return;
   PointSet& points = inputs.points;
-  for (const Head& head : inputs.faces.heads) {
+  for (const Head& head : inputs.head_set.heads) {
     const YamlEntry* entry = node.find(head.name);
     if (entry == nullptr) {
       complaints.add_at(node, concat("the head ", quoted(head.name), " is missing"));
@@ -90,7 +90,7 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
                       const std::filesystem::path& neutral, const Inputs& inputs,
                       Complaints& complaints) {
   const YamlEntry* entry = root.find("template");
-  const Topology& topology = inputs.faces.topology;
+  const Topology& topology = inputs.head_set.topology;
   if (entry == nullptr) {
     if (!neutral.empty()) return read_positions(neutral, topology, "the heads");
     complaints.add_at(root,

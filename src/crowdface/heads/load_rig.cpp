@@ -93,16 +93,16 @@ struct Fit {
 };
 
 Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
-  Fit fit{from_gltf(config.faces), match_by_id(rig, inputs.faces.topology.vertex_count), {}};
+  Fit fit{from_gltf(config.faces), match_by_id(rig, inputs.head_set.topology.vertex_count), {}};
   if (fit.match.missing > 0) {
     refuse_file(config.rig, concat("its _VERTEX_ID lacks ", fit.match.missing, " of the ",
-                                   inputs.faces.topology.vertex_count,
+                                   inputs.head_set.topology.vertex_count,
                                    " vertices of the heads; does it contain the whole mesh?"));
   }
-  fit.mesh.resize(inputs.faces.topology.vertex_count, 3);
+  fit.mesh.resize(inputs.head_set.topology.vertex_count, 3);
   for (Index v = 0; v < fit.mesh.rows(); ++v) {
     const std::uint32_t point = fit.match.points[static_cast<std::size_t>(v)];
-    fit.mesh.row(v) = fit.frame.place(row3(rig.points, point)).transpose();
+    fit.mesh.row(v) = fit.frame.place(row3(rig.positions, point)).transpose();
   }
   return fit;
 }
@@ -112,14 +112,15 @@ Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs)
   if (config.shapes.heads.empty() && !config.shapes.neutral.empty()) {
     meshes.push_back(&inputs.shapes.neutral);
   }
-  for (const Head& head : inputs.faces.heads) meshes.push_back(&head.positions);
-  std::vector<std::uint32_t> all(static_cast<std::size_t>(rig.points.rows()));
+  for (const Head& head : inputs.head_set.heads) meshes.push_back(&head.positions);
+  std::vector<std::uint32_t> all(static_cast<std::size_t>(rig.positions.rows()));
   std::iota(all.begin(), all.end(), 0U);
-  std::vector<std::uint32_t> vertices(static_cast<std::size_t>(inputs.faces.topology.vertex_count));
+  std::vector<std::uint32_t> vertices(
+      static_cast<std::size_t>(inputs.head_set.topology.vertex_count));
   std::iota(vertices.begin(), vertices.end(), 0U);
   Fit best;
   for (const Frame& frame : {from_gltf(config.faces), Frame()}) {
-    const Positions points = in_frame(frame, rig.points);
+    const Positions points = in_frame(frame, rig.positions);
     const PointGrid grid(points, all);
     for (const Positions* mesh : meshes) {
       Match match = match_by_place(grid, *mesh, kSame * extent_of(*mesh, vertices));
@@ -141,7 +142,7 @@ void require_near_heads(const Fit& fit, const Config& config, const Inputs& inpu
   const auto size_of = [](const Positions& mesh) {
     return (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).norm();
   };
-  const Positions& head = inputs.faces.heads.front().positions;
+  const Positions& head = inputs.head_set.heads.front().positions;
   const double heads = size_of(head), size = size_of(fit.mesh);
   const double off = (fit.mesh.colwise().mean() - head.colwise().mean()).norm();
   if (size <= kMaxTimes * heads && heads <= kMaxTimes * size && off <= kMaxOff * heads) return;
@@ -160,7 +161,7 @@ Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, cons
   Eigen::Matrix3d axes;
   std::array<double, 3> lengths;
   for (Index c = 0; c < 3; ++c) {
-    const Eigen::Vector3d axis = frame.direction(joint.rest.col(c).head<3>());
+    const Eigen::Vector3d axis = frame.direction(joint.rest_transform.col(c).head<3>());
     lengths[static_cast<std::size_t>(c)] = axis.norm();
     axes.col(c) = axis.normalized();
   }
@@ -182,7 +183,8 @@ Rig bind(const GltfRig& file, Fit fit, const Config& config) {
     const GltfRig::Joint& joint = file.joints[j];
     rig.skin.joints.push_back({joint.name, joint.parent, joint_axes(joint, fit.frame, config)});
     rig.points.names.push_back(joint.name);
-    places.row(static_cast<Index>(j)) = fit.frame.place(joint.rest.col(3).head<3>()).transpose();
+    places.row(static_cast<Index>(j)) =
+        fit.frame.place(joint.rest_transform.col(3).head<3>()).transpose();
   }
   for (const std::uint32_t point : fit.match.points) {
     rig.skin.influences.add_group(file.influences.items_of(point));

@@ -81,15 +81,15 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   const Config::Shapes& asked = source.config.shapes;
   const std::size_t before = problems.size();
   ShapeSet set;
-  std::vector<Positions> meshes(asked.files.size());
+  std::vector<Positions> meshes(asked.template_files.size());
   read_meshes({asked.neutral}, source, problems,
               [&](std::size_t, Positions mesh) { set.neutral = std::move(mesh); });
-  read_meshes(asked.files, source, problems,
+  read_meshes(asked.template_files, source, problems,
               [&](std::size_t i, Positions mesh) { meshes[i] = std::move(mesh); });
   if (problems.size() > before) return set;
   if (extent == 0) extent = extent_of(set.neutral, skin_vertices(inputs));
   for (std::size_t s = 0; s < meshes.size(); ++s) {
-    if (asked.files[s].empty()) continue;
+    if (asked.template_files[s].empty()) continue;
     set.shapes.push_back(make_shape(asked.names[s], set.neutral, meshes[s], extent));
     hold_ring(inputs, set.shapes.back().moves);
   }
@@ -103,9 +103,9 @@ struct RestingHead {
 };
 
 RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t head) {
-  const Positions& used = inputs.faces.heads[head].positions;
+  const Positions& used = inputs.head_set.heads[head].positions;
   if (config.faces.align != Align::kRigid && !inputs.neck) return {used, {}};
-  Positions mesh = read_positions(config.faces.files[head], inputs.faces.topology,
+  Positions mesh = read_positions(config.faces.files[head], inputs.head_set.topology,
                                   config.faces.files.front().string());
   std::vector<std::uint32_t> all(static_cast<std::size_t>(mesh.rows()));
   std::iota(all.begin(), all.end(), 0U);
@@ -116,7 +116,7 @@ RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t
 
 void load_head(const Source& source, const Inputs& inputs, std::size_t head, double extent,
                std::vector<OwnShape>& shapes, Problems& problems) {
-  const std::vector<std::filesystem::path>& files = source.config.shapes.of_head[head];
+  const std::vector<std::filesystem::path>& files = source.config.shapes.head_files[head];
   const RestingHead rest = resting_head(source.config, inputs, head);
   read_meshes(files, source, problems, [&](std::size_t s, const Positions& mesh) {
     Displacements moves = make_shape({}, rest.mesh, mesh, extent).moves;
@@ -133,15 +133,15 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
              ShapeSet& set) {
   std::optional<ShapeTransfer> transfer;
   for (std::size_t h = 0; h < set.head_shapes.size(); ++h) {
-    const auto& files = config.shapes.of_head[h];
+    const auto& files = config.shapes.head_files[h];
     if (std::ranges::none_of(files, [](const auto& file) { return file.empty(); })) continue;
     if (!transfer) {
-      transfer.emplace(inputs.faces, inputs.adjacency, inputs.parts, head_axes(config),
+      transfer.emplace(inputs.head_set, inputs.adjacency, inputs.parts, head_axes(config),
                        of_template);
     }
-    const auto carried = transfer->carry(static_cast<Index>(h), inputs.faces.heads[h].positions);
+    const auto carried = transfer->carry(static_cast<Index>(h), inputs.head_set.heads[h].positions);
     for (std::size_t s = 0, i = 0; s < files.size(); ++s) {
-      if (config.shapes.files[s].empty()) continue;
+      if (config.shapes.template_files[s].empty()) continue;
       if (files[s].empty()) set.head_shapes[h][s] = make_own_shape(carried[i]);
       ++i;
     }
@@ -154,9 +154,9 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   const Config& config = source.config;
   const Config::Shapes& asked = config.shapes;
   ShapeSet& set = inputs.shapes;
-  set.neutral = mean_head(inputs.faces);
+  set.neutral = mean_head(inputs.head_set);
   const double extent = extent_of(set.neutral, skin_vertices(inputs));
-  set.head_shapes.assign(inputs.faces.heads.size(), std::vector<OwnShape>(asked.names.size()));
+  set.head_shapes.assign(inputs.head_set.heads.size(), std::vector<OwnShape>(asked.names.size()));
   const std::size_t before = problems.size();
   for (std::size_t h = 0; h < set.head_shapes.size(); ++h) {
     load_head(source, inputs, h, extent, set.head_shapes[h], problems);
@@ -206,7 +206,7 @@ Digest digest_of_shapes(const ShapeSet& set) {
 void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
                  Problems& problems) {
   if (config.shapes.names.empty()) return;
-  const Source source{config, inputs.faces.topology, cache};
+  const Source source{config, inputs.head_set.topology, cache};
   const std::size_t before = problems.size();
   if (config.shapes.heads.empty()) {
     inputs.shapes = load_template(source, inputs, 0, problems);

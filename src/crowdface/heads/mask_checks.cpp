@@ -30,16 +30,16 @@ void check_masks(const std::vector<std::string>& files, Problems& problems) {
 
 std::vector<std::string> single_image_mask_warnings(const Config& config, const Inputs& inputs) {
   std::set<std::pair<double, double>> tiles;
-  const Topology& topology = inputs.faces.topology;
+  const Topology& topology = inputs.head_set.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto uvs = topology.face_uvs(f);
-    if (uvs.empty() ||
-        inputs.skin.component_of_vertex[topology.face(f)[0]] != inputs.skin.largest())
+    if (uvs.empty() || inputs.skin_components.component_of_vertex[topology.face(f)[0]] !=
+                           inputs.skin_components.largest())
       continue;
     Eigen::RowVector2d middle(0, 0);
     for (const std::uint32_t uv : uvs) {
       if (uv != kNoIndex) {
-        middle += inputs.faces.uvs.row(uv) / static_cast<double>(uvs.size());
+        middle += inputs.head_set.uvs.row(uv) / static_cast<double>(uvs.size());
       }
     }
     tiles.emplace(std::floor(middle.x()), std::floor(middle.y()));

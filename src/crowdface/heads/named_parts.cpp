@@ -12,7 +12,7 @@ namespace {
 
 /// #components: the name that most polygons of the component have; empty if no polygon has a name.
 std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, const Inputs& inputs) {
-  const Topology& topology = inputs.faces.topology;
+  const Topology& topology = inputs.head_set.topology;
   std::vector<std::map<std::size_t, Index>> faces(
       static_cast<std::size_t>(inputs.components.count()));
   for (std::size_t range = 0; range < ranges.size(); ++range) {
@@ -44,8 +44,8 @@ class ComponentNames {
   ComponentNames(const Config& config, const Inputs& inputs, Problems& problems)
       : config_(config),
         problems_(problems),
-        materials_(names_of(inputs.files[0].materials, inputs)),
-        groups_(names_of(inputs.files[0].groups, inputs)) {}
+        materials_(names_of(inputs.head_files[0].materials, inputs)),
+        groups_(names_of(inputs.head_files[0].groups, inputs)) {}
 
   std::vector<std::uint32_t> find(const std::string& name, std::string_view key) {
     constexpr std::string_view kComponent = "component ";
@@ -129,9 +129,10 @@ std::string part_name(const Part& part) {
 }  // namespace
 
 std::vector<bool> skin_of(const Inputs& inputs) {
-  const std::uint32_t largest = inputs.skin.largest();
+  const std::uint32_t largest = inputs.skin_components.largest();
   std::vector<bool> skin;
-  for (const std::uint32_t c : inputs.skin.component_of_vertex) skin.push_back(c == largest);
+  for (const std::uint32_t c : inputs.skin_components.component_of_vertex)
+    skin.push_back(c == largest);
   return skin;
 }
 
@@ -152,18 +153,18 @@ HeadAxes head_axes(const Config& config) {
 }
 
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems) {
-  inputs.skin = inputs.components;
+  inputs.skin_components = inputs.components;
   if (!config.parts.follow) return;
   const PartOverrides overrides = overrides_of(config, inputs, problems);
-  inputs.parts = find_parts(inputs.faces.topology, inputs.adjacency, inputs.components, inputs.mean,
-                            overrides, head_axes(config));
-  inputs.skin = join_skin(inputs.components, inputs.parts);
+  inputs.parts = find_parts(inputs.head_set.topology, inputs.adjacency, inputs.components,
+                            inputs.mean_head, overrides, head_axes(config));
+  inputs.skin_components = join_skin(inputs.components, inputs.parts);
 }
 
 std::string describe_parts(const Config& config, const Inputs& inputs) {
   if (!config.parts.follow) return "none: all components are blended as skin";
-  const std::vector<std::string> materials = names_of(inputs.files[0].materials, inputs);
-  const std::vector<std::string> groups = names_of(inputs.files[0].groups, inputs);
+  const std::vector<std::string> materials = names_of(inputs.head_files[0].materials, inputs);
+  const std::vector<std::string> groups = names_of(inputs.head_files[0].groups, inputs);
   const auto label = [&](std::uint32_t c) {
     const std::string& name = materials[c].empty() ? groups[c] : materials[c];
     return name.empty() ? concat("component ", c + 1) : name;

@@ -11,7 +11,7 @@
 namespace crowdface {
 
 /// Assigns the components of the heads to the parts that the config names, and stores the result in
-/// `inputs.parts` and `inputs.skin`. A name without a matching component is a problem.
+/// `inputs.parts` and `inputs.skin_components`. A name without a matching component is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
 
 /// `skin_of`: #V, whether each vertex is skin. `skin_vertices`: the skin vertices, ascending.

@@ -70,7 +70,7 @@ ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
   }
   ObjFile cut = convert_to_obj(std::move(mesh), whole.path);
   cut.material_libraries = std::move(whole.material_libraries);
-  cut.textures_at = std::move(whole.textures_at);
+  cut.material_base = std::move(whole.material_base);
   return cut;
 }
 
@@ -93,11 +93,11 @@ void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
 Rim find_neck_rim(const Config& config, const Inputs& inputs) {
   if (!config.neck.rim.empty()) return read_rim(config.neck.rim, inputs.adjacency);
   const Components& components = inputs.components;
-  std::vector<Rim> rims = find_open_rims(inputs.faces.topology, inputs.adjacency);
+  std::vector<Rim> rims = find_open_rims(inputs.head_set.topology, inputs.adjacency);
   std::erase_if(rims, [&](const Rim& rim) {
     return components.component_of_vertex[rim.front()] != components.largest();
   });
-  return lowest_rim(rims, mean_head(inputs.faces), unit_vector(config.faces.up),
+  return lowest_rim(rims, mean_head(inputs.head_set), unit_vector(config.faces.up),
                     mm_per(config.faces.units));
 }
 
@@ -133,7 +133,7 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
   const double mm = mm_per(config.faces.units);
   const Positions head = mm * ring;
   NeckBody body;
-  body.is_head = first_difference(inputs.faces.topology, mesh.topology).empty();
+  body.is_head = first_difference(inputs.head_set.topology, mesh.topology).empty();
   const bool is_order_known = body.is_head && neck.body_rim.empty();
   std::vector<Rim> rims = {rim};
   if (!neck.body_rim.empty()) {

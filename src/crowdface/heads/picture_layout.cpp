@@ -26,18 +26,18 @@ std::string part_name(const std::string& material) {
 }  // namespace
 
 std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, TextureLayout& layout) {
-  layout.tile = found.tile;
-  layout.of_face.assign(found.tile.size(), kNoIndex);
+  layout.tile_of_face = found.tile;
+  layout.picture_of_face.assign(found.tile.size(), kNoIndex);
   std::vector<PictureSource> first;
   std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> known;
-  for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
+  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
     for (std::size_t h = 0; h < found.heads.size(); ++h) {
-      const std::uint32_t row = found.heads[h].of_face[f];
+      const std::uint32_t row = found.heads[h].file_of_face[f];
       if (row == kNoIndex) continue;
       const auto [picture, is_new] =
           known.emplace(std::pair(h, row), static_cast<std::uint32_t>(first.size()));
       if (is_new) first.push_back({h, row, static_cast<Index>(f)});
-      layout.of_face[f] = picture->second;
+      layout.picture_of_face[f] = picture->second;
       break;
     }
   }

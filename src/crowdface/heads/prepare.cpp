@@ -24,7 +24,7 @@ constexpr Index kSampleCount = 2500;
 
 Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& samples,
               std::size_t head) {
-  const bool is_basis = config.smoothing.levels == Levels::kBasis;
+  const bool is_basis = config.smoothing.levels == LevelRepresentation::kBasis;
   return Hasher()
       .add(kPrepareVersion)
       .add(inputs.topology_digest)
@@ -41,12 +41,12 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
       .digest();
 }
 
-/// Maximum error of the nodes, as a fraction of the displacement at L_max. With this limit, the
-/// nodes use about a tenth of the error tolerance: 2·10⁻⁴ at the default tolerance of 0.05 mm
-/// (measured, docs/method.md).
+/// Maximum error of interpolating between the nodes (see LevelNodes), as a fraction of the
+/// displacement at L_max. With this limit, the interpolation uses about a tenth of the error
+/// tolerance: 2·10⁻⁴ at the default tolerance of 0.05 mm (measured, docs/method.md).
 double missed_by_nodes(const Config& config) {
   constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
-  if (config.smoothing.levels != Levels::kBasis) return 2e-4;
+  if (config.smoothing.levels != LevelRepresentation::kBasis) return 2e-4;
   return std::min(kSharePerMm * config.smoothing.tolerance_mm, kLargest);
 }
 
@@ -59,7 +59,7 @@ class HeadPreparation {
 
   const ChebyshevFilter& filter() {
     if (!prepared_.filter) {
-      prepared_.filter.emplace(smoothing_, inputs_.faces.heads.front().positions);
+      prepared_.filter.emplace(smoothing_, inputs_.head_set.heads.front().positions);
     }
     return *prepared_.filter;
   }
@@ -69,10 +69,10 @@ class HeadPreparation {
     PreparedHead result;
     const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
     result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.traced_samples);
-    if (config_.smoothing.levels == Levels::kCubic) {
+    if (config_.smoothing.levels == LevelRepresentation::kCubic) {
       result.levels.fields = fit_cubic(filter(), head.positions, inputs_.max_level).fields;
     }
-    if (config_.smoothing.levels == Levels::kBasis) {
+    if (config_.smoothing.levels == LevelRepresentation::kBasis) {
       const double tolerance = config_.smoothing.tolerance_mm / mm_per(config_.faces.units);
       LevelBasis basis = fit_level_basis(filter(), nodes, fields, tolerance);
       result.levels.fields = std::move(basis.fields);
@@ -102,11 +102,11 @@ void clean(const std::filesystem::path& cache) {
 Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
   const auto chosen = [&](Index count) { return choose_samples(config, inputs, count); };
-  if (inputs.mirror == nullptr) {
+  if (inputs.mirror_map == nullptr) {
     prepared.traced_samples = prepared.samples = chosen(kSampleCount);
   } else {
-    prepared.samples = samples_and_partners(chosen(kSampleCount / 2), *inputs.mirror);
-    prepared.traced_samples = samples_and_mirror_corners(prepared.samples, *inputs.mirror);
+    prepared.samples = samples_and_mirror_images(chosen(kSampleCount / 2), *inputs.mirror_map);
+    prepared.traced_samples = samples_and_mirror_corners(prepared.samples, *inputs.mirror_map);
   }
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
                                                       inputs.max_level, missed_by_nodes(config));
@@ -114,7 +114,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
 }
 
 HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
-  return {inputs.faces.topology.vertex_count,
+  return {inputs.head_set.topology.vertex_count,
           static_cast<Index>(prepared.traced_samples.size()),
           static_cast<Index>(trajectory_levels(inputs.max_level).size()),
           static_cast<Index>(prepared.nodes->levels().size()),
@@ -136,13 +136,13 @@ CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepa
     missed = std::max(missed, prepared.levels[h].error.max);
   }
   const double left = std::max(0.0, tolerance - missed);
-  return cached_patches(cache, hasher.digest(), inputs.faces.topology.vertex_count, ranks, [&] {
+  return cached_patches(cache, hasher.digest(), inputs.head_set.topology.vertex_count, ranks, [&] {
     const double two_edges = 2 * inputs.edge_length_mm / mm_per(config.faces.units);
     Progress progress("comparing heads patch by patch",
-                      patch_count(static_cast<std::size_t>(inputs.faces.topology.vertex_count)));
+                      patch_count(static_cast<std::size_t>(inputs.head_set.topology.vertex_count)));
     return interpolate_fields(head_levels(config, prepared),
                               make_tested_levels(*prepared.nodes).levels,
-                              patch_order(inputs.faces.heads.front().positions, two_edges), left,
+                              patch_order(inputs.head_set.heads.front().positions, two_edges), left,
                               [&](std::size_t patches) {
                                 throw_if_interrupted();
                                 progress.step(patches);
@@ -158,12 +158,12 @@ void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOp
   const HeadCacheSizes shape = cache_shape(config, inputs, prepared);
   clean(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
-  for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) {
+  for (std::size_t h = 0; h < inputs.head_set.heads.size(); ++h) {
     if (!is_wanted(h)) continue;
     throw_if_interrupted();
     const Digest key = key_of(config, inputs, prepared.traced_samples, h);
     if (find_prepared(cache, key, shape)) continue;
-    write_entry(cache, prepared_key(key), arrays_of(preparation.prepare(inputs.faces.heads[h])));
+    write_entry(cache, prepared_key(key), arrays_of(preparation.prepare(inputs.head_set.heads[h])));
   }
 }
 
@@ -175,8 +175,8 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;
   std::optional<Progress> progress;
-  progress.emplace("preparing heads", inputs.faces.heads.size());
-  std::vector<Digest> keys(inputs.faces.heads.size());
+  progress.emplace("preparing heads", inputs.head_set.heads.size());
+  std::vector<Digest> keys(inputs.head_set.heads.size());
   std::vector<std::optional<PreparedHead>> heads(keys.size());
   parallel_for_each(keys.size(), [&](std::size_t h) {
     throw_if_interrupted();
@@ -189,7 +189,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
     if (head) {
       ++prepared.cached_head_count;
     } else {
-      head = preparation.prepare(inputs.faces.heads[h]);
+      head = preparation.prepare(inputs.head_set.heads[h]);
       // Stop writing after one failure: more warnings would not help the user.
       cache_works =
           cache_works && store(cache, prepared_key(keys[h]), arrays_of(*head), "prepared heads");
@@ -203,14 +203,14 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
     progress->step();
   }
   progress.reset();
-  if (config.smoothing.levels == Levels::kExact) {
+  if (config.smoothing.levels == LevelRepresentation::kExact) {
     preparation.filter();
   } else {
     prepared.filter.reset();
     prepared.patches = patches_of(config, inputs, prepared, keys, cache);
   }
   if (prepared.cached_head_count > 0) {
-    log_info(concat(prepared.cached_head_count, " of ", inputs.faces.heads.size(),
+    log_info(concat(prepared.cached_head_count, " of ", inputs.head_set.heads.size(),
                     " prepared heads came from the cache"));
   }
   return prepared;
@@ -231,7 +231,7 @@ std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepar
   std::vector<HeadLevels> result;
   for (const StoredLevels& stored : prepared.levels) {
     HeadLevels levels{stored.fields, {}};
-    if (config.smoothing.levels == Levels::kCubic) {
+    if (config.smoothing.levels == LevelRepresentation::kCubic) {
       levels.functions = [max_level = prepared.nodes->max_level()](std::uint64_t level) {
         const auto basis = cubic_basis(level, max_level);
         return std::vector<double>(basis.begin(), basis.end());

@@ -23,7 +23,7 @@ namespace crowdface {
 /// All heads, ready for casting and blending.
 struct Prepared {
   FaceSamples samples;
-  /// the samples, followed by the other vertices that their mirror images depend on
+  /// the samples, then the other vertices on which the samples' mirror images depend
   FaceSamples traced_samples;
   std::vector<Trajectory> trajectories;  ///< #heads, trajectories of the vertices `traced_samples`
   std::vector<StoredLevels> levels;      ///< #heads; no fields with `levels: exact`
@@ -51,7 +51,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
                  const CacheFolder& cache);
 
 /// Prepares heads that the cache lacks and stores them there.
-/// \param is_wanted  called with the index of a head: whether to prepare it
+/// \param is_wanted  called with the index of a head; returns whether to prepare the head
 /// \throws CannotCreate, IoError if a head cannot be stored.
 void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                    const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);

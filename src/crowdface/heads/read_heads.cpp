@@ -104,8 +104,8 @@ bool is_worth_keeping(const ObjFile& file) {
 }
 
 /// Turns the polygons of mirrored heads back to the winding in the file, so that the alignment
-/// check reports these heads. A head is mirrored if its polygons were flipped although they matched
-/// another head's polygons before.
+/// check reports these heads. A head is mirrored if reading has reversed its polygons, although the
+/// polygons in its file match the polygons of another head.
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (!head || !head->mesh || !head->file.has_reversed_faces) continue;
@@ -172,7 +172,7 @@ void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
   HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
                 std::exchange(file.corner_normals, {})};
   file.uvs.resize(0, 2);
-  shelf.put(reading.outline.mesh, std::move(mesh), reading.head);
+  shelf.put(reading.outline.mesh_digest, std::move(mesh), reading.head);
 }
 
 void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
@@ -189,8 +189,8 @@ const fs::path& scratch_folder() {
 /// Stores the textures embedded in a mesh file as image files next to a material file, as for OBJ
 /// files. The files are in a folder of the cache, or in a scratch folder if no cache can be
 /// written.
-/// \return the path that the material file is relative to, and the file's name; empty if there are
-///         no textures
+/// \return the path that the material file is relative to, and the material file's name; empty if
+///         there are no textures
 std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
                                                const FileMesh& mesh) {
   if (mesh.textures.empty()) return {};
@@ -220,9 +220,9 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf
   FileMesh mesh = read_mesh(file.path);
   reading.head.has_joined_vertices = join_split_vertices(mesh);
   if (mesh.topology.face_count() > 0) {
-    auto [textures_at, library] = keep_textures(reading.head, cache, mesh);
+    auto [material_base, library] = keep_textures(reading.head, cache, mesh);
     take_mesh(reading, convert_to_obj(std::move(mesh), fs::path(file.path), library), shelf);
-    file.textures_at = std::move(textures_at);
+    file.material_base = std::move(material_base);
     return;
   }
   file.positions = std::move(mesh.positions);
@@ -254,7 +254,7 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
     return reading;
   }
   reading.outline = outline_obj(head.file.file.bytes());
-  if (shelf.is_first(reading.outline.mesh)) {
+  if (shelf.is_first(reading.outline.mesh_digest)) {
     read_with_mesh(reading, shelf);
   } else {
     head.file = read_obj_of_same_mesh(path, std::move(head.file.file), reading.outline);
@@ -267,7 +267,7 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
 /// could not be read, reads the mesh from this head's file.
 void finish_reading(HeadReading& reading, MeshShelf& shelf) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
-  shelf.take(reading.outline.mesh, reading.head);
+  shelf.take(reading.outline.mesh_digest, reading.head);
   if (!reading.head.mesh) read_with_mesh(reading, shelf);
 }
 

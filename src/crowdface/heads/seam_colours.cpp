@@ -25,7 +25,7 @@ Positions sampled(const TextureSet& textures, const HeadSet& heads, const Vertex
     double count = 0;
     for (const std::uint32_t face : around.items_of(vertices[i])) {
       const std::uint32_t texture =
-          textures.of_face.empty() ? TextureSet::kNone : textures.of_face[face];
+          textures.texture_of_face.empty() ? TextureSet::kNone : textures.texture_of_face[face];
       if (texture == TextureSet::kNone) continue;
       const auto corners = heads.topology.face(face);
       const auto uvs = heads.topology.face_uvs(face);
@@ -35,7 +35,7 @@ Positions sampled(const TextureSet& textures, const HeadSet& heads, const Vertex
                             (corners[c] == vertices[i] ? kOwn : 0.0F);
         place += share * heads.uvs.row(uvs[c]).transpose().cast<float>();
       }
-      const Light light = colour_at(*textures.textures[texture], place);
+      const LinearRgb light = colour_at(*textures.textures[texture], place);
       for (int c = 0; c < 3; ++c) sum[c] += density_of_light(light[c]);
       count += 1;
     }
@@ -71,7 +71,7 @@ Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_
 /// kNoIndex if they have no image.
 std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const TextureLayout& layout) {
   for (const std::uint32_t face : around.items_of(rim.front())) {
-    if (layout.of_face[face] != kNoIndex) return layout.of_face[face];
+    if (layout.picture_of_face[face] != kNoIndex) return layout.picture_of_face[face];
   }
   return kNoIndex;
 }
@@ -79,17 +79,17 @@ std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const Textur
 }  // namespace
 
 SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
-  const HeadSet& heads = inputs.faces;
+  const HeadSet& heads = inputs.head_set;
   const Rim& rim = inputs.neck->seam.rim;
   vertices_ = rim;
   ring_size_ = static_cast<Index>(rim.size());
-  EdgeDistances distances(inputs.adjacency, inputs.mean);
+  EdgeDistances distances(inputs.adjacency, inputs.mean_head);
   distances.search(rim, kBandMm / inputs.neck->mm_per_unit);
   for (const std::uint32_t v : distances.reached()) {
     if (distances.distance(v) > 0) vertices_.push_back(v);
   }
-  const std::vector<double> areas =
-      face_vertex_areas(heads.topology, inputs.skin, inputs.mean, FaceArea::kSkin, {2, 1});
+  const std::vector<double> areas = face_vertex_areas(heads.topology, inputs.skin_components,
+                                                      inputs.mean_head, FaceArea::kSkin, {2, 1});
   double total = 0;
   for (const std::uint32_t v : vertices_) total += areas[v];
   for (const std::uint32_t v : vertices_) areas_.push_back(areas[v] / total);

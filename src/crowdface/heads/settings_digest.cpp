@@ -31,23 +31,23 @@ void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
 Digest settings_digest(const Config& config, const Inputs& inputs) {
   Hasher hasher;
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
-  for (std::size_t h = 0; h < inputs.own_digests.size(); ++h) {
+  for (std::size_t h = 0; h < inputs.unplaced_digests.size(); ++h) {
     // Also hash the text of each head's file: an output mesh copies everything except the positions
     // from the file of its target head.
-    hasher.add(config.faces.names[h]).add(inputs.own_digests[h]).add(inputs.text_digests[h]);
+    hasher.add(config.faces.names[h]).add(inputs.unplaced_digests[h]).add(inputs.text_digests[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);
   hasher.add(static_cast<int>(config.smoothing.boundary))
       .add(static_cast<int>(config.smoothing.operator_kind))
       .add(static_cast<int>(config.smoothing.levels));
   // Only fitted levels depend on L_max; exact ones do not.
-  if (config.smoothing.levels != Levels::kExact) hasher.add(inputs.max_level);
-  if (config.smoothing.levels == Levels::kBasis) {
+  if (config.smoothing.levels != LevelRepresentation::kExact) hasher.add(inputs.max_level);
+  if (config.smoothing.levels == LevelRepresentation::kBasis) {
     hasher.add(config.smoothing.tolerance_mm / mm_per(config.faces.units));
   }
   hasher.add(static_cast<int>(config.blending.contacts));
   add_parts(config, inputs.parts, hasher);
-  if (inputs.mirror != nullptr) {
+  if (inputs.mirror_map != nullptr) {
     hasher.add(kMirrorVersion).add(config.faces.up.index).add(config.faces.front.index);
   }
   return hasher.digest();
@@ -57,7 +57,7 @@ Digest materials_digest(const Inputs& inputs) {
   const bool has_colours = inputs.textures.digest != Digest();
   std::set<std::filesystem::path> known;  // heads mostly share their material files
   Hasher hasher;
-  for (const ObjFile& head : inputs.files) {
+  for (const ObjFile& head : inputs.head_files) {
     for (const MaterialFile& file :
          find_material_files(head.material_path(), head.material_libraries).files) {
       const bool is_hashed = file.kind && (*file.kind != TextureKind::kColour || has_colours);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr Index kMinCachedVertices = 50'000;
 
 CacheFolder cache_of(const Inputs& inputs) {
-  return inputs.faces.topology.vertex_count >= kMinCachedVertices ? inputs.cache : fs::path();
+  return inputs.head_set.topology.vertex_count >= kMinCachedVertices ? inputs.cache : fs::path();
 }
 
 Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
@@ -35,8 +35,9 @@ Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
 
 /// Adds to the hash everything that determines the skin of all heads.
 Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
-  for (const Digest& head : inputs.own_digests) hasher.add(head);
-  return hasher.add_array(std::span(inputs.skin.component_of_vertex)).add(inputs.skin.largest());
+  for (const Digest& head : inputs.unplaced_digests) hasher.add(head);
+  return hasher.add_array(std::span(inputs.skin_components.component_of_vertex))
+      .add(inputs.skin_components.largest());
 }
 
 /// Whether the stored size of each component equals the number of vertices that are assigned to the
@@ -63,8 +64,8 @@ std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs)
   const InputLimits& limits = input_limits();
   Hasher key;
   add_skins(begin_key(key, inputs), inputs)
-      .add_array(std::span(inputs.faces.topology.corner_uvs))
-      .add_array(numbers_of(inputs.faces.uvs))
+      .add_array(std::span(inputs.head_set.topology.corner_uvs))
+      .add_array(numbers_of(inputs.head_set.uvs))
       .add(join(config.region_names()))
       .add(limits.image_pixels)
       .add(limits.image_bytes);
@@ -76,7 +77,7 @@ std::optional<Digest> key_of_regions(const Config& config, const Inputs& inputs)
 }
 
 RegionWeights weights_of_masks(const Config& config, const Inputs& inputs) {
-  return region_weights(inputs.faces.topology, inputs.faces.uvs,
+  return region_weights(inputs.head_set.topology, inputs.head_set.uvs,
                         {config.regions.mask.begin(), config.regions.mask.end()},
                         static_cast<Index>(config.region_names().size()), skin_of(inputs),
                         config.region_names());
@@ -108,7 +109,7 @@ bool are_neighbours(const Neighbours& found, std::size_t vertices) {
 constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {
   arrays("corners", found.map.corners);
   arrays("shares", found.map.shares);
-  arrays("without", found.map.unpaired);
+  arrays("without", found.map.unpaired_vertices);
   arrays("added", found.map.unpaired_offsets);
   arrays("normal", found.map.plane.normal);
   arrays("offset", found.map.plane.offset);
@@ -123,14 +124,14 @@ bool is_mirror(const FoundMirror& found, std::size_t vertices) {
   const auto is_place = [&](const Triangle& triangle) { return all_below(triangle, vertices); };
   return map.corners.size() == vertices && std::ranges::all_of(map.corners, is_place) &&
          map.shares.size() == vertices && std::ranges::all_of(map.shares, are_shares) &&
-         all_below(map.unpaired, vertices) &&
-         map.unpaired_offsets.rows() == static_cast<Index>(map.unpaired.size());
+         all_below(map.unpaired_vertices, vertices) &&
+         map.unpaired_offsets.rows() == static_cast<Index>(map.unpaired_vertices.size());
 }
 
 }  // namespace
 
 void find_neighbours(Inputs& inputs) {
-  const Topology& topology = inputs.faces.topology;
+  const Topology& topology = inputs.head_set.topology;
   Hasher key;
   begin_key(key, inputs);
   auto found = read_or_make(
@@ -149,18 +150,18 @@ void find_neighbours(Inputs& inputs) {
 }
 
 RegionWeights load_regions(const Config& config, const Inputs& inputs) {
-  if (config.regions.names.empty()) return whole_head(inputs.faces.topology);
+  if (config.regions.names.empty()) return whole_head_weights(inputs.head_set.topology);
   const auto key = cache_of(inputs).path.empty() ? std::nullopt : key_of_regions(config, inputs);
   if (!key) return weights_of_masks(config, inputs);
   return read_or_make(
       cache_of(inputs), {"masks", *key}, [&] { return weights_of_masks(config, inputs); },
       [](auto& arrays, auto& weights) {
         arrays("alpha", weights.alpha);
-        arrays("uncovered", weights.uncovered_vertices);
+        arrays("uncovered", weights.uncovered_vertex_count);
       },
       [&](const RegionWeights& found, const CacheEntry&) {
         const auto& alpha = found.alpha;
-        return alpha.rows() == inputs.faces.topology.vertex_count &&
+        return alpha.rows() == inputs.head_set.topology.vertex_count &&
                alpha.cols() == static_cast<Index>(config.region_names().size()) &&
                (alpha.array() >= 0 && alpha.array() <= 1).all();
       });
@@ -172,12 +173,12 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
       .add(count)
       .add(config.faces.front.index)
       .add(config.faces.front.sign);
-  const Topology& topology = inputs.faces.topology;
+  const Topology& topology = inputs.head_set.topology;
   return read_or_make(
       cache_of(inputs), {"samples", key.digest()},
       [&] {
-        return choose_face_samples(topology, inputs.skin, unplaced_mean(inputs), config.faces.front,
-                                   count);
+        return choose_face_samples(topology, inputs.skin_components, unplaced_mean(inputs),
+                                   config.faces.front, count);
       },
       [](auto& arrays, auto& samples) { arrays("vertices", samples); },
       [&](const FaceSamples& found, const CacheEntry&) {
@@ -190,7 +191,7 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
   begin_key(key, inputs).add_array(std::span(samples));
-  for (const Digest& head : inputs.own_digests) key.add(head);
+  for (const Digest& head : inputs.unplaced_digests) key.add(head);
   return read_or_make(
       cache_of(inputs), {"cells", key.digest()},
       [&] { return find_sample_cells(inputs.adjacency, unplaced_mean(inputs), samples); },
@@ -198,7 +199,7 @@ SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
       [&](const SampleCells& found, const CacheEntry&) {
         static_assert(SampleCells::kNone == kNoIndex);
         return found.sample_of_vertex.size() ==
-                   static_cast<std::size_t>(inputs.faces.topology.vertex_count) &&
+                   static_cast<std::size_t>(inputs.head_set.topology.vertex_count) &&
                are_indices(found.sample_of_vertex, samples.size());
       });
 }
@@ -208,10 +209,11 @@ FoundMirror find_cached_mirror(const Inputs& inputs, const Eigen::Vector3d& side
   begin_key(key, inputs).add(kMirrorVersion);
   for (const Digest& head : inputs.head_digests) key.add(head);
   for (const double value : side) key.add(value);
-  const Topology& topology = inputs.faces.topology;
+  const Topology& topology = inputs.head_set.topology;
   return read_or_make(
       cache_of(inputs), {"mirror", key.digest()},
-      [&] { return find_mirror(topology, inputs.components, inputs.mean, side); }, kMirrorArrays,
+      [&] { return find_mirror(topology, inputs.components, inputs.mean_head, side); },
+      kMirrorArrays,
       [&](const FoundMirror& found, const CacheEntry&) {
         return is_mirror(found, static_cast<std::size_t>(topology.vertex_count));
       });

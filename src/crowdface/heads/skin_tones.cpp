@@ -9,9 +9,9 @@ namespace crowdface {
 
 std::vector<double> skin_tones(const Inputs& inputs) {
   constexpr int kStep = 16;
-  if (!inputs.textures.blend()) return {};
+  if (!inputs.textures.are_blended()) return {};
   const HeadMaps& maps = inputs.textures.blended.maps;
-  std::vector<double> tones(inputs.faces.heads.size(), 0.0);
+  std::vector<double> tones(inputs.head_set.heads.size(), 0.0);
   parallel_for_each(tones.size(), [&](std::size_t h) {
     double sum = 0, count = 0;
     for (const auto& of_picture : maps) {
@@ -33,10 +33,11 @@ std::vector<double> skin_tones(const Inputs& inputs) {
 }
 
 ColourShares::ColourShares(const Config& config, const Inputs& inputs)
-    : heads_(inputs.faces.heads.size()),
+    : heads_(inputs.head_set.heads.size()),
       region_shares_(region_shares(
-          inputs.regions, face_vertex_areas(inputs.faces.topology, inputs.skin, inputs.mean,
-                                            FaceArea::kFront, config.faces.front))) {}
+          inputs.regions,
+          face_vertex_areas(inputs.head_set.topology, inputs.skin_components, inputs.mean_head,
+                            FaceArea::kFront, config.faces.front))) {}
 
 std::vector<double> ColourShares::shares_of(const Recipe& recipe) const {
   return face_colour_weights(recipe, heads_, region_shares_).face;

@@ -40,7 +40,7 @@ void collect_mesh(const aiMesh& from, const aiMatrix4x4& place, const std::strin
     for (const float c : {colour.r, colour.g, colour.b}) {
       all.colours.push_back(std::clamp<double>(c, 0, 1));
     }
-    mesh.pieces.push_back(all.piece);
+    mesh.mesh_of_vertex.push_back(all.piece);
   }
   const bool mirrored = aiMatrix3x3(place).Determinant() < 0;
   if (mesh.materials.empty() || mesh.materials.back().name != material) {
@@ -103,7 +103,7 @@ std::optional<TextureKind> kind_of_property(std::string_view property) {
 
 /// Adds a texture to a material unless the material already has a texture of this kind. For an
 /// external texture, stores only the file name (in `external_textures`), not the bytes.
-/// \return  whether the material's texture of this kind is now this texture.
+/// \return  whether the material now has this texture.
 bool add_texture(const aiScene& scene, const std::string& material, TextureKind kind,
                  const aiString& name, FileMesh& mesh,
                  std::vector<std::string>& external_textures) {
@@ -148,8 +148,8 @@ void collect_textures(const aiScene& scene, FileMesh& mesh,
         unused.emplace(key.substr(key.rfind('|') + 1));
       }
     }
-    // A layered texture is not among the material's properties; of its layers, Assimp reports only
-    // the lowest.
+    // A layered texture is not among the material's properties. Assimp reports only the lowest
+    // layer of a layered texture.
     for (const auto& [type, kind] : {std::pair(aiTextureType_DIFFUSE, TextureKind::kColour),
                                      std::pair(aiTextureType_NORMALS, TextureKind::kNormal)}) {
       aiString name;
@@ -185,7 +185,7 @@ void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& exte
   }
   Collected all{mesh, {}, {}, {}};
   collect_node(*scene, *scene->mRootNode, aiMatrix4x4(), 0, all);
-  const auto rows = static_cast<Index>(mesh.pieces.size());
+  const auto rows = static_cast<Index>(mesh.mesh_of_vertex.size());
   mesh.topology.vertex_count = rows;
   mesh.positions = Eigen::Map<const Positions>(all.points.data(), rows, 3);
   mesh.uvs = Eigen::Map<const TextureCoordinates>(all.uvs.data(), rows, 2);

@@ -16,7 +16,7 @@ JoinedBorders joined_ids(const FileMesh& mesh) {
   JoinedBorders result;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> of_id;
   for (std::uint32_t v = 0; v < mesh.vertex_ids.size(); ++v) {
-    const std::uint32_t piece = mesh.pieces.empty() ? 0 : mesh.pieces[v];
+    const std::uint32_t piece = mesh.mesh_of_vertex.empty() ? 0 : mesh.mesh_of_vertex[v];
     const auto [place, is_new] = of_id.try_emplace(
         {piece, mesh.vertex_ids[v]}, static_cast<std::uint32_t>(result.first_copies.size()));
     if (is_new) result.first_copies.push_back(v);
@@ -28,9 +28,9 @@ JoinedBorders joined_ids(const FileMesh& mesh) {
 /// Merges the copies of each split vertex.
 void join_vertices(FileMesh& mesh) {
   const JoinedBorders by = mesh.vertex_ids.empty()
-                               ? joined_borders(mesh.topology, mesh.positions, mesh.pieces)
+                               ? joined_borders(mesh.topology, mesh.positions, mesh.mesh_of_vertex)
                                : joined_ids(mesh);
-  mesh.pieces.clear();
+  mesh.mesh_of_vertex.clear();
   mesh.vertex_ids.clear();
   mesh.positions = Positions(mesh.positions(by.first_copies, kAllColumns));
   if (mesh.colours.rows() > 0) mesh.colours = Positions(mesh.colours(by.first_copies, kAllColumns));
@@ -71,7 +71,7 @@ void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vect
 }
 
 bool join_split_vertices(FileMesh& mesh) {
-  if (mesh.pieces.empty() && mesh.vertex_ids.empty()) return false;
+  if (mesh.mesh_of_vertex.empty() && mesh.vertex_ids.empty()) return false;
   const Index split = mesh.positions.rows();
   join_vertices(mesh);
   join_uvs(mesh);

@@ -29,7 +29,7 @@ struct FileMesh : Mesh {
   std::vector<MaterialRange> materials;  ///< ranges of polygons, ascending; may be empty
   /// #V: for each vertex, the index of its mesh among the meshes of the file. Only for formats that
   /// split vertices at seams; empty for other formats.
-  std::vector<std::uint32_t> pieces;
+  std::vector<std::uint32_t> mesh_of_vertex;
   std::vector<std::uint32_t>
       vertex_ids;  ///< #V: vertex ids before the split; empty if the file does not store them
   std::vector<MeshTexture> textures;  ///< textures of the materials

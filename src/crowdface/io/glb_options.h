@@ -19,8 +19,9 @@ struct GlbMaterial {
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
   /// Index of the base colour image. Viewers multiply the image's colours by `colour`.
   std::optional<std::size_t> image = {};
-  bool overlay = false;  ///< whether the base colour comes from the overlay image; the material is
-                         ///< then opaque
+  bool uses_overlay =
+      false;  ///< whether the base colour comes from the overlay image; the material is
+              ///< then opaque
   std::optional<std::size_t> normal_image = {};  ///< index of the tangent-space normal map
   /// Index of the roughness map, which holds roughness in its green channel.
   std::optional<std::size_t> roughness_image = {};
@@ -33,7 +34,7 @@ struct GlbOverlay {
 
   std::string png;
   /// #V: texture coordinates of each vertex from 0 (left, upper edge) to 65535 (right, lower edge)
-  std::vector<std::array<std::uint16_t, 2>> places;
+  std::vector<std::array<std::uint16_t, 2>> uvs;
 };
 
 /// A morph target that every file has: its name, and (in ascending order) the vertices that it
@@ -56,14 +57,14 @@ struct GlbOptions {
   /// Front axis of the positions; the file's root node rotates this axis to +Z, glTF's front.
   Axis front = {2, 1};
   std::vector<GlbMaterial> materials;
-  bool colours = false;  ///< whether each file has its own vertex colours
+  bool has_colours = false;  ///< whether each file has its own vertex colours
   /// #F: the material of each polygon, as an index into `materials`; empty if there are no
   /// materials
   std::vector<std::uint32_t> face_materials;
   std::vector<GlbTarget> targets;
   /// Names of the points. Each point is a child of the face's node; its position differs from face
   /// to face.
-  std::vector<std::string> points;
+  std::vector<std::string> point_names;
   GlbSkin skin;  ///< joints below the face's node; their positions differ from face to face
   std::vector<std::uint32_t> vertex_ids;  ///< #V: values of `_VERTEX_ID`; empty: the values are 0,
                                           ///< 1, 2, …

@@ -63,24 +63,24 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   const SplitVertices split = split_vertices(topology);
   source_vertices_ = split.vertices;
   has_uvs_ = !split.uvs.empty() && uvs.rows() > 0;
-  if (has_uvs_) shared_ = texture_coordinates(split, uvs);
+  if (has_uvs_) shared_data_ = texture_coordinates(split, uvs);
   if (influences.group_count() > 0) skin_ = skin_attributes(influences, source_vertices_);
-  for (GlbSkinAttribute& one : skin_) shared_ += std::exchange(one.bytes, {});
+  for (GlbSkinAttribute& one : skin_) shared_data_ += std::exchange(one.bytes, {});
   for (std::size_t m = 0; m < materials.size(); ++m) {
     std::size_t indices = 0;
     for (std::size_t t = 0; t < split.triangles.size(); ++t) {
       if (face_materials[split.triangle_faces[t]] != m) continue;
-      for (const std::uint32_t vertex : split.triangles[t]) append_number(shared_, vertex);
+      for (const std::uint32_t vertex : split.triangles[t]) append_number(shared_data_, vertex);
       indices += 3;
     }
     if (indices > 0) primitives_.push_back({m, indices});
   }
   for (const GlbImage& image : images) {
-    shared_ += image.bytes;
+    shared_data_ += image.bytes;
     image_sizes_.push_back(image.bytes.size());
     images_.push_back({{}, image.type, image.name});
   }
-  shared_.append((4 - shared_.size() % 4) % 4, '\0');
+  shared_data_.append((4 - shared_data_.size() % 4) % 4, '\0');
 }
 
 std::size_t GlbPart::describe(Json& scene, const Positions& positions,
@@ -102,9 +102,9 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
   bounded["max"] = vector_json(positions.colwise().maxCoeff());
   add_attribute("NORMAL", "VEC3", 3);
   if (has_uvs_) add_attribute("TEXCOORD_0", "VEC2", 2);
-  for (const GlbSkinAttribute& one : skin_) add_attribute(one.name, "VEC4", 4, one.component);
+  for (const GlbSkinAttribute& one : skin_) add_attribute(one.name, "VEC4", 4, one.component_type);
   std::size_t all = 0;
-  for (const Primitive& primitive : primitives_) all += primitive.indices;
+  for (const Primitive& primitive : primitives_) all += primitive.index_count;
   buffer.add_view(all * sizeof(std::uint32_t), kElementArrayBuffer);
   const std::size_t first_texture = scene.contains("textures") ? scene["textures"].size() : 0;
   Json primitives = Json::array();
@@ -116,9 +116,9 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
     scene["materials"].push_back(material_json_of(own, first_texture));
     primitives.push_back(
         {{"attributes", attributes},
-         {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", primitive.indices, offset)},
+         {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", primitive.index_count, offset)},
          {"material", material}});
-    offset += primitive.indices * sizeof(std::uint32_t);
+    offset += primitive.index_count * sizeof(std::uint32_t);
   }
   for (std::size_t i = 0; i < image_sizes_.size(); ++i) {
     add_image(scene, buffer.add_view(image_sizes_[i]), images_[i].name, images_[i].type);
@@ -156,7 +156,7 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
     for (const std::uint32_t vertex : source_vertices_) at = put_row(at, *rows, vertex);
   }
   file.refer_to({vectors, length});
-  file.refer_to(shared_);
+  file.refer_to(shared_data_);
   if (!look.image.empty()) {
     file.refer_to(look.image);
     file.add(std::string((4 - look.image.size() % 4) % 4, '\0'));
@@ -174,7 +174,7 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
   }
 }
 
-std::size_t GlbPart::encode_bytes() const {
+std::size_t GlbPart::encoding_memory_bytes() const {
   return 2 * source_vertices_.size() * kVectorSize +
          static_cast<std::size_t>(topology_.vertex_count) * 3 * sizeof(double) +
          targets_.size() * source_vertices_.size() * (sizeof(std::uint32_t) + kVectorSize);

@@ -29,8 +29,8 @@ struct GlbPartMaterial {
   };
   std::string name;
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
-  /// Index of the base colour image among the part's images. An index equal to the number of the
-  /// part's images stands for the image of the PartLook.
+  /// Index of the base colour image among the part's images. If the index equals the number of the
+  /// part's images, the material uses the image of the PartLook.
   std::optional<std::size_t> image = {};
   Alpha alpha = Alpha::kOpaque;
 };
@@ -72,15 +72,15 @@ class GlbPart {
   void append(EncodedFile& file, const Positions& positions, std::span<const Displacements> moves,
               const PartLook& look) const;
 
-  std::size_t memory_bytes() const { return shared_.size(); }
+  std::size_t memory_bytes() const { return shared_data_.size(); }
   /// Upper bound of the memory needed to encode one file, in bytes. Counts the positions, the
   /// normals with their double-precision intermediate values, and morph targets in which every
   /// vertex moves.
-  std::size_t encode_bytes() const;
+  std::size_t encoding_memory_bytes() const;
 
  private:
   struct Primitive {
-    std::size_t material, indices;  ///< index of the material; number of indices
+    std::size_t material, index_count;  ///< index of the material; number of indices
   };
 
   std::string name_;
@@ -95,7 +95,7 @@ class GlbPart {
   std::vector<GlbSkinAttribute> skin_;  ///< without `bytes`; empty: not skinned
   std::vector<std::string> targets_;
   FixedNormals fixed_normals_;
-  std::string shared_;  ///< texture coordinates, influences, triangles, images
+  std::string shared_data_;  ///< texture coordinates, influences, triangles, images
 };
 
 /// A `GlbPart` and its positions for one face.

@@ -39,13 +39,13 @@ Json material_json(const GlbMaterial& material, std::size_t overlay) {
   if (!material.name.empty()) json["name"] = material.name;
   Json colour = Json::array();
   for (const float part : material.colour) {
-    colour.push_back(material.overlay ? 1.0 : rounded(part) + 0.0);
+    colour.push_back(material.uses_overlay ? 1.0 : rounded(part) + 0.0);
   }
   json["pbrMetallicRoughness"] = {
       {"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.6}};
   if (material.image) {
     json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *material.image}};
-  } else if (material.overlay) {
+  } else if (material.uses_overlay) {
     json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", overlay}, {"texCoord", 1}};
   }
   if (material.roughness_image) {
@@ -59,7 +59,7 @@ Json material_json(const GlbMaterial& material, std::size_t overlay) {
   return json;
 }
 
-Json node_json(const GlbOptions& options) {
+Json root_node_json(const GlbOptions& options) {
   Json node = {{"name", ""}};
   if (options.skin.joints.empty()) node = {{"mesh", 0}, {"name", ""}};
   const auto rotation = rotation_to_gltf(options.up, options.front);

@@ -25,7 +25,7 @@ nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t ov
 
 /// The root node of a face, without a name. Its transform converts unit and axes. In a file with a
 /// rig, this node is the parent of the joints, and the mesh has a separate node.
-nlohmann::ordered_json node_json(const GlbOptions& options);
+nlohmann::ordered_json root_node_json(const GlbOptions& options);
 
 /// Adds an image and a texture that uses it.
 /// \param view  index of the buffer view that holds the image.

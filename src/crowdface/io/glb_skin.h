@@ -38,7 +38,7 @@ struct GlbSkin {
 /// The attribute JOINTS_n or WEIGHTS_n: its component type and its data.
 struct GlbSkinAttribute {
   std::string name;
-  int component;
+  int component_type;
   std::string bytes;
 };
 /// Builds pairs of JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex; the vertex with
@@ -47,8 +47,9 @@ struct GlbSkinAttribute {
 std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices);
 
-/// Adds the nodes of the joints, as children of the first node, and the skin. `set_joint_positions`
-/// later sets the positions of the joints.
+/// Adds the skin and the joints' nodes; joints without a parent become children of the first node.
+/// `set_joint_positions` later sets the positions of the joints.
+/// \param matrices  index of the accessor of the inverse bind matrices
 void add_joints(const GlbSkin& skin, std::size_t matrices, nlohmann::ordered_json& scene);
 /// Sets the positions of the joints.
 /// \param first  index of the first joint's node

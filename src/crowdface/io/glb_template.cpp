@@ -56,7 +56,7 @@ std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32
 std::string places_on_overlay(const SplitVertices& split, const GlbOverlay& overlay) {
   std::string bytes;
   for (const std::uint32_t vertex : split.vertices) {
-    for (const std::uint16_t place : overlay.places[vertex]) append_number(bytes, place);
+    for (const std::uint16_t place : overlay.uvs[vertex]) append_number(bytes, place);
   }
   return bytes;
 }
@@ -84,7 +84,7 @@ Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, 
   attributes["_VERTEX_ID"] = buffer.add_accessor(kFloat, "SCALAR", vertices);
   for (const GlbSkinAttribute& one : skin) {
     buffer.add_view(one.bytes.size(), kArrayBuffer);
-    attributes[one.name] = buffer.add_accessor(one.component, "VEC4", vertices);
+    attributes[one.name] = buffer.add_accessor(one.component_type, "VEC4", vertices);
   }
   return attributes;
 }
@@ -108,7 +108,8 @@ void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>
     if (!options.materials.empty()) {
       primitive["material"] = materials.size();
       materials.push_back(material_json(options.materials[g], options.images.size()));
-      if (overlay && options.materials[g].overlay) primitive["attributes"]["TEXCOORD_1"] = *overlay;
+      if (overlay && options.materials[g].uses_overlay)
+        primitive["attributes"]["TEXCOORD_1"] = *overlay;
     }
     primitives.push_back(std::move(primitive));
     offset += groups[g].size() * sizeof(groups[g][0]);
@@ -164,9 +165,9 @@ void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32
 GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
                          const GlbOptions& options)
     : vertex_count_(topology.vertex_count),
-      has_colours_(options.colours),
+      has_colours_(options.has_colours),
       image_count_(options.images.size()),
-      point_count_(static_cast<Index>(options.points.size())) {
+      point_count_(static_cast<Index>(options.point_names.size())) {
   constexpr Index kMaxVertices = 1 << 24;
   if (vertex_count_ > kMaxVertices || topology.face_count() == 0) {
     throw InvalidInput(concat("GLB: expected a mesh with faces and at most ", kMaxVertices,
@@ -187,8 +188,8 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   scene["asset"] = {{"version", "2.0"}, {"generator", "crowdface"}};
   scene["scene"] = 0;
   scene["scenes"] = Json::array({Json::object({{"nodes", Json::array({0})}})});
-  scene["nodes"] = Json::array({node_json(options)});
-  for (const std::string& point : options.points) {
+  scene["nodes"] = Json::array({root_node_json(options)});
+  for (const std::string& point : options.point_names) {
     scene["nodes"][0]["children"].push_back(scene["nodes"].size());
     scene["nodes"].push_back({{"name", point}, {"translation", {0.0, 0.0, 0.0}}});
   }
@@ -198,13 +199,13 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   if (!options.skin.joints.empty()) {
     skin = skin_attributes(options.skin.influences, split.vertices);
   }
-  const Json attributes = attributes_json(buffer, split.vertices.size(), options.colours,
+  const Json attributes = attributes_json(buffer, split.vertices.size(), options.has_colours,
                                           has_normal_map, !split.uvs.empty(), skin);
   std::optional<std::size_t> places, picture;
   if (options.overlay) {
-    require(options.overlay->places.size() == static_cast<std::size_t>(vertex_count_),
+    require(options.overlay->uvs.size() == static_cast<std::size_t>(vertex_count_),
             "GlbTemplate: a place of each vertex on the overlay");
-    buffer.add_view(split.vertices.size() * sizeof(options.overlay->places[0]), kArrayBuffer);
+    buffer.add_view(split.vertices.size() * sizeof(options.overlay->uvs[0]), kArrayBuffer);
     places = buffer.add_accessor(kUnsignedShort, "VEC2", split.vertices.size());
     scene["accessors"][*places]["normalized"] = true;
   }
@@ -245,13 +246,14 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   add_images(scene, picture, options);
   json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 
-  shared_ = texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
-  for (const GlbSkinAttribute& one : skin) shared_ += one.bytes;
-  if (options.overlay) shared_ += places_on_overlay(split, *options.overlay);
+  shared_data_ = texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
+  for (const GlbSkinAttribute& one : skin) shared_data_ += one.bytes;
+  if (options.overlay) shared_data_ += places_on_overlay(split, *options.overlay);
   for (const Triangles& group : groups) {
-    shared_.append(reinterpret_cast<const char*>(group.data()), group.size() * sizeof(group[0]));
+    shared_data_.append(reinterpret_cast<const char*>(group.data()),
+                        group.size() * sizeof(group[0]));
   }
-  shared_ += indices;
+  shared_data_ += indices;
 }
 
 std::size_t GlbTemplate::vector_bytes() const {
@@ -259,7 +261,8 @@ std::size_t GlbTemplate::vector_bytes() const {
 }
 
 std::size_t GlbTemplate::memory_bytes() const {
-  return shared_.size() + json_.size() + copied_vertices_.size() * sizeof(copied_vertices_[0]) +
+  return shared_data_.size() + json_.size() +
+         copied_vertices_.size() * sizeof(copied_vertices_[0]) +
          target_bytes_ / kVectorSize * sizeof(std::uint32_t) +
          (tangents_ ? tangents_->memory_bytes() : 0);
 }
@@ -300,7 +303,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
     Json& called = scene["images"][i]["name"];
     called = name + called.get<std::string>();
   }
-  const std::size_t arrays_size = encode_bytes() + shared_.size();
+  const std::size_t arrays_size = encoding_memory_bytes() + shared_data_.size();
   const std::size_t own_size =
       images.empty() ? arrays_size : place_images(scene, arrays_size, images);
   std::size_t binary_size = own_size;
@@ -327,7 +330,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
 
   EncodedFile file;
   file.add(head);
-  char* vectors = file.reserve(encode_bytes());
+  char* vectors = file.reserve(encoding_memory_bytes());
   put_vectors(vectors, positions, copied_vertices_);
   put_vectors(vectors + vector_bytes(), normals, copied_vertices_);
   char* const values = vectors + vertex_bytes();
@@ -337,7 +340,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
     tangents_->write(values - tangents_->count() * Tangents::kSize, positions, normals);
   }
   file.refer_to({vectors, static_cast<std::size_t>(values - vectors)});
-  file.refer_to(shared_);
+  file.refer_to(shared_data_);
   char* at = values;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     for (const std::uint32_t row : targets_[t].rows) at = put_row(at, moves[t].moves, row);

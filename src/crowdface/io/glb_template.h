@@ -53,7 +53,9 @@ class GlbTemplate {
   /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
   /// Memory needed to encode one file, in bytes.
-  std::size_t encode_bytes() const { return vertex_bytes() + target_bytes_ + skin_.matrix_bytes(); }
+  std::size_t encoding_memory_bytes() const {
+    return vertex_bytes() + target_bytes_ + skin_.matrix_bytes();
+  }
 
  private:
   std::size_t vector_bytes() const;
@@ -70,7 +72,7 @@ class GlbTemplate {
   /// The original vertex of each split vertex with an index ≥ #V.
   std::vector<std::uint32_t> copied_vertices_;
   std::optional<Tangents> tangents_;    ///< set if a material has a normal map
-  std::string shared_;                  ///< the part of the buffer that is the same in all files
+  std::string shared_data_;             ///< the part of the buffer that is the same in all files
   std::vector<GlbTargetRows> targets_;  ///< without the lists of vertices
   /// Index of the accessor of the first morph target's displacements; the accessors of further
   /// morph targets follow.

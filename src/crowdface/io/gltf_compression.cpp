@@ -50,13 +50,13 @@ std::optional<DracoMesh> decode_draco(std::string_view bytes,
   if (!decoded.ok()) return std::nullopt;
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
   DracoMesh result;
-  result.points = mesh->num_points();
-  if (result.points > input_limits().vertices || mesh->num_faces() > input_limits().faces) {
+  result.point_count = mesh->num_points();
+  if (result.point_count > input_limits().vertices || mesh->num_faces() > input_limits().faces) {
     return std::nullopt;
   }
   for (draco::FaceIndex f(0); f < mesh->num_faces(); ++f) {
     for (const draco::PointIndex& corner : mesh->face(f)) {
-      if (corner.value() >= result.points) return std::nullopt;
+      if (corner.value() >= result.point_count) return std::nullopt;
       result.corners.push_back(corner.value());
     }
   }
@@ -64,7 +64,7 @@ std::optional<DracoMesh> decode_draco(std::string_view bytes,
     const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(id);
     if (attribute == nullptr) return std::nullopt;
     std::vector<double>& rows = result.attributes.emplace_back();
-    rows.reserve(result.points * width);
+    rows.reserve(result.point_count * width);
     std::vector<float> row(width);
     for (draco::PointIndex p(0); p < mesh->num_points(); ++p) {
       const draco::AttributeValueIndex value = attribute->mapped_index(p);

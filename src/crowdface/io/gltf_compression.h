@@ -21,13 +21,13 @@ std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptV
 
 /// A decoded Draco mesh: triangles, and attributes in row-major order.
 struct DracoMesh {
-  std::size_t points = 0;
+  std::size_t point_count = 0;
   std::vector<std::uint32_t> corners;
   std::vector<std::vector<double>> attributes;  ///< one for each requested attribute
 };
 struct DracoAttribute {
   std::uint32_t id = 0;
-  std::size_t width = 0;
+  std::size_t component_count = 0;
 };
 /// Decompresses a Draco mesh.
 /// \param attributes  for each attribute to decode: its id and its number of components.

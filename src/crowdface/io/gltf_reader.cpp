@@ -178,7 +178,7 @@ class GltfMeshReader {
     add_faces(part.corners, mode, rows.first, place, material);
   }
 
-  std::size_t pieces() const { return mesh_.pieces.size(); }
+  std::size_t pieces() const { return mesh_.mesh_of_vertex.size(); }
 
   Primitive read(const GltfJson& json, const std::string& uv_set) {
     const GltfJson& attributes = json.at("attributes");
@@ -236,7 +236,7 @@ class GltfMeshReader {
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d point = transform_point(place, &part.places[3 * i]);
       points_.insert(points_.end(), point.data(), point.data() + 3);
-      mesh_.pieces.push_back(piece_);
+      mesh_.mesh_of_vertex.push_back(piece_);
       uv_rows_.push_back(has_uvs ? static_cast<std::uint32_t>(uvs_.size() / 2) : kNoIndex);
       if (has_uvs) {
         const double u = part.uvs[2 * i] * uv.scale_x, v = part.uvs[2 * i + 1] * uv.scale_y;

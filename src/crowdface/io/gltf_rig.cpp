@@ -54,9 +54,9 @@ class RigReader {
         if (read.emplace(positions, true).second) add(primitive.at("attributes"), n, skin);
       }
     }
-    rig_.points.resize(static_cast<Index>(points_.size()), 3);
+    rig_.positions.resize(static_cast<Index>(points_.size()), 3);
     for (std::size_t p = 0; p < points_.size(); ++p) {
-      rig_.points.row(static_cast<Index>(p)) = points_[p].transpose();
+      rig_.positions.row(static_cast<Index>(p)) = points_[p].transpose();
     }
     if (rig_.vertex_ids.size() != points_.size()) rig_.vertex_ids.clear();
     return std::move(rig_);
@@ -121,7 +121,7 @@ class RigReader {
         file_.fail("a skin lacks inverse bind matrices");
     }
     for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-      skin.at_rest.push_back(rig_.joints[skin.joints[j]].rest);
+      skin.at_rest.push_back(rig_.joints[skin.joints[j]].rest_transform);
       if (inverses.empty()) continue;
       const auto first = inverses.begin() + static_cast<std::ptrdiff_t>(16 * j);
       skin.at_rest.back() = matrix_product(skin.at_rest.back(), matrix_from({first, first + 16}));

@@ -17,18 +17,18 @@ namespace crowdface {
 struct GltfRig {
   struct Joint {
     std::string name;
-    std::uint32_t parent;  ///< kNoIndex: no parent
-    Eigen::Matrix4d rest;  ///< from the joint's axes to the file's axes
+    std::uint32_t parent;            ///< kNoIndex: no parent
+    Eigen::Matrix4d rest_transform;  ///< from the joint's axes to the file's axes
   };
   std::vector<Joint> joints;
-  Positions points;  ///< vertices of all meshes, one mesh after the other
-  /// #points: the value of `_VERTEX_ID` of each vertex; empty if the file lacks this attribute
+  Positions positions;  ///< vertices of all meshes, one mesh after the other
+  /// #V: the value of `_VERTEX_ID` of each vertex; empty if the file lacks this attribute
   std::vector<std::uint32_t> vertex_ids;
-  CompressedRows<Influence> influences;  ///< #points
+  CompressedRows<Influence> influences;  ///< #V
 };
 
 /// Reads a GLB file. A mesh without a skin counts as rigidly bound to its parent joint.
-/// \throws InvalidInput if the file is not GLB, has no joints, has a mesh without a joint above it,
+/// \throws InvalidInput if the file is not GLB, has no joints, has a mesh that is not below a joint,
 /// or stores JOINTS_n or WEIGHTS_n with a component type that glTF does not allow; MissingInput.
 GltfRig read_gltf_rig(const std::filesystem::path& path);
 

@@ -26,14 +26,15 @@ using std::filesystem::path;
 /// \return the format's name in OpenImageIO.
 std::string checked_format(const path& file, std::string_view bytes, const ImageLimits& limits) {
   std::string format = image_format(bytes);
-  if (limits.jpeg && bytes.starts_with("\xFF\xD8\xFF")) format = "jpeg";
+  if (limits.allows_jpeg && bytes.starts_with("\xFF\xD8\xFF")) format = "jpeg";
   if (format.empty()) {
     refuse_file(file,
                 concat("expected a PNG, TIFF or OpenEXR image, found ",
                        bytes.empty() ? "an empty file"
                                      : "a file that begins with " + quoted(bytes.substr(0, 8))));
   }
-  if (const std::string defect = container_defect(format, bytes, limits.max_side, limits.jpeg);
+  if (const std::string defect =
+          container_defect(format, bytes, limits.max_side, limits.allows_jpeg);
       !defect.empty()) {
     refuse_file(file, defect);
   }
@@ -87,7 +88,7 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 }
 
 /// Rejects PNG headers that claim more pixels than the file can contain, because memory for all
-/// pixels is allocated before decoding. TIFFs are checked before they are opened (`tiff_defect`);
+/// pixels is allocated before decoding. TIFFs are checked before they are opened (`tiff_defect`).
 /// For OpenEXR and JPEG, the file size does not limit the number of pixels; only the memory limit
 /// for all images does.
 void check_png_claim(const path& file, std::string_view bytes, const ImageHeader& spec) {
@@ -103,7 +104,7 @@ void check_png_claim(const path& file, std::string_view bytes, const ImageHeader
 }
 
 void check_kind(const path& file, std::string_view format, const ImageHeader& spec) {
-  if (spec.deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
+  if (spec.is_deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
   // Only OpenEXR has display windows. In other formats an offset says from where in a larger image
   // this image was cropped.
   const bool has_windows = format == "openexr";
@@ -127,17 +128,17 @@ void* make_room(Image& image, std::size_t values) {
 
 void* make_room(const path& file, const ImageHeader& facts, Image& image) {
   const std::size_t values = value_count(facts);
-  using Values = ImageHeader::Values;
-  if (facts.values == Values::kBytes) return make_room<std::uint8_t>(image, values);
-  if (facts.values == Values::kWords) return make_room<std::uint16_t>(image, values);
-  if (facts.values == Values::kFloats) return make_room<float>(image, values);
-  refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type));
+  using ValueType = ImageHeader::ValueType;
+  if (facts.value_type == ValueType::kBytes) return make_room<std::uint8_t>(image, values);
+  if (facts.value_type == ValueType::kWords) return make_room<std::uint16_t>(image, values);
+  if (facts.value_type == ValueType::kFloats) return make_room<float>(image, values);
+  refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type_name));
 }
 
 /// Number of bytes of the decoded pixels. Integers keep the type that they have in the file.
 std::uint64_t pixel_bytes(const ImageHeader& facts) {
-  const bool bytes = facts.values == ImageHeader::Values::kBytes;
-  const bool words = facts.values == ImageHeader::Values::kWords;
+  const bool bytes = facts.value_type == ImageHeader::ValueType::kBytes;
+  const bool words = facts.value_type == ImageHeader::ValueType::kWords;
   return value_count(facts) * (bytes ? 1 : words ? 2 : sizeof(float));
 }
 
@@ -298,8 +299,8 @@ ImageSize read_image_size(const path& file, const ImageLimits& limits) {
   const MappedFile mapped(file);
   const ImageHeader facts = open_checked(file, mapped, limits).facts;
   return {facts.full_width, facts.full_height, facts.channels,
-          facts.values == ImageHeader::Values::kBytes,
-          facts.values == ImageHeader::Values::kFloats};
+          facts.value_type == ImageHeader::ValueType::kBytes,
+          facts.value_type == ImageHeader::ValueType::kFloats};
 }
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {

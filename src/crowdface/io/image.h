@@ -21,7 +21,7 @@ using ImageMemory = std::shared_ptr<const void>;
 /// \throws InvalidInput, naming the file, if all images together would exceed the limit.
 ImageMemory reserve_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
-/// Number of bytes of the memory limit for all images that are not reserved at present.
+/// How many bytes of the memory limit for all images are unreserved at present.
 std::uint64_t available_image_memory();
 
 /// An image with the exact values of the file: the value type of the file, no gamma conversion,
@@ -60,7 +60,7 @@ struct ImageLimits {
   int max_side = 16384;  ///< pixels
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
-  bool jpeg = false;                     ///< whether to accept JPEG; true for colour textures,
+  bool allows_jpeg = false;              ///< whether to accept JPEG; true for colour textures,
                                          ///< false for masks
   bool is_own_file = false;  ///< whether this program wrote the file; if so, `input_limits()` does
                              ///< not apply

@@ -15,10 +15,11 @@ struct ImageHeader {
   int tile_width = 0, tile_height = 0;                          ///< 0: the image is not tiled
   int alpha_channel = -1;
   std::vector<std::string> channel_names;  ///< if the format has any
-  bool deep = false;
-  enum class Values { kBytes, kWords, kFloats, kOthers };
-  Values values = Values::kOthers;  ///< type after reading: 8 bits, 16 bits or single precision
-  std::string type;                 ///< value type in the file, for messages
+  bool is_deep = false;
+  enum class ValueType { kBytes, kWords, kFloats, kOthers };
+  ValueType value_type =
+      ValueType::kOthers;  ///< type after reading: 8 bits, 16 bits or single precision
+  std::string type_name;   ///< value type in the file, for messages
 };
 
 /// Pixels to be encoded as a file.
@@ -41,7 +42,7 @@ struct ImageCodec {
   void* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
                 ImageHeader& facts, std::string& error);
   /// Reads all pixels of an open image.
-  /// \param pixels  buffer for all pixels, of the type given by `ImageHeader::values`.
+  /// \param pixels  buffer for all pixels, of the type given by `ImageHeader::value_type`.
   /// \return whether the pixels could be read.
   bool (*read)(void* picture, void* pixels, std::string& error);
   void (*close)(void* picture);

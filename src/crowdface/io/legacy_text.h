@@ -7,8 +7,9 @@
 
 namespace crowdface {
 
-/// Decodes bytes that are not UTF-8 as GBK (GB 18030), Shift-JIS and Latin-1 (Windows-1252), and
-/// returns each valid result as UTF-8. Empty if the bytes are UTF-8.
+/// Decodes a text of unknown encoding as GBK (GB 18030), as Shift-JIS and as Latin-1
+/// (Windows-1252). Returns each valid result, converted to UTF-8; nothing if the text already is
+/// UTF-8.
 std::vector<std::string> legacy_decodings(std::string_view bytes);
 
 }  // namespace crowdface

@@ -66,8 +66,8 @@ class Collector {
 
   void add_library(const std::string& argument) {
     throw_if_interrupted();
-    // The argument may be one name with spaces, or a list of names. If a file has the whole
-    // argument as its name, it is one name.
+    // The argument may be one name with spaces, or a list of names. It is one name if a file with
+    // this name exists.
     if (exists(argument)) return take_library(argument);
     if (const auto beside = library_beside(argument)) return take_renamed(*beside);
     for (const std::string& name : words_of(argument)) {

@@ -40,7 +40,7 @@ inline constexpr std::string_view kBlendedFolder = "blended";
 /// The first word of a line in a material file, and the text after this word; nothing if the line
 /// has fewer than two words.
 struct MaterialStatement {
-  std::string_view word, rest;
+  std::string_view keyword, arguments;
 };
 MaterialStatement material_statement(std::string_view line);
 /// Whether a statement with this first word names a texture.

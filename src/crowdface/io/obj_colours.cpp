@@ -22,8 +22,8 @@ bool is_vertex(std::string_view line) {
 
 }  // namespace
 
-ColourRows byte_colours(const Positions& shares) {
-  return (kMaxByte * shares.array()).round().matrix().cast<std::uint8_t>();
+ColourRows byte_colours(const Positions& fractions) {
+  return (kMaxByte * fractions.array()).round().matrix().cast<std::uint8_t>();
 }
 
 Positions colour_fractions(const ColourRows& colours) {

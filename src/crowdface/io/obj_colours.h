@@ -12,8 +12,9 @@
 
 namespace crowdface {
 
-/// These functions convert sRGB colours from values between 0 and 1 to bytes, and back.
-ColourRows byte_colours(const Positions& shares);
+/// Converts sRGB colours from fractions (0 to 1) to bytes.
+ColourRows byte_colours(const Positions& fractions);
+/// Converts sRGB colours from bytes to fractions (0 to 1).
 Positions colour_fractions(const ColourRows& colours);
 
 /// The colours of the `v` lines; no rows if any line lacks a colour. If values exceed 1, all values
@@ -25,8 +26,8 @@ ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 /// lines.
 std::string with_colours(std::string_view text, const ColourRows& colours);
 
-/// Returns the text after the colours of `#MRGB` lines are moved to the `v` lines. Returns nothing
-/// unless `#MRGB` lines give a colour for every vertex.
+/// Moves the colours of `#MRGB` lines to the `v` lines. \return the new text; nothing unless
+/// `#MRGB` lines give a colour for every vertex.
 std::optional<std::string> move_polypaint_to_vertices(std::string_view text);
 
 }  // namespace crowdface

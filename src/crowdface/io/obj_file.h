@@ -31,10 +31,10 @@ struct ObjFile {
   bool has_reversed_faces = false;  ///< see with_outward_faces
   /// Path of some file in the folder that holds the material files. Empty if the material files are
   /// in the folder of `path`.
-  std::filesystem::path textures_at;
+  std::filesystem::path material_base;
 
   const std::filesystem::path& material_path() const {
-    return textures_at.empty() ? path : textures_at;
+    return material_base.empty() ? path : material_base;
   }
 };
 
@@ -50,7 +50,7 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
 
 /// Reads an OBJ file whose polygons and texture coordinates equal those of an earlier file. The
 /// result's topology, texture coordinates and corner normals stay empty.
-/// \param outline  outline of this file; its hash `mesh` must equal that of the earlier file.
+/// \param outline  outline of this file; its `mesh_digest` must equal that of the earlier file.
 ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file,
                               const ObjOutline& outline);
 

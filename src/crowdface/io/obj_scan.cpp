@@ -69,18 +69,18 @@ bool is_of(std::string_view line, std::string_view statement) {
 }
 
 /// Counts the lines of each kind, so that a later single pass can check the indices. Also computes
-/// the hash `ObjOutline::mesh`.
+/// the hash `ObjOutline::mesh_digest`.
 class Outliner {
  public:
   void look_at(std::string_view whole_line) {
     const std::string_view line = without_blanks_before(whole_line);
     if (line.empty() || line[0] == '#') return;
     if (is_of(line, "v")) {
-      ++outline_.vertices;
+      ++outline_.vertex_count;
       return;
     }
     if (is_of(line, "vn")) {
-      ++outline_.normals;
+      ++outline_.normal_count;
       return;
     }
     for (const std::string_view statement : {"g", "o", "usemtl", "mtllib"}) {
@@ -90,14 +90,14 @@ class Outliner {
       hasher_.add(statement);
       return;
     }
-    if (is_of(line, "f")) ++outline_.faces;
-    if (is_of(line, "vt")) ++outline_.uvs;
+    if (is_of(line, "f")) ++outline_.face_count;
+    if (is_of(line, "vt")) ++outline_.uv_count;
     take(whole_line);
   }
   ObjOutline end() {
     add_run();
     mark_place();
-    outline_.mesh = hasher_.digest();
+    outline_.mesh_digest = hasher_.digest();
     return outline_;
   }
 
@@ -120,7 +120,7 @@ class Outliner {
   }
   /// Adds to the hash how many vertices and normals precede this line, because relative indices
   /// count back from these numbers.
-  void mark_place() { hasher_.add(outline_.vertices).add(outline_.normals); }
+  void mark_place() { hasher_.add(outline_.vertex_count).add(outline_.normal_count); }
 
   ObjOutline outline_;
   Hasher hasher_;
@@ -136,25 +136,26 @@ class Scanner {
     if (text_.starts_with("\xEF\xBB\xBF")) {
       fail("expected plain text, found a byte-order mark; save the file as UTF-8 without BOM");
     }
-    require_at_most(input_limits().vertices, total_.vertices, "vertices");
+    require_at_most(input_limits().vertices, total_.vertex_count, "vertices");
     // A vertex may have several texture coordinates and normals, so their limits are kMaxPerVertex
     // times the limit of vertices.
-    require_at_most(kMaxPerVertex * input_limits().vertices, total_.uvs, "texture coordinates");
-    require_at_most(kMaxPerVertex * input_limits().vertices, total_.normals, "normals");
-    require_at_most(input_limits().faces, total_.faces, "faces");
-    scan_.positions.resize(static_cast<Index>(total_.vertices), 3);
-    scan_.uvs.resize(lines_ == ObjLines::kAll ? static_cast<Index>(total_.uvs) : 0, 2);
+    require_at_most(kMaxPerVertex * input_limits().vertices, total_.uv_count,
+                    "texture coordinates");
+    require_at_most(kMaxPerVertex * input_limits().vertices, total_.normal_count, "normals");
+    require_at_most(input_limits().faces, total_.face_count, "faces");
+    scan_.positions.resize(static_cast<Index>(total_.vertex_count), 3);
+    scan_.uvs.resize(lines_ == ObjLines::kAll ? static_cast<Index>(total_.uv_count) : 0, 2);
     for_each_line(text_, [&](std::string_view line) {
       ++line_number_;
       in_cut_line_ = line.data() + line.size() == text_.data() + text_.size();
       if (lines_ == ObjLines::kAll || !passes_over(line)) check(line);
     });
     in_cut_line_ = false;
-    if (total_.vertices == 0 && first_other_line_ != 0) {
+    if (total_.vertex_count == 0 && first_other_line_ != 0) {
       line_number_ = first_other_line_;
       fail(concat("expected an OBJ statement, found ", quoted(first_other_)));
     }
-    if (total_.vertices == 0) {
+    if (total_.vertex_count == 0) {
       throw InvalidInput(concat(name_, ": expected a mesh, found no vertex ('v' line)"));
     }
     if (scan_.face_count == 0) {
@@ -252,7 +253,7 @@ class Scanner {
 
   void vertex() {
     require_words(3, 8, "3 coordinates (and at most w and a colour)");
-    const auto row = static_cast<Index>(seen_.vertices++);
+    const auto row = static_cast<Index>(seen_.vertex_count++);
     for (std::size_t c = 0; c < 3; ++c) {
       scan_.positions(row, static_cast<Index>(c)) = number(words_[c + 1], kLargestCoordinate);
     }
@@ -261,7 +262,7 @@ class Scanner {
 
   void texture_coordinate() {
     require_words(1, 3, "2 texture coordinates (and at most w)");
-    const auto row = static_cast<Index>(seen_.uvs++);
+    const auto row = static_cast<Index>(seen_.uv_count++);
     for (std::size_t c = 1; c < words_.size(); ++c) {
       const double value = number(words_[c], kLargestCoordinate);
       if (c <= 2) scan_.uvs(row, static_cast<Index>(c) - 1) = value;
@@ -272,7 +273,7 @@ class Scanner {
   void normal() {
     require_words(3, 3, "3 components of a normal");
     for (std::size_t c = 1; c < 4; ++c) number(words_[c], std::numeric_limits<double>::max());
-    ++seen_.normals;
+    ++seen_.normal_count;
   }
 
   /// Checks a 1-based index against the number of rows, or a relative index (negative) against the
@@ -317,17 +318,17 @@ class Scanner {
   int corner(std::string_view word) const {
     const std::size_t first = word.find('/');
     const std::size_t second = first == word.npos ? word.npos : word.find('/', first + 1);
-    check_index(word.substr(0, first), "vertex", total_.vertices, seen_.vertices);
+    check_index(word.substr(0, first), "vertex", total_.vertex_count, seen_.vertex_count);
     if (first == word.npos) return 0;
     const bool has_normal = second != word.npos;
     const std::string_view uv = word.substr(first + 1, has_normal ? second - first - 1 : word.npos);
     int form = 0;
     if (!uv.empty() || !has_normal) {
-      check_index(uv, "texture coordinate", total_.uvs, seen_.uvs);
+      check_index(uv, "texture coordinate", total_.uv_count, seen_.uv_count);
       form |= 1;
     }
     if (has_normal) {
-      check_index(word.substr(second + 1), "normal", total_.normals, seen_.normals);
+      check_index(word.substr(second + 1), "normal", total_.normal_count, seen_.normal_count);
       form |= 2;
     }
     return form;

@@ -32,11 +32,11 @@ struct ObjScan {
 
 /// Line counts and a hash of an OBJ text. A fast first pass over the text computes them.
 struct ObjOutline {
-  std::uint64_t vertices = 0, uvs = 0, normals = 0, faces = 0;
+  std::uint64_t vertex_count = 0, uv_count = 0, normal_count = 0, face_count = 0;
   /// Hash of the whole text except the numbers of `v` and `vn`, comments, and the names of groups,
   /// objects and materials. Texts with the same hash have the same polygons and texture coordinates
   /// on the same lines.
-  Digest mesh;
+  Digest mesh_digest;
 };
 ObjOutline outline_obj(std::string_view text);
 
@@ -47,9 +47,9 @@ enum class ObjLines {
                 ///< and `vt` lines
 };
 
-/// Checks an OBJ text line by line, because the loader accepts these errors: words in place of
-/// numbers, numbers that overflow, indices out of range or wrapping around, polygons with more than
-/// 255 corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
+/// Checks an OBJ text line by line for errors that the loader accepts: words in place of numbers,
+/// numbers that overflow, indices out of range or wrapping around, polygons with more than 255
+/// corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
 /// vertex colours are valid; statements of other programs are ignored.
 /// \param name  name of the file, for messages.
 /// \param outline  outline of the text.

@@ -184,7 +184,7 @@ std::size_t ObjTemplate::memory_bytes() const {
   return bytes;
 }
 
-std::size_t ObjTemplate::encode_bytes() const {
+std::size_t ObjTemplate::encoding_memory_bytes() const {
   const auto rows = static_cast<std::size_t>(fans_ ? fans_->rows() + topology_.face_count() : 0);
   return buffer_size_ + rows * 3 * sizeof(double);
 }

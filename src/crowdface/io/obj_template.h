@@ -26,8 +26,8 @@ class ObjTemplate {
   ///                files; the rest of the target need not.
   /// \param topology  the polygons, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  vertices with given normals. Files get the given normals in those `vn` lines
-  ///               that only the given vertices use.
+  /// \param fixed  vertices with given normals. A `vn` line gets the given normal of
+  ///               a vertex if no other vertex uses the line.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const FixedNormals& fixed = {});
 
@@ -47,7 +47,7 @@ class ObjTemplate {
   std::size_t memory_bytes() const;
   /// Upper bound of the memory needed to encode one file, including the result, in bytes. Numbers
   /// rarely have their maximum length, so encoding a file touches about half of this memory.
-  std::size_t encode_bytes() const;
+  std::size_t encoding_memory_bytes() const;
 
  private:
   /// The range of the text that holds the numbers of one `v` or `vn` line.

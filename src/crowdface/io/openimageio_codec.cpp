@@ -17,18 +17,18 @@ struct Picture {
   std::unique_ptr<OIIO::ImageInput> input;
 };
 
-using Values = ImageHeader::Values;
+using ValueType = ImageHeader::ValueType;
 using Form = ImageToEncode::Form;
 
-Values kind_of_values(const OIIO::TypeDesc& type) {
-  if (type.basetype == OIIO::TypeDesc::UINT8) return Values::kBytes;
-  if (type.basetype == OIIO::TypeDesc::UINT16) return Values::kWords;
-  return type.is_floating_point() ? Values::kFloats : Values::kOthers;
+ValueType kind_of_values(const OIIO::TypeDesc& type) {
+  if (type.basetype == OIIO::TypeDesc::UINT8) return ValueType::kBytes;
+  if (type.basetype == OIIO::TypeDesc::UINT16) return ValueType::kWords;
+  return type.is_floating_point() ? ValueType::kFloats : ValueType::kOthers;
 }
 
-OIIO::TypeDesc type_of(Values values) {
-  if (values == Values::kBytes) return OIIO::TypeDesc::UINT8;
-  return values == Values::kWords ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+OIIO::TypeDesc type_of(ValueType values) {
+  if (values == ValueType::kBytes) return OIIO::TypeDesc::UINT8;
+  return values == ValueType::kWords ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
 }
 
 ImageHeader facts_of(const OIIO::ImageSpec& spec) {
@@ -46,9 +46,9 @@ ImageHeader facts_of(const OIIO::ImageSpec& spec) {
   facts.tile_width = spec.tile_width;
   facts.tile_height = spec.tile_height;
   facts.alpha_channel = spec.alpha_channel;
-  facts.deep = spec.deep;
-  facts.values = kind_of_values(spec.format);
-  facts.type = spec.format.c_str();
+  facts.is_deep = spec.deep;
+  facts.value_type = kind_of_values(spec.format);
+  facts.type_name = spec.format.c_str();
   return facts;
 }
 

@@ -43,8 +43,8 @@ MergedMaterials::MergedMaterials(const std::filesystem::path& mesh,
     for (const std::string_view as_it_stands : split_lines(text)) {
       Line line{std::string(as_it_stands), {}, {}, {}};
       const MaterialStatement statement = material_statement(line.text);
-      line.word = statement.word;
-      line.rest = statement.rest;
+      line.word = statement.keyword;
+      line.rest = statement.arguments;
       if (line.word == "newmtl") material = line.rest;
       line.material = material;
       if (is_texture_statement(line.word) && !folder.empty()) {

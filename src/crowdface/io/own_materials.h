@@ -27,8 +27,8 @@ class MergedMaterials {
   /// The text of a material file to be written beside the mesh. If a material has a replacement for
   /// its colour map, every `map_Kd` of the material names the replacement; a material without
   /// `map_Kd` gets a `map_Kd` and a white `Kd`. For other kinds, the replacement takes the place of
-  /// the texture that the material names and keeps its options; if the material names none, a
-  /// statement is added. All other lines stay.
+  /// the texture in the material's statement, whose options stay; without such a statement, a new
+  /// one is added. All other lines stay.
   std::string text(const Replacements& textures) const;
 
  private:

@@ -95,7 +95,7 @@ PlainObjTemplate::PlainObjTemplate(const Topology& topology, const TextureCoordi
                                    const std::vector<MaterialRange>& materials, Normals normals)
     : vertex_count_(topology.vertex_count),
       normals_(normals),
-      shared_(uv_lines(uvs) + face_lines(topology, materials, normals == Normals::kVertex)) {}
+      shared_text_(uv_lines(uvs) + face_lines(topology, materials, normals == Normals::kVertex)) {}
 
 EncodedFile PlainObjTemplate::encode(const std::string& head, const Positions& positions,
                                      const Positions& normals, const std::string& what) const {
@@ -107,11 +107,11 @@ EncodedFile PlainObjTemplate::encode(const std::string& head, const Positions& p
     require_finite(normals, vertex_count_, what);
     add_rows(file, "vn", normals);
   }
-  file.refer_to(shared_);
+  file.refer_to(shared_text_);
   return file;
 }
 
-std::size_t PlainObjTemplate::encode_bytes() const {
+std::size_t PlainObjTemplate::encoding_memory_bytes() const {
   const std::size_t lines = normals_ == Normals::kVertex ? 2 : 1;
   return lines * static_cast<std::size_t>(vertex_count_) * kLongestLine;
 }

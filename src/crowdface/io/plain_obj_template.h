@@ -29,14 +29,16 @@ class PlainObjTemplate {
   EncodedFile encode(const std::string& head, const Positions& positions, const Positions& normals,
                      const std::string& what) const;
 
-  /// Memory in bytes: used by this object, and needed to encode one file.
-  std::size_t memory_bytes() const { return shared_.size(); }
-  std::size_t encode_bytes() const;
+  /// Memory used by this object, in bytes.
+  std::size_t memory_bytes() const { return shared_text_.size(); }
+  /// Memory needed to encode one file, in bytes.
+  std::size_t encoding_memory_bytes() const;
 
  private:
   Index vertex_count_;
   Normals normals_;
-  std::string shared_;  ///< the lines of texture coordinates and polygons, the same in all files
+  std::string
+      shared_text_;  ///< the lines of texture coordinates and polygons, the same in all files
 };
 
 }  // namespace crowdface

@@ -319,7 +319,7 @@ class PlyReader {
       // If a format has texture coordinates only at vertices, the exporter has split the vertices
       // at seams.
       topology.corner_uvs = topology.corner_vertices;
-      mesh_.pieces.assign(static_cast<std::size_t>(topology.vertex_count), 0);
+      mesh_.mesh_of_vertex.assign(static_cast<std::size_t>(topology.vertex_count), 0);
     } else if (has_vertex_uvs_) {
       mesh_.uvs.resize(0, 2);
       mesh_.notes.emplace_back("its texture coordinates are not numbers and are ignored");

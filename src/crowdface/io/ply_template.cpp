@@ -47,7 +47,7 @@ PlyTemplate::PlyTemplate(const Topology& topology)
   }
 }
 
-std::size_t PlyTemplate::encode_bytes() const {
+std::size_t PlyTemplate::encoding_memory_bytes() const {
   return static_cast<std::size_t>(vertex_count_) * vertex_size(true, true);
 }
 

@@ -30,7 +30,7 @@ class PlyTemplate {
   /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const { return faces_.size(); }
   /// Memory needed to encode one file with normals and colours, in bytes.
-  std::size_t encode_bytes() const;
+  std::size_t encoding_memory_bytes() const;
 
  private:
   Index vertex_count_;

@@ -88,7 +88,7 @@ void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::
   facts.channels = png_get_channels(png, info);
   facts.alpha_channel = facts.channels % 2 == 0 ? facts.channels - 1 : -1;
   const bool words = png_get_bit_depth(png, info) == 16;
-  facts.values = words ? ImageHeader::Values::kWords : ImageHeader::Values::kBytes;
+  facts.value_type = words ? ImageHeader::ValueType::kWords : ImageHeader::ValueType::kBytes;
   return opened.release();
 }
 

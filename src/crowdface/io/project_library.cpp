@@ -21,7 +21,7 @@
 namespace crowdface {
 namespace {
 
-/// What the library that is being loaded is needed for. Completes a sentence in messages.
+/// Says in messages which libraries are being loaded: "the libraries that …".
 std::atomic<const char*> starting_for{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only
@@ -100,8 +100,8 @@ void guard_library_loading() {
 
 void* load_library_function(const char* library, const char* function, const char* needs,
                             const char* failure) {
-  // In a third-party program that links the library, the library is already loaded. The crowdface
-  // program loads the library from a folder relative to its executable.
+  // A third-party program may link `library`, so that it is loaded already. Otherwise load it from
+  // a folder relative to the executable.
   void* opened = open_library(library, RTLD_NOLOAD, needs, failure);
   std::string why;
   if (opened == nullptr) {

@@ -56,7 +56,7 @@ ObjFile with_outward_faces(ObjFile file) {
   ObjFile turned = read_obj(file.path, std::move(text), outline);
   turned.notes = std::move(file.notes);
   turned.is_mended = turned.has_reversed_faces = true;
-  turned.textures_at = std::move(file.textures_at);
+  turned.material_base = std::move(file.material_base);
   return turned;
 }
 

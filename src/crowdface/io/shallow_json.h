@@ -14,11 +14,11 @@ namespace crowdface {
 /// more than 1024 keys: the library compares each key with all keys before it.
 inline nlohmann::ordered_json parse_shallow_json(std::string_view text) {
   using Value = nlohmann::ordered_json;
-  constexpr int kDeepest = 64, kMaxKeys = 1024;
+  constexpr int kMaxDepth = 64, kMaxKeys = 1024;
   struct TooManyKeys {};
-  std::array<int, kDeepest + 1> keys{};  // number of keys of the open object at each depth
+  std::array<int, kMaxDepth + 1> keys{};  // number of keys of the open object at each depth
   const auto keep = [&](int depth, Value::parse_event_t event, Value&) {
-    if (depth >= kDeepest) return false;
+    if (depth >= kMaxDepth) return false;
     const auto at = static_cast<std::size_t>(depth);
     if (event == Value::parse_event_t::object_start) keys[at + 1] = 0;
     if (event == Value::parse_event_t::key && ++keys[at] > kMaxKeys) throw TooManyKeys();

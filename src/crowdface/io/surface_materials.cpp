@@ -42,17 +42,17 @@ float in_range(float value) {
 
 void take(const MaterialStatement& statement, const std::filesystem::path& folder,
           const MaterialFiles& files, SurfaceMaterial& material) {
-  const std::vector<float> numbers = leading_numbers(statement.rest);
-  if (statement.word == "Kd" && numbers.size() == 3) {
+  const std::vector<float> numbers = leading_numbers(statement.arguments);
+  if (statement.keyword == "Kd" && numbers.size() == 3) {
     material.colour = {in_range(numbers[0]), in_range(numbers[1]), in_range(numbers[2])};
-  } else if (statement.word == "d" && numbers.size() == 1) {
+  } else if (statement.keyword == "d" && numbers.size() == 1) {
     material.opacity = in_range(numbers[0]);
-  } else if (statement.word == "Tr" && numbers.size() == 1) {
+  } else if (statement.keyword == "Tr" && numbers.size() == 1) {
     material.opacity = in_range(1 - numbers[0]);
-  } else if (statement.word == "map_Kd") {
-    material.colour_map = texture_at_end(statement.rest, folder, files);
-  } else if (statement.word == "map_d") {
-    material.opacity_map = texture_at_end(statement.rest, folder, files);
+  } else if (statement.keyword == "map_Kd") {
+    material.colour_map = texture_at_end(statement.arguments, folder, files);
+  } else if (statement.keyword == "map_d") {
+    material.opacity_map = texture_at_end(statement.arguments, folder, files);
   }
 }
 
@@ -66,8 +66,8 @@ std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) 
     for (const std::string_view line : split_lines(text)) {
       throw_if_interrupted();
       const MaterialStatement statement = material_statement(line);
-      if (statement.word == "newmtl") {
-        materials.push_back({std::string(statement.rest), std::nullopt, 1, {}, {}});
+      if (statement.keyword == "newmtl") {
+        materials.push_back({std::string(statement.arguments), std::nullopt, 1, {}, {}});
       } else if (!materials.empty()) {
         take(statement, file.destination.parent_path(), files, materials.back());
       }

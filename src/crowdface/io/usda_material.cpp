@@ -53,39 +53,41 @@ std::string material_text(const std::string& path, const std::string& name,
     if (file.empty()) return concat(" = ", value, '\n');
     return concat(".connect = <", path, '/', shader, ".outputs:", output, ">\n");
   };
-  const std::string_view holes = surface.holes_in_alpha ? "a" : "r";
+  const std::string_view holes = surface.is_opacity_in_alpha ? "a" : "r";
   std::string text = concat("        def Material \"", name, "\"\n        {\n", kInner,
                             "token outputs:surface.connect = <", path,
                             "/surface.outputs:surface>\n\n", kInner, "def Shader \"surface\"\n",
                             kInner, "{\n", kDeep, "uniform token info:id = \"UsdPreviewSurface\"\n",
                             kDeep, "color3f inputs:diffuseColor",
-                            input(surface.picture, "colour", "rgb", colour_text(surface.colour)),
+                            input(surface.colour_map, "colour", "rgb", colour_text(surface.colour)),
                             kDeep, "float inputs:metallic = 0\n");
-  if (!surface.normals.empty()) {
-    text += concat(kDeep, "normal3f inputs:normal", input(surface.normals, "normal", "rgb", ""));
+  if (!surface.normal_map.empty()) {
+    text += concat(kDeep, "normal3f inputs:normal", input(surface.normal_map, "normal", "rgb", ""));
   }
+  text += concat(
+      kDeep, "float inputs:opacity",
+      input(surface.opacity_map, "holes", holes, concat(static_cast<double>(surface.colour[3]))));
+  if (!surface.opacity_map.empty()) text += concat(kDeep, "float inputs:opacityThreshold = 0.5\n");
   text +=
-      concat(kDeep, "float inputs:opacity",
-             input(surface.holes, "holes", holes, concat(static_cast<double>(surface.colour[3]))));
-  if (!surface.holes.empty()) text += concat(kDeep, "float inputs:opacityThreshold = 0.5\n");
-  text += concat(kDeep, "float inputs:roughness", input(surface.roughness, "roughness", "r", "0.6"),
-                 kDeep, "token outputs:surface\n", kInner, "}\n");
-  const std::string_view wrap = surface.overlay ? "clamp" : "repeat";
+      concat(kDeep, "float inputs:roughness", input(surface.roughness_map, "roughness", "r", "0.6"),
+             kDeep, "token outputs:surface\n", kInner, "}\n");
+  const std::string_view wrap = surface.is_overlay ? "clamp" : "repeat";
   const auto add_texture = [&](const std::string& file, std::string_view shader, bool is_colour,
                                std::string_view more, std::string_view output) {
     if (!file.empty()) text += texture_text(path, shader, file, wrap, is_colour, more, output);
   };
-  add_texture(surface.picture, "colour", true, "", "float3 outputs:rgb");
-  add_texture(surface.normals, "normal", false,
+  add_texture(surface.colour_map, "colour", true, "", "float3 outputs:rgb");
+  add_texture(surface.normal_map, "normal", false,
               concat(kDeep, "float4 inputs:bias = (-1, -1, -1, 0)\n", kDeep,
                      "float4 inputs:scale = (2, 2, 2, 1)\n"),
               "float3 outputs:rgb");
-  add_texture(surface.roughness, "roughness", false, "", "float outputs:r");
-  add_texture(surface.holes, "holes", false, "", concat("float outputs:", holes));
-  if (!(surface.picture + surface.normals + surface.roughness + surface.holes).empty()) {
+  add_texture(surface.roughness_map, "roughness", false, "", "float outputs:r");
+  add_texture(surface.opacity_map, "holes", false, "", concat("float outputs:", holes));
+  if (!(surface.colour_map + surface.normal_map + surface.roughness_map + surface.opacity_map)
+           .empty()) {
     text += concat('\n', kInner, "def Shader \"st\"\n", kInner, "{\n", kDeep,
                    "uniform token info:id = \"UsdPrimvarReader_float2\"\n", kDeep,
-                   "string inputs:varname = \"", surface.overlay ? "st1" : "st", "\"\n", kDeep,
+                   "string inputs:varname = \"", surface.is_overlay ? "st1" : "st", "\"\n", kDeep,
                    "float2 outputs:result\n", kInner, "}\n");
   }
   return text + "        }\n";

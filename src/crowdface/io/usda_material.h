@@ -11,22 +11,22 @@ namespace crowdface {
 /// path means that there is no file.
 struct UsdaSurface {
   std::array<float, 4> colour = {
-      1, 1, 1, 1};             ///< linear RGB if there is no picture; opacity if there is no mask
-  std::string picture = {};    ///< colour map, sRGB
-  std::string normals = {};    ///< tangent-space normal map
-  std::string roughness = {};  ///< roughness map, first channel
+      1, 1, 1, 1};              ///< linear RGB if there is no picture; opacity if there is no mask
+  std::string colour_map = {};  ///< colour map, sRGB
+  std::string normal_map = {};  ///< tangent-space normal map
+  std::string roughness_map = {};  ///< roughness map, first channel
   /// Path of a mask file. The surface is opaque where the mask is at least one half; elsewhere it
   /// has holes.
-  std::string holes = {};
+  std::string opacity_map = {};
   /// Whether the alpha channel of the mask file is the mask; otherwise the first channel is the
   /// mask.
-  bool holes_in_alpha = false;
+  bool is_opacity_in_alpha = false;
   /// whether textures are clamped and use the primvar `st1`; otherwise they repeat and use `st`
-  bool overlay = false;
+  bool is_overlay = false;
 };
 
-/// A Scope prim below the root that contains Material prims with preview surfaces; an empty text if
-/// there are no materials.
+/// The text of a Scope prim, which is below the root prim and contains Material prims with preview
+/// surfaces. Empty if there are no materials.
 /// \param scope  name of the Scope prim.
 /// \param names  names of the Material prims; materials with an empty name are skipped.
 /// \param surfaces  #names

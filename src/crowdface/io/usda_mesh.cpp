@@ -158,7 +158,7 @@ std::size_t UsdaMesh::memory_bytes() const {
   return bytes;
 }
 
-std::size_t UsdaMesh::encode_bytes() const {
+std::size_t UsdaMesh::encoding_memory_bytes() const {
   // Each array is in memory twice: as formatted text and as its copy in the file.
   return 2 * kMaxUsdaRowLength * (3 * static_cast<std::size_t>(vertex_count_) + target_rows_);
 }

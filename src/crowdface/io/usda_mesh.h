@@ -63,7 +63,7 @@ class UsdaMesh {
 
   std::size_t memory_bytes() const;
   /// Memory needed for one call of `add`, in bytes.
-  std::size_t encode_bytes() const;
+  std::size_t encoding_memory_bytes() const;
 
  private:
   void add_shapes(EncodedFile& file, const PrimPaths& place, std::span<const Displacements> moves,

@@ -47,7 +47,7 @@ void UsdaPart::add_materials(EncodedFile& file, const std::string& root,
   std::vector<UsdaSurface> surfaces = surfaces_;
   for (UsdaSurface& surface : surfaces) {
     for (std::size_t c = 0; c < look.tint.size(); ++c) surface.colour[c] *= look.tint[c];
-    for (std::string* name : {&surface.picture, &surface.holes}) {
+    for (std::string* name : {&surface.colour_map, &surface.opacity_map}) {
       const std::size_t at = name->find(kLookName);
       if (at != std::string::npos) name->replace(at, kLookName.size(), look.name);
     }

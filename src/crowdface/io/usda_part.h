@@ -50,7 +50,7 @@ class UsdaPart {
   void add_materials(EncodedFile& file, const std::string& root, const PartLook& look) const;
 
   std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }
-  std::size_t encode_bytes() const { return mesh_.encode_bytes(); }
+  std::size_t encoding_memory_bytes() const { return mesh_.encoding_memory_bytes(); }
 
  private:
   std::string name_;

@@ -46,7 +46,7 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto at = static_cast<std::size_t>(f);
     const std::size_t material = options.face_materials.empty() ? 0 : options.face_materials[at];
-    if (!options.materials[material].overlay) continue;
+    if (!options.materials[material].uses_overlay) continue;
     for (const std::uint32_t v : topology.face(f)) {
       if (places[v] != 0) continue;
       places[v] = static_cast<std::uint32_t>(vertices.size());
@@ -55,7 +55,7 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   }
   TextureCoordinates uvs = TextureCoordinates::Zero(static_cast<Index>(vertices.size()), 2);
   for (Index i = 1; i < uvs.rows(); ++i) {
-    const auto& place = options.overlay->places[vertices[static_cast<std::size_t>(i)]];
+    const auto& place = options.overlay->uvs[vertices[static_cast<std::size_t>(i)]];
     // USD measures texture coordinates from the left and the lower edge
     uvs.row(i) << place[0] / 65535.0, 1 - place[1] / 65535.0;
   }
@@ -73,11 +73,12 @@ UsdaSurface surface_of(const GlbMaterial& material, std::span<const std::string>
     return image ? images[*image] : std::string();
   };
   UsdaSurface surface{.colour = material.colour,
-                      .picture = file(material.image),
-                      .normals = file(material.normal_image),
-                      .roughness = file(material.roughness_image),
-                      .overlay = material.overlay};
-  if (!material.image && material.overlay) surface.picture = concat(shared, '/', GlbOverlay::kFile);
+                      .colour_map = file(material.image),
+                      .normal_map = file(material.normal_image),
+                      .roughness_map = file(material.roughness_image),
+                      .is_overlay = material.uses_overlay};
+  if (!material.image && material.uses_overlay)
+    surface.colour_map = concat(shared, '/', GlbOverlay::kFile);
   return surface;
 }
 
@@ -118,9 +119,9 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
       layer_metadata_(usda_layer_metadata(options.unit, options.up)),
       axis_transform_(turn_of(options)),
       surfaces_(options.materials),
-      shared_(options.shared_folder) {
+      shared_folder_(options.shared_folder) {
   UsdaNames names;
-  for (const std::string& point : options.points) points_.push_back(names.add(point));
+  for (const std::string& point : options.point_names) points_.push_back(names.add(point));
 }
 
 EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& normals,
@@ -143,7 +144,8 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
   add_points(file, points, name);
   file.add("    }\n");
   std::vector<UsdaSurface> surfaces;
-  for (const GlbMaterial& one : surfaces_) surfaces.push_back(surface_of(one, images, shared_));
+  for (const GlbMaterial& one : surfaces_)
+    surfaces.push_back(surface_of(one, images, shared_folder_));
   file.add(usda_materials(root, "materials", mesh_.materials(), surfaces));
   for (const PlacedUsdaPart& part : parts) part.part->add_materials(file, root, part.look);
   file.add("}\n");

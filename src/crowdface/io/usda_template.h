@@ -43,9 +43,10 @@ class UsdaTemplate {
                      std::span<const PlacedUsdaPart> parts = {},
                      const ColourRows& colours = {}) const;
 
-  /// Memory in bytes: used by this object, and needed to encode one file.
+  /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const { return mesh_.memory_bytes(); }
-  std::size_t encode_bytes() const { return mesh_.encode_bytes(); }
+  /// Memory needed to encode one file, in bytes.
+  std::size_t encoding_memory_bytes() const { return mesh_.encoding_memory_bytes(); }
 
  private:
   void add_points(EncodedFile& file, const Positions& points, const std::string& what) const;
@@ -55,7 +56,7 @@ class UsdaTemplate {
   std::string
       axis_transform_;  ///< transform of the mesh if the stage's axes differ from the heads' axes
   std::vector<GlbMaterial> surfaces_;
-  std::string shared_;               ///< see `GlbOptions::shared_folder`
+  std::string shared_folder_;        ///< see `GlbOptions::shared_folder`
   std::vector<std::string> points_;  ///< prim names of the points
 };
 

@@ -24,7 +24,8 @@ class UsdaTokens {
 
   /// Consumes and returns the next token.
   UsdaToken next();
-  /// Consumes a punctuation character if it is the next token. \return whether it was.
+  /// Consumes the next token if it is this punctuation character. \return whether the token was
+  /// consumed.
   bool consume(char sign);
   /// Consumes everything up to the closing bracket of a group whose opening bracket is already
   /// consumed.

@@ -21,7 +21,7 @@ struct DetailLevel {
   /// #T by 2, a subset of the whole mesh's texture coordinates; may be empty
   TextureCoordinates uvs;
   /// #triangles: for each triangle, a polygon of the whole mesh that has the same material
-  std::vector<std::uint32_t> faces;
+  std::vector<std::uint32_t> source_faces;
 
   /// Returns the rows of the whole mesh's positions or displacements that belong to this level.
   ///

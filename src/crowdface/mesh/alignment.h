@@ -24,8 +24,8 @@ Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance);
 
 enum class ScaleFit { kRigid, kUniform };
 
-/// Finds the transform that brings the rows of `from` closest to the same rows of `to` in the
-/// least-squares sense.
+/// Finds the transform that brings each row of `from` closest to the row of `to` with the same
+/// index, in the least-squares sense.
 /// \param weights  #V, not negative; if empty, all rows have the same weight.
 /// Source: Umeyama 1991, "Least-squares estimation of transformation parameters between two point
 /// patterns".

@@ -28,8 +28,8 @@ class DisjointSets {
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  /// Makes `item` a set of its own again. If it is called for one item of a set, it must be called
-  /// for all items of the set. Otherwise the remaining items may keep a wrong root.
+  /// Makes `item` a set of its own again. Callers must release all items of a set or none;
+  /// otherwise the remaining items may keep a wrong root.
   void release(std::uint32_t item) { parent_[item] = item; }
 
  private:

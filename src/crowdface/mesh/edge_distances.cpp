@@ -43,8 +43,8 @@ void EdgeDistances::begin(std::span<const std::uint32_t> sources) {
   std::make_heap(queue_.begin(), queue_.end(), std::greater<>());
 }
 
-template <class MayLead, class Settled>
-void EdgeDistances::settle(const MayLead& may_lead, const Settled& settled) {
+template <class ContinuesFrom, class IsDone>
+void EdgeDistances::settle(const ContinuesFrom& continues_from, const IsDone& is_done) {
   while (!queue_.empty()) {
     std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
     const auto [distance, source, vertex] = queue_.back();
@@ -52,7 +52,7 @@ void EdgeDistances::settle(const MayLead& may_lead, const Settled& settled) {
     if (settled_[vertex]) continue;
     settled_[vertex] = true;
     reached_.push_back(vertex);
-    if (settled(vertex)) return;
+    if (is_done(vertex)) return;
     for (const std::uint32_t next : adjacency_.items_of(vertex)) {
       if (settled_[next]) continue;
       double squared = 0;
@@ -62,7 +62,7 @@ void EdgeDistances::settle(const MayLead& may_lead, const Settled& settled) {
       }
       const double there = distance + std::sqrt(squared);
       if (std::tie(there, source) >= std::tie(distances_[next], sources_[next])) continue;
-      if (!may_lead(there, next)) continue;
+      if (!continues_from(there, next)) continue;
       if (distances_[next] == kInfinity) touched_.push_back(next);
       distances_[next] = there;
       sources_[next] = source;

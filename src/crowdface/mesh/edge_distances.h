@@ -33,8 +33,8 @@ class EdgeDistances {
   double distance(std::uint32_t vertex) const {
     return settled_[vertex] ? distances_[vertex] : std::numeric_limits<double>::infinity();
   }
-  /// Index of the nearest source in the list of sources. If several sources are equally near, the
-  /// first of these sources. kNoIndex if the search did not reach the vertex.
+  /// Index of the nearest source in the list of sources. If several sources are equally near,
+  /// returns the first of these sources. Returns kNoIndex if the search did not reach the vertex.
   std::uint32_t nearest_source(std::uint32_t vertex) const {
     return settled_[vertex] ? sources_[vertex] : kNoIndex;
   }
@@ -46,11 +46,11 @@ class EdgeDistances {
 
   void begin(std::span<const std::uint32_t> sources);
   /// Main loop of the search: makes the distances of vertices final, nearest vertex first, until
-  /// the queue is empty or `settled` returns true.
-  /// \param may_lead  called with a distance and a vertex; returns whether the search continues
-  ///                  from this vertex.
-  template <class MayLead, class Settled>
-  void settle(const MayLead& may_lead, const Settled& settled);
+  /// the queue is empty or `is_done` returns true for a final vertex.
+  /// \param continues_from  called with a distance and a vertex; returns whether the search
+  ///                        continues from this vertex.
+  template <class ContinuesFrom, class IsDone>
+  void settle(const ContinuesFrom& continues_from, const IsDone& is_done);
 
   const Adjacency& adjacency_;
   const Positions& positions_;
@@ -61,10 +61,10 @@ class EdgeDistances {
   std::vector<QueueEntry> queue_;  ///< a heap; the nearest vertex comes first
 };
 
-/// Index in `sources` of the nearest source of each vertex along the edges, #V; kNoIndex if no
-/// source is connected to the vertex. If several sources are equally near, the result is the source
-/// whose path the search finds first, which is deterministic. Surfaces that almost touch, such as
-/// the lips, are far apart along the edges.
+/// For each vertex, the index in `sources` of the nearest source, #V; kNoIndex if no source is
+/// connected to the vertex. Distances are measured along the edges. If several sources are equally
+/// near, the result is the source whose path the search finds first, which is deterministic.
+/// Surfaces that almost touch, such as the lips, are far apart along the edges.
 std::vector<std::uint32_t> nearest_along_edges(const Adjacency& adjacency,
                                                const Positions& positions,
                                                std::span<const std::uint32_t> sources);

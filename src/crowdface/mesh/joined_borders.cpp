@@ -32,7 +32,7 @@ std::vector<bool> border_vertices(const Topology& topology) {
 }  // namespace
 
 JoinedBorders joined_borders(const Topology& topology, const Positions& positions,
-                             const std::vector<std::uint32_t>& pieces) {
+                             const std::vector<std::uint32_t>& piece_of_vertex) {
   const std::vector<bool> is_border = border_vertices(topology);
   JoinedBorders result;
   std::map<std::array<double, 4>, std::uint32_t> row_at_place;
@@ -41,7 +41,7 @@ JoinedBorders joined_borders(const Topology& topology, const Positions& position
     std::uint32_t joined = next;
     if (is_border[v]) {
       const auto row = positions.row(v);
-      const double piece = pieces.empty() ? 0 : pieces[v];
+      const double piece = piece_of_vertex.empty() ? 0 : piece_of_vertex[v];
       joined = row_at_place.try_emplace({piece, row[0], row[1], row[2]}, next).first->second;
     }
     if (joined == next) result.first_copies.push_back(v);

@@ -18,8 +18,8 @@ struct JoinedBorders {
 
 /// Joins vertices that have the same position and lie on border edges. Exporters make such copies
 /// at seams. Inner vertices that touch, such as the vertices of closed lips, stay separate.
-/// \param pieces  #V: only vertices with the same value are joined; empty: all vertices
+/// \param piece_of_vertex  #V: only vertices with the same value are joined; empty: all vertices
 JoinedBorders joined_borders(const Topology& topology, const Positions& positions,
-                             const std::vector<std::uint32_t>& pieces = {});
+                             const std::vector<std::uint32_t>& piece_of_vertex = {});
 
 }  // namespace crowdface

@@ -39,7 +39,7 @@ void add_nodes(MedianSplitTree& tree, const MedianSplitTree::Points& points,
     return std::pair(points(a, axis), a) < std::pair(points(b, axis), b);
   });
   add_nodes(tree, points, leaf_size, begin, middle);
-  tree.nodes[node].second = static_cast<std::uint32_t>(tree.nodes.size());
+  tree.nodes[node].second_child = static_cast<std::uint32_t>(tree.nodes.size());
   add_nodes(tree, points, leaf_size, middle, end);
 }
 

@@ -9,16 +9,16 @@
 namespace crowdface {
 
 /// The tree of a bounding volume hierarchy, without the boxes. Each inner node splits its points at
-/// the median of the axis along which they extend farthest. The code that uses the tree stores the
-/// boxes of the nodes. Only rendering uses Embree instead of this tree: the last bits of Embree's
-/// results depend on the processor, which is not allowed for plans and meshes.
+/// the median of the axis along which the points extend farthest. The code that uses the tree
+/// stores the boxes of the nodes. Only rendering uses Embree instead of this tree: the last bits of
+/// Embree's results depend on the processor, which is not allowed for plans and meshes.
 struct MedianSplitTree {
   struct Node {
     std::uint32_t begin, end;  ///< range in `order`; begin is a multiple of the leaf size
     /// Index of the second child, 0 in a leaf; the first child is the next node.
-    std::uint32_t second;
+    std::uint32_t second_child;
 
-    bool is_leaf() const { return second == 0; }
+    bool is_leaf() const { return second_child == 0; }
   };
 
   using Points =

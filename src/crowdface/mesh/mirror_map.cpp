@@ -26,8 +26,8 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
     }
     image.row(v) = map.plane.mirrored(place).transpose();
   });
-  for (std::size_t i = 0; i < map.unpaired.size(); ++i) {
-    image.row(map.unpaired[i]) += map.unpaired_offsets.row(static_cast<Index>(i));
+  for (std::size_t i = 0; i < map.unpaired_vertices.size(); ++i) {
+    image.row(map.unpaired_vertices[i]) += map.unpaired_offsets.row(static_cast<Index>(i));
   }
   return image;
 }

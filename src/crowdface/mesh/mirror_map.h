@@ -28,9 +28,9 @@ struct MirrorMap {
   std::vector<std::array<double, 3>>
       shares;  ///< #V: barycentric coordinates of the mirror point; {1, 0, 0} if the mirror point
                ///< is a vertex
-  std::vector<std::uint32_t> unpaired;  ///< vertices without a mirror point, ascending
-  /// #unpaired by 3: offsets that are added to the mirror images of the unpaired vertices, so that
-  /// mirroring moves these vertices of the mean head only a little.
+  std::vector<std::uint32_t> unpaired_vertices;  ///< vertices without a mirror point, ascending
+  /// #unpaired_vertices by 3: offsets that are added to the mirror images of the unpaired vertices,
+  /// so that mirroring moves these vertices of the mean head only a little.
   Positions unpaired_offsets;
 
   /// Whether the mirror point of vertex v is a vertex.

@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// For each normal (of a vertex, or of a `vn` line), the list of the polygons whose normals are
-/// added to get it. The lists are computed once for all meshes of a topology. With them, threads
-/// can compute normals independently, and each sum always has the same order.
+/// For each normal (of a vertex, or of a `vn` line of an OBJ file), the list of the polygons whose
+/// normals are added to get it. The lists are computed once for all meshes of a topology. With
+/// these lists, threads can compute normals independently, and each sum always has the same order.
 class NormalFans {
  public:
   /// Makes the lists for one normal per vertex.
@@ -19,14 +19,15 @@ class NormalFans {
   /// \param rows         number of normals.
   NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows, Index rows);
 
-  /// Unit normals, #rows by 3. Each is the normalised, area-weighted sum of the normals of its
-  /// polygons, added in ascending order of polygon number. Polygons need not be flat (Newell's
-  /// method).
+  /// Unit normals, #rows by 3. Each unit normal is the normalised, area-weighted sum of the normals
+  /// of its polygons, added in ascending order of polygon number. Polygons need not be flat
+  /// (Newell's method).
   /// \param topology  the topology from which the fans were made.
   /// \param fallback  the normal of a row whose sum vanishes.
   Positions normals(const Topology& topology, const Positions& positions,
                     const Eigen::RowVector3d& fallback) const;
-  /// Computes the same normals; `areas` is the result of face_area_vectors.
+  /// Computes the same normals from the polygons' area vectors.
+  /// \param areas  result of face_area_vectors.
   Positions normals(const Positions& areas, const Eigen::RowVector3d& fallback) const;
 
   Index rows() const { return static_cast<Index>(faces_.group_count()); }
@@ -40,7 +41,7 @@ class NormalFans {
   CompressedRows<std::uint32_t> faces_;  ///< polygons that meet at each normal, ascending
 };
 
-/// Unit normals of the vertices, #V by 3, as NormalFans computes them; (0, 0, 1) where the sum
+/// Unit normals of the vertices, #V by 3, as NormalFans computes normals; (0, 0, 1) where the sum
 /// vanishes. For many meshes of one topology, it is faster to make one NormalFans and call its
 /// function `normals`.
 Positions vertex_normals(const Topology& topology, const Positions& positions);

@@ -248,7 +248,8 @@ class Matcher {
     placed_ = fit_similarity(from, to, ScaleFit::kRigid).apply(at_b_);
   }
 
-  /// Matches the vertices without a polygon in a with those in b, in the order of their numbers.
+  /// Matches vertices of a with vertices of b that belong to no polygon, in the order of their
+  /// numbers.
   bool match_loose() {
     std::uint32_t w = 0;
     for (std::uint32_t& in_b : to_b_) {
@@ -263,7 +264,7 @@ class Matcher {
   const Graph &a_, &b_;
   const Positions &at_a_, &at_b_;
   Positions placed_;  ///< vertices of b, moved into the coordinate frame of a
-  /// Whether placed_ is already aligned by the matches of the first component. Before this, only
+  /// Whether placed_ is already aligned by the matches of the first component. While false, only
   /// the centres of the two meshes coincide.
   bool is_aligned_ = false;
   std::size_t steps_left_;

@@ -81,9 +81,8 @@ struct HeadSet {
   std::vector<Head> heads;
 };
 
-/// Gives the index values that occur new, consecutive numbers from 0. The order of the values
-/// stays.
-/// \param indices  each < count; replaced by the new numbers.
+/// Replaces the index values that occur by the numbers 0, 1, 2, …, in the same order.
+/// \param indices  each below `count`; the function writes the new numbers here.
 /// \return the old number of each new number.
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);
 

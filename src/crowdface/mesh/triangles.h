@@ -30,9 +30,9 @@ Eigen::Vector3d area_vector(const Positions& positions, const Triangle& triangle
 std::array<double, 3> nearest_in_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                           const Eigen::Vector3d& c, const Eigen::Vector3d& p);
 
-/// Unit normals of the vertices, #V by 3. Each is the normalised, area-weighted sum of the normals
-/// of the triangles at the vertex. If the sum is zero or the vertex has no triangle, the normal is
-/// zero; `vertex_normals` of a Topology returns (0, 0, 1) in these cases.
+/// Unit normals of the vertices, #V by 3. Each unit normal is the normalised, area-weighted sum of
+/// the normals of the triangles at the vertex. If the sum is zero or the vertex has no triangle,
+/// the normal is zero; `vertex_normals` of a Topology returns (0, 0, 1) in these cases.
 Positions vertex_normals_or_zero(const std::vector<Triangle>& triangles,
                                  const Positions& positions);
 

@@ -34,7 +34,7 @@ double outward_share(const Topology& topology, const Positions& positions, const
 
 }  // namespace
 
-float winding(const Topology& topology, const Positions& positions) {
+float winding_sign(const Topology& topology, const Positions& positions) {
   constexpr double kMinInwardShare = 0.05;
   const Positions areas = face_area_vectors(topology, positions);
   return outward_share(topology, positions, areas, positions.colwise().mean()) < -kMinInwardShare

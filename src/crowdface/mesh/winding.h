@@ -7,7 +7,7 @@ namespace crowdface {
 
 /// Returns −1 if the polygons of the surface mainly face the mean of the vertices, as on a mirrored
 /// surface. Returns +1 otherwise.
-float winding(const Topology& topology, const Positions& positions);
+float winding_sign(const Topology& topology, const Positions& positions);
 
 /// Reverses the orientation of all polygons: each polygon keeps its first corner; its other corners
 /// change to reverse order.

@@ -178,44 +178,44 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
   return *long_ones.front().second;
 }
 
-RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm,
-                    RimOrder order) {
-  // If the head is rotated, the order with the smallest distances may be wrong. If both orders are
-  // fitted with a rotation, the true order then fits much better than this order.
+RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
+                    double reach_mm, RimOrder order) {
+  // If the head is rotated, the order with the smallest distances may be wrong. After a rotation is
+  // fitted for each order, the true order fits much better than the wrong order.
   constexpr double kMuchBetter = 0.85;
   std::vector<OrderedRim> orders;
   const bool is_free = order == RimOrder::kFree;
   for (const bool forwards : {true, false}) {
-    for (std::size_t shift = 0; shift < rim.size(); ++shift) {
+    for (std::size_t shift = 0; shift < body_rim.size(); ++shift) {
       if (!is_free && !orders.empty()) continue;
-      Rim vertices = shifted(rim, shift, forwards);
-      const Positions points = body(vertices, kAllColumns);
-      const double sum = square_sum(points - head);
-      orders.push_back({std::move(vertices), sum, rigid_fit(head, points)});
+      Rim vertices = shifted(body_rim, shift, forwards);
+      const Positions points = body_positions(vertices, kAllColumns);
+      const double sum = square_sum(points - head_rim);
+      orders.push_back({std::move(vertices), sum, rigid_fit(head_rim, points)});
     }
   }
   const OrderedRim* best = &*std::ranges::min_element(orders, {}, &OrderedRim::square_sum);
-  const OrderedRim& turned = best_turned(orders, is_free ? rim.size() : 1);
+  const OrderedRim& turned = best_turned(orders, is_free ? body_rim.size() : 1);
   if (turned.fit.left < kMuchBetter * best->fit.left - kRoundingMm) best = &turned;
   RimMatch match;
   match.rim = best->order;
-  const Positions points = body(match.rim, kAllColumns);
-  match.centroid_distance_mm = (centroid(points) - centroid(head)).norm();
-  match.fault = fault_of(head, points, best->fit, reach_mm);
+  const Positions points = body_positions(match.rim, kAllColumns);
+  match.centroid_distance_mm = (centroid(points) - centroid(head_rim)).norm();
+  match.mismatch_reason = fault_of(head_rim, points, best->fit, reach_mm);
   return match;
 }
 
-Rim find_matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
-                      double reach_mm, RimOrder order) {
-  const auto count = static_cast<std::size_t>(head.rows());
+Rim find_matching_rim(const Positions& head_rim, const std::vector<Rim>& body_rims,
+                      const Positions& body_positions, double reach_mm, RimOrder order) {
+  const auto count = static_cast<std::size_t>(head_rim.rows());
   std::vector<RimMatch> found, fitting;
-  for (const Rim& rim : rims) {
+  for (const Rim& rim : body_rims) {
     if (rim.size() == count) {
-      found.push_back(match_rims(head, rim, body, reach_mm, order));
-      if (found.back().fault.empty()) fitting.push_back(found.back());
+      found.push_back(match_rims(head_rim, rim, body_positions, reach_mm, order));
+      if (found.back().mismatch_reason.empty()) fitting.push_back(found.back());
     } else {
-      const Positions points = body(rim, kAllColumns);
-      found.push_back({rim, (centroid(points) - centroid(head)).norm(), {}});
+      const Positions points = body_positions(rim, kAllColumns);
+      found.push_back({rim, (centroid(points) - centroid(head_rim)).norm(), {}});
     }
   }
   if (fitting.size() == 1) return fitting.front().rim;
@@ -229,8 +229,8 @@ Rim find_matching_rim(const Positions& head, const std::vector<Rim>& rims, const
                               mm_text(fitting[0].centroid_distance_mm), " and ",
                               mm_text(fitting[1].centroid_distance_mm), " off"));
   }
-  if (!found.front().fault.empty()) {
-    throw InvalidInput(concat(expected, "one that ", found.front().fault));
+  if (!found.front().mismatch_reason.empty()) {
+    throw InvalidInput(concat(expected, "one that ", found.front().mismatch_reason));
   }
   throw InvalidInput(concat(expected, "rims of ", list_of(found)));
 }

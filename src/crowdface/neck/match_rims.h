@@ -26,22 +26,23 @@ enum class RimOrder {
 struct RimMatch {
   Rim rim;  ///< the matching vertex of the body for each vertex of the heads' rim
   double centroid_distance_mm = 0;  ///< distance between the centroids of both rims, in mm
-  std::string fault;                ///< why the rims do not match; empty if they do
+  std::string mismatch_reason;      ///< why the rims do not match; empty if they do
 };
 
 /// Matches the vertices of two rims of equal length. Tries every start in both directions, and
-/// takes the order with the smallest sum of squared distances. Takes another order if, after the
-/// best rotation of each order, the other order leaves a much smaller distance.
-/// \param head     the heads' rim, #rim by 3, in mm, in order
-/// \param body     positions of the whole body, in mm
-/// \param reach_mm largest distance between the rims; callers pass the falloff
-RimMatch match_rims(const Positions& head, const Rim& rim, const Positions& body, double reach_mm,
-                    RimOrder order = RimOrder::kFree);
+/// takes the order with the smallest sum of squared distances. Then fits a rotation for each order.
+/// If another order then has a much smaller distance than this order, takes the other order.
+/// \param head_rim  the heads' rim, #rim by 3, in mm, in order
+/// \param body_positions  positions of the whole body, in mm
+/// \param reach_mm  largest distance between the rims; callers pass the falloff
+RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
+                    double reach_mm, RimOrder order = RimOrder::kFree);
 
 /// Finds the rim of a body that matches the heads' rim.
 /// \throws InvalidInput if no rim matches or if several match. The message lists the vertex counts
 ///         and offsets of the nearest rims.
-Rim find_matching_rim(const Positions& head, const std::vector<Rim>& rims, const Positions& body,
-                      double reach_mm, RimOrder order = RimOrder::kFree);
+Rim find_matching_rim(const Positions& head_rim, const std::vector<Rim>& body_rims,
+                      const Positions& body_positions, double reach_mm,
+                      RimOrder order = RimOrder::kFree);
 
 }  // namespace crowdface

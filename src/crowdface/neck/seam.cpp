@@ -11,8 +11,9 @@
 namespace crowdface {
 namespace {
 
-/// Adds the displacements in `rows` of these vertices (ascending) to `sum`. Skips vertices that
-/// have no entry in `sum`.
+/// Adds displacements to `sum`. Skips vertices that have no entry in `sum`.
+/// \param vertices  ascending.
+/// \param rows  the displacement of each vertex in `vertices`.
 void add_rows(const std::vector<std::uint32_t>& vertices, const Positions& rows,
               Displacements& sum) {
   auto at = sum.vertices.begin();
@@ -28,15 +29,15 @@ void set_rows(const Rim& rim, const Positions& rows, Positions& mesh) {
   for (std::size_t i = 0; i < rim.size(); ++i) mesh.row(rim[i]) = rows.row(static_cast<Index>(i));
 }
 
-/// Bends the neck of a mesh and gives the rim these positions.
+/// Bends the neck of a mesh so that the rim gets the positions `goal`.
 void bend_to(const Seam& seam, const Positions& goal, Positions& mesh) {
   const Positions moves = goal - mesh(seam.rim, kAllColumns);
   // Distance below which a rim counts as already in place. If all heads end in the same ring, the
   // rim of their blend differs from this ring only by rounding errors.
   constexpr double kRounding = 1e-9;
   if (moves.cwiseAbs().maxCoeff() > kRounding * goal.cwiseAbs().maxCoeff()) {
-    const std::vector<std::uint32_t>& bent = seam.neck.vertices();
-    const Positions by = seam.neck.bend(moves);
+    const std::vector<std::uint32_t>& bent = seam.neck_bend.vertices();
+    const Positions by = seam.neck_bend.bend(moves);
     for (std::size_t i = 0; i < bent.size(); ++i)
       mesh.row(bent[i]) += by.row(static_cast<Index>(i));
   }
@@ -45,7 +46,7 @@ void bend_to(const Seam& seam, const Positions& goal, Positions& mesh) {
 
 }  // namespace
 
-void Seam::fit(Positions& mesh) const {
+void Seam::bend_to_seam(Positions& mesh) const {
   bend_to(*this, positions, mesh);
 }
 
@@ -62,11 +63,11 @@ void Seam::keep_rim_still(Displacements& moves) const {
   }
   if (at_rim.isZero(0)) return;
   Displacements held;
-  std::ranges::set_union(moves.vertices, neck.vertices(), std::back_inserter(held.vertices));
+  std::ranges::set_union(moves.vertices, neck_bend.vertices(), std::back_inserter(held.vertices));
   std::erase_if(held.vertices, [&](std::uint32_t v) { return contains(rim, v); });
   held.moves = Positions::Zero(static_cast<Index>(held.vertices.size()), 3);
   add_rows(moves.vertices, moves.moves, held);
-  add_rows(neck.vertices(), -neck.bend(at_rim), held);
+  add_rows(neck_bend.vertices(), -neck_bend.bend(at_rim), held);
   moves = std::move(held);
 }
 

@@ -6,16 +6,16 @@
 
 namespace crowdface {
 
-/// The ring of vertices in which all faces end, with its positions and normals, and the bending of
-/// the skin above it. Thread-safe.
+/// The ring of vertices in which all faces end, with the ring's positions and normals, and the
+/// bending of the skin above the ring. Thread-safe.
 struct Seam {
   Rim rim;
   Positions positions, normals;  ///< #rim by 3; unit normals
-  NeckBend neck;
+  NeckBend neck_bend;
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.
-  void fit(Positions& mesh) const;
-  /// Bends the neck of a mesh so that its rim gets the positions of the rim of `other`.
+  void bend_to_seam(Positions& mesh) const;
+  /// Bends the neck of `mesh` so that the rim of `mesh` gets the positions of the rim of `other`.
   void bend_to_rim_of(const Positions& other, Positions& mesh) const;
   /// Changes the displacements of a shape smoothly so that the rim does not move.
   void keep_rim_still(Displacements& moves) const;

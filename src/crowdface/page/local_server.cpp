@@ -182,9 +182,9 @@ std::optional<HttpAnswer> LocalServer::State::refusal(const HttpHead& head) cons
   return std::nullopt;
 }
 
-/// Returns the connection to close in favour of a new client: Among the connections whose request
-/// head is incomplete: the connection that has waited longest, if it has waited longer than
-/// kPollInterval. Otherwise end().
+/// Returns the connection to close in favour of a new client. This is the connection whose request
+/// head has been incomplete for the longest time, if this time exceeds kPollInterval; otherwise
+/// end().
 std::list<Connection>::iterator LocalServer::State::slowest_connection() {
   auto oldest = connections.end();
   for (auto client = connections.begin(); client != connections.end(); ++client) {

@@ -15,13 +15,13 @@ namespace {
 
 // Lengths are fractions of the distance from mouth to eyes. The upper border runs under the brows,
 // the lower border between nose and lips. The transition between two bands extends by kSoft above
-// and below their border, so that it is about four centimetres wide. Adjacent bands come from
-// different people, whose surfaces are often a centimetre apart. A narrower transition would
-// therefore be visible as a ridge.
+// and below their border, so that the transition is about four centimetres wide. Adjacent bands
+// come from different people, whose surfaces are often a centimetre apart. A narrower transition
+// would therefore be visible as a ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
-// How far the ear regions extend beyond the ears (kAroundEar, kBelowEar, kFrontOfEar), how far
-// below the chin the neck begins (kBelowChin), and how wide the soft borders are (kEarSoft,
-// kNeckSoft).
+// Fractions of the distance from mouth to eyes: how far the ear regions extend beyond the ears
+// (kAroundEar, kBelowEar, kFrontOfEar), how far below the chin the neck begins (kBelowChin), and
+// half the width of the soft borders (kEarSoft, kNeckSoft).
 constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSoft = 0.12,
                  kBelowChin = 0.12, kNeckSoft = 0.12;
 
@@ -29,8 +29,8 @@ constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSof
 // kAbove above the eyes and the height kBelow below the mouth. kMinEar is the smallest distance by
 // which an ear protrudes from the head.
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
-/// The vertical range of an ear: heights at which it protrudes by more than this fraction of its
-/// maximum protrusion.
+/// The vertical range of an ear consists of the heights at which the ear protrudes by more than
+/// this fraction of its maximum protrusion.
 constexpr double kOfMost = 0.4;
 constexpr int kBins = 96;
 
@@ -61,13 +61,13 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
                                 const FaceMarks& marks) {
   const HeadAxes& axes = marks.axes;
   const Positions& positions = head.positions;
-  const std::vector<bool>& skin = head.skin;
-  const double face = marks.eye_to_mouth(), low = marks.mouth - kBelow * face;
-  const double step = (marks.eyes + kAbove * face - low) / (kBins - 1);
+  const std::vector<bool>& skin = head.is_skin;
+  const double face = marks.eye_to_mouth(), low = marks.mouth_height - kBelow * face;
+  const double step = (marks.eyes_height + kAbove * face - low) / (kBins - 1);
   if (!(step > 0)) return std::nullopt;
   const Eigen::Vector3d side = axes.side();
   const auto breadth_at = [&](const Eigen::Vector3d& p) {
-    return std::abs(p.dot(side) - marks.middle);
+    return std::abs(p.dot(side) - marks.symmetry_offset);
   };
   // Half breadth of the head in each height bin, measured at the edges of the skin mesh.
   std::array<double, kBins> breadth{};
@@ -156,23 +156,25 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   const EarBox ears = found.value_or(EarBox());
   const Eigen::Vector3d side = axes.side();
   Eigen::VectorXd heights(positions.rows());
-  double least = marks.chin, middle_front = 0;
+  double least = marks.chin_height, middle_front = 0;
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     heights[v] = p.dot(axes.up);
     least = std::min(least, heights[v]);
     middle_front += p.dot(axes.front) / static_cast<double>(positions.rows());
   }
-  if (neck < count && least > marks.chin - 2 * kBelowChin * marks.eye_to_mouth()) {
+  if (neck < count && least > marks.chin_height - 2 * kBelowChin * marks.eye_to_mouth()) {
     throw InvalidInput("no neck: the head ends at its chin");
   }
   const double under = kBelowChin * marks.eye_to_mouth();
-  NeckBorder border{marks.chin_front, marks.chin - under, middle_front, marks.mouth - 2 * under};
+  NeckBorder border{marks.chin_front, marks.chin_height - under, middle_front,
+                    marks.mouth_height - 2 * under};
   if (found) {
     border.ear_front = ears.front;
     border.ear = ears.bottom - 2 * under;
   }
-  const RegionWeights::Alpha level = horizontal_bands(heights, marks.eyes, marks.mouth);
+  const RegionWeights::Alpha level =
+      horizontal_bands(heights, marks.eyes_height, marks.mouth_height);
   RegionWeights::Alpha alpha = RegionWeights::Alpha::Zero(positions.rows(), count);
   const double soft = kNeckSoft * marks.eye_to_mouth();
   for (Index v = 0; v < positions.rows(); ++v) {
@@ -180,7 +182,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
     const double front = p.dot(axes.front);
     double rest = 1;
     if (ear < count) {
-      const double away = std::abs(p.dot(side) - marks.middle);
+      const double away = std::abs(p.dot(side) - marks.symmetry_offset);
       alpha(v, ear) = ear_share(ears, marks.eye_to_mouth(), away, heights[v], front);
       rest -= alpha(v, ear);
     }

@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square)
-    : cell_size_(square) {
+DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square_size)
+    : cell_size_(square_size) {
   if (samples.rows() == 0) return;  // no surface anywhere
   const Eigen::Vector3d side = axes.side();
   Positions seen(samples.rows(), 3);
@@ -23,7 +23,7 @@ DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square
   rows_ = static_cast<Index>(box_.sizes().y() / cell_size_) + 1;
   depths_.assign(static_cast<std::size_t>(columns_ * rows_), kNoDepth);
   for (Index i = 0; i < seen.rows(); ++i) {
-    double& depth = depths_[index(seen(i, 0), seen(i, 1))];
+    double& depth = depths_[cell_index(seen(i, 0), seen(i, 1))];
     depth = std::max(depth, seen(i, 2));
   }
 }
@@ -46,50 +46,50 @@ void DepthMap::smooth() {
   }
 }
 
-DepthMap::Lookup DepthMap::look_up(double offset, double extent, Index count) const {
-  Lookup lookup;
-  if (!(offset >= 0 && offset <= extent)) return lookup;
+DepthMap::AxisCells DepthMap::cells_at(double offset, double extent, Index count) const {
+  AxisCells cells;
+  if (!(offset >= 0 && offset <= extent)) return cells;
   const double place = offset / cell_size_;
-  lookup.nearest = std::min(static_cast<Index>(place), count - 1);
-  if (place < 0.5) return lookup;
+  cells.nearest = std::min(static_cast<Index>(place), count - 1);
+  if (place < 0.5) return cells;
   const auto below = static_cast<Index>(place - 0.5);
-  if (below + 1 >= count) return lookup;
-  lookup.below = below;
-  lookup.share = place - 0.5 - static_cast<double>(below);
-  return lookup;
+  if (below + 1 >= count) return cells;
+  cells.below = below;
+  cells.weight_above = place - 0.5 - static_cast<double>(below);
+  return cells;
 }
 
 ReliefFit DepthMap::fit(double lateral, double height, double scale, double stretch) const {
   const Eigen::Vector2d extent = box_.sizes();
-  std::array<Lookup, kReliefColumns> columns;
-  std::array<Lookup, kReliefRows> rows;
+  std::array<AxisCells, kReliefColumns> columns;
+  std::array<AxisCells, kReliefRows> rows;
   for (int c = 0; c < kReliefColumns; ++c) {
-    const double x = lateral + scale * lateral_mm(c);
-    columns[static_cast<std::size_t>(c)] = look_up(x - box_.min().x(), extent.x(), columns_);
+    const double x = lateral + scale * cell_lateral_mm(c);
+    columns[static_cast<std::size_t>(c)] = cells_at(x - box_.min().x(), extent.x(), columns_);
   }
   for (int r = 0; r < kReliefRows; ++r) {
-    const double y = height + stretch * scale * height_mm(r * kReliefColumns);
-    rows[static_cast<std::size_t>(r)] = look_up(y - box_.min().y(), extent.y(), rows_);
+    const double y = height + stretch * scale * cell_height_mm(r * kReliefColumns);
+    rows[static_cast<std::size_t>(r)] = cells_at(y - box_.min().y(), extent.y(), rows_);
   }
   ReliefDepths depths;
   auto depth = depths.begin();
-  for (const Lookup& row : rows) {
-    for (const Lookup& column : columns) *depth++ = at(column, row) / scale;
+  for (const AxisCells& row : rows) {
+    for (const AxisCells& column : columns) *depth++ = depth_in_cells(column, row) / scale;
   }
   return fit_relief(depths);
 }
 
 double DepthMap::depth(double lateral, double height) const {
   const Eigen::Vector2d extent = box_.sizes();
-  return at(look_up(lateral - box_.min().x(), extent.x(), columns_),
-            look_up(height - box_.min().y(), extent.y(), rows_));
+  return depth_in_cells(cells_at(lateral - box_.min().x(), extent.x(), columns_),
+                        cells_at(height - box_.min().y(), extent.y(), rows_));
 }
 
-double DepthMap::at(const Lookup& column, const Lookup& row) const {
+double DepthMap::depth_in_cells(const AxisCells& column, const AxisCells& row) const {
   if (column.nearest < 0 || row.nearest < 0) return kNoDepth;
   if (column.below >= 0 && row.below >= 0) {
     const double* corner = &depths_[static_cast<std::size_t>(row.below * columns_ + column.below)];
-    const double s = column.share, t = row.share;
+    const double s = column.weight_above, t = row.weight_above;
     const double depth = (1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
                          t * ((1 - s) * corner[columns_] + s * corner[columns_ + 1]);
     if (std::isfinite(depth)) return depth;
@@ -97,7 +97,7 @@ double DepthMap::at(const Lookup& column, const Lookup& row) const {
   return depths_[static_cast<std::size_t>(row.nearest * columns_ + column.nearest)];
 }
 
-std::size_t DepthMap::index(double x, double y) const {
+std::size_t DepthMap::cell_index(double x, double y) const {
   const auto column = std::min(static_cast<Index>((x - box_.min().x()) / cell_size_), columns_ - 1);
   const auto row = std::min(static_cast<Index>((y - box_.min().y()) / cell_size_), rows_ - 1);
   return static_cast<std::size_t>(row * columns_ + column);

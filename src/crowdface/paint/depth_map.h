@@ -15,8 +15,8 @@ namespace crowdface {
 /// grid.
 class DepthMap {
  public:
-  /// \param square  edge length of a square
-  DepthMap(const Positions& samples, const HeadAxes& axes, double square);
+  /// \param square_size  edge length of a square
+  DepthMap(const Positions& samples, const HeadAxes& axes, double square_size);
 
   /// Reduces noise: replaces each depth by the mean of the known depths in the three by three
   /// squares around it. Also fills empty squares next to the surface. The outermost squares of the
@@ -35,19 +35,20 @@ class DepthMap {
   double depth(double lateral, double height) const;
 
  private:
-  /// The squares around a coordinate along one axis of the grid: the square that contains the
-  /// coordinate, the last square whose centre is below the coordinate, and the interpolation weight
-  /// of the square after that one. An index is −1 if there is no such square.
-  struct Lookup {
+  /// The squares around a coordinate along one axis of the grid. `nearest` is the index of the
+  /// square that contains the coordinate. `below` is the index of the last square whose centre is
+  /// below the coordinate, and `weight_above` the interpolation weight of square below + 1. −1: no
+  /// such square.
+  struct AxisCells {
     Index nearest = -1, below = -1;
-    double share = 0;
+    double weight_above = 0;
   };
-  Lookup look_up(double offset, double extent, Index count) const;
+  AxisCells cells_at(double offset, double extent, Index count) const;
   /// Depth at a point of the grid: interpolated bilinearly between the centres of the four nearest
   /// squares if all four show the surface, otherwise the depth of the square that contains the
   /// point. kNoDepth outside the grid.
-  double at(const Lookup& column, const Lookup& row) const;
-  std::size_t index(double x, double y) const;
+  double depth_in_cells(const AxisCells& column, const AxisCells& row) const;
+  std::size_t cell_index(double x, double y) const;
 
   Eigen::AlignedBox2d box_;
   double cell_size_;

@@ -50,7 +50,7 @@ class HeadRays {
   }
 
   InHead in_head(const Eigen::Vector3d& point) const {
-    return {(point.dot(side_) - marks_.middle) / mm_, point.dot(marks_.axes.up) / mm_,
+    return {(point.dot(side_) - marks_.symmetry_offset) / mm_, point.dot(marks_.axes.up) / mm_,
             point.dot(marks_.axes.front) / mm_};
   }
 
@@ -71,7 +71,7 @@ class HeadRays {
 
  private:
   Eigen::Vector3d point_at(const InHead& at) const {
-    return (at.across * mm_ + marks_.middle) * side_ + at.up * mm_ * marks_.axes.up +
+    return (at.across * mm_ + marks_.symmetry_offset) * side_ + at.up * mm_ * marks_.axes.up +
            at.front * mm_ * marks_.axes.front;
   }
   std::optional<Hit> trace(const Eigen::Vector3d& through, const Eigen::Vector3d& direction,
@@ -182,8 +182,8 @@ class LandmarkSearch {
                      kChinBelow = 28;
     constexpr double kBrowFrom = 5, kBrowTo = 32, kNotShown = 3;
     const char* const reason = "the profile does not show it";
-    const double bridge = height(marks_.bridge), tip = height(marks_.tip),
-                 mouth = height(marks_.mouth), chin = height(marks_.chin);
+    const double bridge = height(marks_.bridge_height), tip = height(marks_.tip_height),
+                 mouth = height(marks_.mouth_height), chin = height(marks_.chin_height);
     keep("nose_bridge", best(skin_between(bridge - 2, bridge + 2), back_of), reason);
     keep("brow_middle", best(skin_between(bridge + kBrowFrom, bridge + kBrowTo), front_of), reason);
     const auto nose = best(skin_between(tip - kAroundTip, tip + kAroundTip), front_of);
@@ -296,8 +296,8 @@ class LandmarkSearch {
          reason);
   }
 
-  /// Follows the groove between the lids from where the eyeball disappears to the inner corner of
-  /// the eye, where the groove is shallow.
+  /// Finds the inner corner of the eye: follows the groove between the lids from the point at which
+  /// the eyeball disappears until the groove is shallow.
   std::optional<Hit> inner_corner(std::optional<Hit> from, double across) const {
     constexpr double kStep = 0.25, kReach = 9, kWander = 0.5, kLid = 1.5, kShallow = 0.5;
     const auto front = [&](double x, double y) {
@@ -340,15 +340,15 @@ class LandmarkSearch {
     const auto tip = at("nose_tip"), base = at("nose_base");
     if (!tip || !base) return miss({"nose_wing_left", "nose_wing_right"}, reason);
     constexpr double kFrom = 9, kTo = 25, kStep = 0.25, kSpan = 1, kMinSlope = 0.6;
-    // kBeside to the side of the wing, the slope of the cheek is at most kFlatter times the slope
-    // of the wing.
+    // At the distance kBeside outside the steepest slope of the wing, the cheek's slope is at most
+    // kFlatter times this steepest slope.
     constexpr double kBeside = 4, kFlatter = 0.7;
     const auto slope = [&](double x, double up) {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);
       return inner && outer ? (*inner - *outer) / (2 * kSpan) : 0;
     };
     // The wings are at the height of the tip of the nose or a little lower. Lower down, the fold
-    // between cheek and lip is as steep as the wings and could be mistaken for them.
+    // between cheek and lip is as steep as the wings, and could be mistaken for a wing.
     constexpr double kLowest = 0.4, kAboveTip = 4;
     double widest = 0, at_height = 0;
     for (double up = base->up + kLowest * (tip->up - base->up); up <= tip->up + kAboveTip;
@@ -429,7 +429,7 @@ class LandmarkSearch {
     if (!base || !mouth || !chin) {
       return miss({"cheek_left", "cheek_right", "jaw_left", "jaw_right"}, reason);
     }
-    const double eyes = height(marks_.eyes);
+    const double eyes = height(marks_.eyes_height);
     // The front coordinate at which the face ends: at the ears, or without ears about 95 mm behind
     // the tip of the nose.
     const double back = ears ? ears->front / mm_ + kBeforeEar : base->front - 80;
@@ -477,12 +477,12 @@ class LandmarkSearch {
     const char* const reason = "the heads have no skull";
     double top = -kNever, back = kNever;
     for (Index v = 0; v < head_.positions.rows(); ++v) {
-      if (!head_.skin[static_cast<std::size_t>(v)]) continue;
+      if (!head_.is_skin[static_cast<std::size_t>(v)]) continue;
       const InHead p = rays_.in_head(row3(head_.positions, v));
       top = std::max(top, p.up);
-      if (p.up > height(marks_.eyes)) back = std::min(back, p.front);
+      if (p.up > height(marks_.eyes_height)) back = std::min(back, p.front);
     }
-    const double eyes = height(marks_.eyes);
+    const double eyes = height(marks_.eyes_height);
     const double ear = ears ? ears->back / mm_ : 0;
     if (top < eyes + kForehead || !ears || back > ear - kBehindEars) {
       return miss({"crown", "skull_back", "skull_left", "skull_right"}, reason);
@@ -490,7 +490,7 @@ class LandmarkSearch {
     std::optional<std::uint32_t> highest, farthest;
     double high = -kNever, far = -kNever;
     for (Index v = 0; v < head_.positions.rows(); ++v) {
-      if (!head_.skin[static_cast<std::size_t>(v)]) continue;
+      if (!head_.is_skin[static_cast<std::size_t>(v)]) continue;
       const InHead p = rays_.in_head(row3(head_.positions, v));
       if (std::abs(p.across) > 6) continue;
       if (p.up > high) highest = static_cast<std::uint32_t>(v), high = p.up;
@@ -527,10 +527,10 @@ FaceLandmarks find_face_landmarks(const Topology& topology, const Components& co
   HeadShape head;
   head.positions = positions;
   for (const std::uint32_t c : components.component_of_vertex) {
-    head.skin.push_back(parts.classes[c] == PartClass::kSkin);
+    head.is_skin.push_back(parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : parts.parts) {
-    if (part.is_eyeball) head.eyeballs.push_back(parts.shapes[part.ball_component].centre);
+    if (part.is_eyeball) head.eyeball_centres.push_back(parts.shapes[part.ball_component].centre);
   }
   const auto face = find_face(topology, head, axes);
   if (!face) return {};

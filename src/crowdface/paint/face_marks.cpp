@@ -196,7 +196,8 @@ MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, doubl
   constexpr double kStepMm = 0.5;
   constexpr double kRatio = 0.47, kRatioSpread = 0.04;
   constexpr double kMouthBelowTipMm = 38;
-  // Depth beyond kDeepMm counts only kDeeperShare, because an open mouth may be arbitrarily deep.
+  // Depth beyond kDeepMm counts only by the factor kDeeperShare, because an open mouth may be
+  // arbitrarily deep.
   constexpr double kDeepMm = 4, kDeeperShare = 0.25;
   constexpr double kMaxConvexMm = 6;
   MouthAndChin best{tip - kMouthBelowTipMm * stretch * mm, tip - kMouthBelowTipMm / kRatio * mm};
@@ -231,8 +232,8 @@ double edge_length_near(const Topology& topology, const HeadShape& head, const R
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t first = topology.face(f)[0];
     const bool is_near =
-        (row3(head.positions, first) - face.between_eyes).norm() < kNearMm * face.scale;
-    if (head.skin[first] && is_near) {
+        (row3(head.positions, first) - face.eye_midpoint).norm() < kNearMm * face.scale;
+    if (head.is_skin[first] && is_near) {
       areas.push_back(face_area_vector(topology, f, head.positions).norm());
     }
   }
@@ -248,10 +249,10 @@ HeadShape shape_of_mean(const HeadSet& heads) {
   const Components components = find_components(adjacency);
   const PartList parts = find_parts(heads.topology, adjacency, components, head.positions);
   for (const std::uint32_t c : components.component_of_vertex) {
-    head.skin.push_back(parts.classes[c] == PartClass::kSkin);
+    head.is_skin.push_back(parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : parts.parts) {
-    if (part.is_eyeball) head.eyeballs.push_back(parts.shapes[part.ball_component].centre);
+    if (part.is_eyeball) head.eyeball_centres.push_back(parts.shapes[part.ball_component].centre);
   }
   return head;
 }
@@ -261,7 +262,7 @@ double symmetry_offset(const Topology& topology, const HeadShape& head, const He
   double sum = 0, area = 0;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = topology.face(f);
-    if (!head.skin[face[0]]) continue;
+    if (!head.is_skin[face[0]]) continue;
     double middle = 0;
     for (const std::uint32_t v : face) middle += row3(head.positions, v).dot(side);
     const double weight = face_area_vector(topology, f, head.positions).norm();
@@ -273,9 +274,10 @@ double symmetry_offset(const Topology& topology, const HeadShape& head, const He
 
 std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& head,
                                      const HeadAxes& axes) {
-  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
-  auto match = match_relief(samples, {axes}, head.eyeballs);
-  if (!match || match->score < kMinScore || match->degrees_off > kMaxDegreesOff) return {};
+  const Positions samples = sample_skin(topology, head.positions, head.is_skin, kSkinSamples);
+  auto match = match_relief(samples, {axes}, head.eyeball_centres);
+  if (!match || match->score < kMinScore || match->rotation_degrees > kMaxRotationDegrees)
+    return {};
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return {};
   return match;
 }
@@ -283,16 +285,17 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
 FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
   FaceMarks marks;
   marks.axes = match.axes;
-  const double mm = match.scale, eyes = match.between_eyes.dot(match.frame.up);
+  const double mm = match.scale, eyes = match.eye_midpoint.dot(match.frame.up);
   // The middle of the skin gives the symmetry plane more accurately than the relief does, but hair
   // or a cap may shift this middle.
-  marks.middle = symmetry_offset(topology, head, marks.axes);
-  const double of_relief = match.between_eyes.dot(match.axes.side());
-  if (std::abs(marks.middle - of_relief) > kSameMiddleMm * mm) marks.middle = of_relief;
+  marks.symmetry_offset = symmetry_offset(topology, head, marks.axes);
+  const double of_relief = match.eye_midpoint.dot(match.axes.side());
+  if (std::abs(marks.symmetry_offset - of_relief) > kSameMiddleMm * mm)
+    marks.symmetry_offset = of_relief;
   // Heights in the profile are along the upright axis of the face, so that the orientation of the
   // head has no effect.
-  const double across = match.between_eyes.dot(match.frame.side());
-  const Outline outline(topology, head.positions, head.skin, match.frame, across, mm);
+  const double across = match.eye_midpoint.dot(match.frame.side());
+  const Outline outline(topology, head.positions, head.is_skin, match.frame, across, mm);
   const Outline closed = outline.without_slits(kSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
@@ -314,21 +317,21 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
     return across * match.frame.side() + h * match.frame.up + closed.at(h) * match.frame.front;
   };
   const auto height = [&](double h) { return place(h).dot(marks.axes.up); };
-  marks.tip = height(tip);
-  marks.bridge = height(bridge);
-  marks.mouth = height(mouth);
-  marks.chin = height(chin);
+  marks.tip_height = height(tip);
+  marks.bridge_height = height(bridge);
+  marks.mouth_height = height(mouth);
+  marks.chin_height = height(chin);
   marks.chin_front = place(chin).dot(marks.axes.front);
   // The eyes lie at a fixed distance below the bridge, or at the eyeballs if these are near that
   // height.
-  marks.eyes = height(bridge - kBridgeMm * match.stretch * mm);
+  marks.eyes_height = height(bridge - kBridgeMm * match.stretch * mm);
   double of_balls = 0;
-  for (const Eigen::Vector3d& eye : head.eyeballs) {
-    of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeballs.size());
+  for (const Eigen::Vector3d& eye : head.eyeball_centres) {
+    of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeball_centres.size());
   }
   const bool are_near =
-      std::abs(of_balls - match.between_eyes.dot(marks.axes.up)) < kEyesNearMm * mm;
-  if (!head.eyeballs.empty() && are_near) marks.eyes = of_balls;
+      std::abs(of_balls - match.eye_midpoint.dot(marks.axes.up)) < kEyesNearMm * mm;
+  if (!head.eyeball_centres.empty() && are_near) marks.eyes_height = of_balls;
   return marks;
 }
 
@@ -360,17 +363,17 @@ std::optional<Orientation> find_orientation(const Topology& topology, const Head
   const std::vector<Orientation> orientations = all_orientations();
   std::vector<HeadAxes> axes;
   for (const Orientation& orientation : orientations) axes.push_back(axes_of(orientation));
-  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
-  const auto match = match_relief(samples, axes, head.eyeballs);
+  const Positions samples = sample_skin(topology, head.positions, head.is_skin, kSkinSamples);
+  const auto match = match_relief(samples, axes, head.eyeball_centres);
   if (!match || match->score < kMinScore) return std::nullopt;
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
-  return orientations[match->axes_index];
+  return orientations[match->requested_axes_index];
 }
 
 std::optional<std::string> long_edges_message(const Topology& topology, const HeadShape& head,
                                               const HeadAxes& axes) {
-  const Positions samples = sample_skin(topology, head.positions, head.skin, kSkinSamples);
-  const auto match = match_relief(samples, {axes}, head.eyeballs);
+  const Positions samples = sample_skin(topology, head.positions, head.is_skin, kSkinSamples);
+  const auto match = match_relief(samples, {axes}, head.eyeball_centres);
   if (!match || match->score < kMinScore) return std::nullopt;
   const double edge_mm = edge_length_near(topology, head, *match) / match->scale;
   if (edge_mm <= kCoarsestMm) return std::nullopt;

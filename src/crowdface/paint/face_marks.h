@@ -14,24 +14,25 @@ namespace crowdface {
 
 /// Positions of the features of a face. Heights are along axes.up, in the unit of the positions.
 struct FaceMarks {
-  HeadAxes axes;          ///< axes of the face, see ReliefMatch
-  double middle = 0;      ///< position of the symmetry plane along axes.side()
-  double bridge = 0;      ///< height of the deepest point of the bridge of the nose
-  double tip = 0;         ///< height of the tip of the nose
-  double eyes = 0;        ///< height of the centres of the eyes
-  double mouth = 0;       ///< height of the line between the lips
-  double chin = 0;        ///< height of the most convex point of the profile of the chin
-  double chin_front = 0;  ///< how far in front the chin is, along axes.front
+  HeadAxes axes;               ///< axes of the face, see ReliefMatch
+  double symmetry_offset = 0;  ///< position of the symmetry plane along axes.side()
+  double bridge_height = 0;    ///< height of the deepest point of the bridge of the nose
+  double tip_height = 0;       ///< height of the tip of the nose
+  double eyes_height = 0;      ///< height of the centres of the eyes
+  double mouth_height = 0;     ///< height of the line between the lips
+  double chin_height = 0;      ///< height of the most convex point of the profile of the chin
+  double chin_front = 0;       ///< how far in front the chin is, along axes.front
   /// Height of the eyes above the mouth, about 65 mm. Other lengths of the face are multiples of
   /// this height.
-  double eye_to_mouth() const { return eyes - mouth; }
+  double eye_to_mouth() const { return eyes_height - mouth_height; }
 };
 
 /// The data of a head in which a face is searched; usually the mean of all heads.
 struct HeadShape {
-  Positions positions;                    ///< #V by 3
-  std::vector<bool> skin;                 ///< #V
-  std::vector<Eigen::Vector3d> eyeballs;  ///< centres of the eyeballs, if the head has eyeballs
+  Positions positions;        ///< #V by 3
+  std::vector<bool> is_skin;  ///< #V
+  std::vector<Eigen::Vector3d>
+      eyeball_centres;  ///< centres of the eyeballs, if the head has eyeballs
 };
 /// Returns the shape of the mean of all heads.
 HeadShape shape_of_mean(const HeadSet& heads);

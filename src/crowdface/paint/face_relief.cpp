@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// A candidate position of the face on the surface, with its agreement.
+/// A candidate position of the face on the surface, and the correlation there.
 struct Candidate {
   double across = 0, height = 0, scale = 1, stretch = 1;
   ReliefFit fit;
@@ -75,7 +75,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   const DepthMap map(samples, axes, diagonal_of(samples) / kSquares);
   const Eigen::AlignedBox2d& box = map.box();
   const double breadth = box.sizes().x();
-  // Sizes to try, in a geometric sequence; each size is searched in parallel.
+  // Search with sizes in a geometric sequence, in parallel. `of_scale` holds the best candidate of
+  // each size.
   std::vector<Candidate> of_scale;
   for (double scale = kMinShare * breadth / kReliefMm; scale < kMaxShare * breadth / kReliefMm;
        scale *= grow) {
@@ -94,7 +95,7 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
         const ReliefFit fit = map.fit(across, height, scale);
         if (!(fit.amplitude >= kMinAmplitude && fit.amplitude <= kMaxAmplitude)) continue;
         const double score =
-            fit.agreement + kVoteOfEyes * vote_of_eyes(eyes, axes, across, height, scale);
+            fit.correlation + kVoteOfEyes * vote_of_eyes(eyes, axes, across, height, scale);
         if (score > best.score) best = {across, height, scale, 1, fit, score};
       }
     }
@@ -104,8 +105,9 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
 }
 
 ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
-  const double depth = candidate.fit.offset + candidate.fit.amplitude * relief_mm(kCellBetweenEyes);
-  return {candidate.fit.agreement,
+  const double depth =
+      candidate.fit.offset + candidate.fit.amplitude * mean_face_depth_mm(kCellBetweenEyes);
+  return {candidate.fit.correlation,
           candidate.score,
           0,
           0,
@@ -125,7 +127,7 @@ class Refinement {
     constexpr std::size_t kMax = 20'000;
     std::vector<Index> near;
     for (Index i = 0; i < samples.rows(); ++i) {
-      const Eigen::Vector3d off = (row3(samples, i) - first.between_eyes) / first.scale;
+      const Eigen::Vector3d off = (row3(samples, i) - first.eye_midpoint) / first.scale;
       if (off.norm() < kAroundMm && off.dot(first.frame.front) > -kBehindMm) near.push_back(i);
     }
     if (const std::size_t step = near.size() / kMax; step > 1) {
@@ -202,7 +204,7 @@ class Refinement {
     constexpr double kDegrees = 2, kMm = 2;  // differences for the derivatives
     constexpr double kMaxSteps = 4, kSteadySteps = 0.05, kMinMm = 1;
     HeadAxes axes = best_.frame;
-    Eigen::Vector3d middle = best_.between_eyes;
+    Eigen::Vector3d middle = best_.eye_midpoint;
     for (int step = 0; step < kSteps; ++step) {
       const auto moved = [&](const Eigen::Vector3d& by) {
         HeadAxes next = turned(axes, axes.up, kDegrees * by(0));
@@ -241,7 +243,7 @@ class Refinement {
       if (size < kSteadySteps) break;
     }
     ReliefMatch next = best_;
-    next.between_eyes = middle;
+    next.eye_midpoint = middle;
     restart(next, axes);
   }
 
@@ -252,7 +254,7 @@ class Refinement {
       for (int grow = -3; grow <= 3; ++grow) {
         for (int stretch = -2; stretch <= 2; ++stretch) {
           ReliefMatch next = first;
-          next.between_eyes += up * kMoveMm * first.scale * first.frame.up;
+          next.eye_midpoint += up * kMoveMm * first.scale * first.frame.up;
           next.scale *= 1 + grow * 0.5 * kGrow;
           next.stretch = 1 + stretch * kGrow;
           try_match(next);
@@ -279,11 +281,11 @@ class Refinement {
       const double move = sign * step * kMoveMm * best_.scale;
       ReliefMatch next = best_;
       if (turns) {
-        next.between_eyes += move * best_.frame.side();
+        next.eye_midpoint += move * best_.frame.side();
         try_match(next);
         next = best_;
       }
-      next.between_eyes += move * best_.frame.up;
+      next.eye_midpoint += move * best_.frame.up;
       try_match(next);
       next = best_;
       next.scale *= 1 + sign * step * kGrow;
@@ -294,15 +296,15 @@ class Refinement {
     }
   }
 
-  /// Makes a match the new best match if the match agrees better than the old one and has a
+  /// Makes a match the new best match if the match has a higher score than the old best match and a
   /// plausible stretch.
   void try_match(const ReliefMatch& match) {
     if (!map_ || match.frame.front != map_axes_.front || match.frame.up != map_axes_.up) {
       map_.emplace(near_, match.frame, square_).smooth();
       map_axes_ = match.frame;
     }
-    Candidate candidate{match.between_eyes.dot(match.frame.side()),
-                        match.between_eyes.dot(match.frame.up),
+    Candidate candidate{match.eye_midpoint.dot(match.frame.side()),
+                        match.eye_midpoint.dot(match.frame.up),
                         match.scale,
                         match.stretch,
                         {},
@@ -311,7 +313,7 @@ class Refinement {
         map_->fit(candidate.across, candidate.height, candidate.scale, candidate.stretch);
     const double stretch = std::log(match.stretch);
     const double height = std::log(std::max(candidate.fit.amplitude, 0.1));
-    const double score = candidate.fit.agreement - kStretchPenalty * stretch * stretch -
+    const double score = candidate.fit.correlation - kStretchPenalty * stretch * stretch -
                          kAmplitudePenalty * height * height;
     if (std::abs(stretch) < kMaxStretch && score > score_) {
       score_ = score;
@@ -386,19 +388,19 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       ReliefMatch& match = refined[i];
       match = Refinement(samples, match_of(one, views[order[i]])).find();
       match.score =
-          match.agreement +
-          kVoteOfEyes * vote_of_eyes(eyes, match.axes, match.between_eyes.dot(match.axes.side()),
-                                     match.between_eyes.dot(match.axes.up), match.scale);
+          match.correlation +
+          kVoteOfEyes * vote_of_eyes(eyes, match.axes, match.eye_midpoint.dot(match.axes.side()),
+                                     match.eye_midpoint.dot(match.axes.up), match.scale);
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
     // Of the requested axes, choose the axes that are nearest to the axes of the face.
-    match.axes_index = static_cast<std::size_t>(
+    match.requested_axes_index = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
         all_axes.begin());
-    const HeadAxes& asked = all_axes[match.axes_index];
-    match.degrees_off = angle_between(match.axes, asked);
+    const HeadAxes& asked = all_axes[match.requested_axes_index];
+    match.rotation_degrees = angle_between(match.axes, asked);
     // Compensate a small pitch of the match.
     const double pitch =
         std::asin(std::clamp(match.frame.up.dot(asked.front), -1.0, 1.0)) / kRadians;
@@ -418,10 +420,10 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     }
   }
   // Most runs have one pair of axes, so this case must be fast. Wide steps almost always find the
-  // face. If they miss it, the search in the rotated views follows.
+  // face. If the wide steps miss the face, the search in the rotated views follows.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
-  if (match.score < kMinScore || match.degrees_off > kTurn) {
+  if (match.score < kMinScore || match.rotation_degrees > kTurn) {
     const ReliefMatch other = search(others, kCoarser);
     if (other.score > match.score) match = other;
   }

@@ -25,18 +25,18 @@ struct ReliefMatch {
   /// Partial correlation between the depths of the surface and the depths of the mean face, after
   /// an offset, slopes and curvatures are fitted to both depths and subtracted. 1 for the mean face
   /// itself, 0.75 to 0.97 for faces, rarely above 0.6 for other surfaces.
-  double agreement = -1;
-  /// The agreement, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15 if
-  /// the eyeballs are elsewhere.
+  double correlation = -1;
+  /// The correlation, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15
+  /// if the eyeballs are elsewhere.
   double score = -1;
   /// index, in the list of requested axes, of the axes that are nearest to the face's axes
-  std::size_t axes_index = 0;
-  double degrees_off = 0;  ///< angle between the nearest requested axes and the face's axes
+  std::size_t requested_axes_index = 0;
+  double rotation_degrees = 0;  ///< angle between the nearest requested axes and the face's axes
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
   /// Axes of the face: in these axes the face is symmetric and as upright as the mean face. Small
   /// rotations from the requested axes are due to the posture and shape of the face.
   HeadAxes frame;
-  Eigen::Vector3d between_eyes;  ///< point on the surface between the eyes
+  Eigen::Vector3d eye_midpoint;  ///< point on the surface between the eyes
   double scale = 1;    ///< horizontal: units of the positions per millimetre of the mean face
   double stretch = 1;  ///< vertical scale as a multiple of `scale`
 };
@@ -44,14 +44,14 @@ struct ReliefMatch {
 /// A match with a lower score does not count as a face.
 inline constexpr double kMinScore = 0.65;
 /// A match whose axes differ by a larger angle from the requested axes is rejected.
-inline constexpr double kMaxDegreesOff = 45;
+inline constexpr double kMaxRotationDegrees = 45;
 
 /// Searches a surface for the relief of a face (nose, eye sockets, mouth and chin) by normalised
 /// cross-correlation with the depths of a mean face. Finds faces of any size that are rotated by up
 /// to about 35° from one of `axes` in any direction. Searches for rotated faces only if no upright
 /// face matches.
 /// \param samples  see sample_skin
-/// \param eyes     centres of the eyeballs if known; they raise or lower the score of a match
+/// \param eyes     centres of the eyeballs, if known; used in the score of a match
 /// \return the match with the highest score, even if this score is low; nothing if there are no
 /// samples
 std::optional<ReliefMatch> match_relief(const Positions& samples, const std::vector<HeadAxes>& axes,

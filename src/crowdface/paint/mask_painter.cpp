@@ -85,8 +85,8 @@ double edge_length(const Positions& positions, const std::vector<Touched>& touch
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
 }
 
-/// Number of rounds, in each of which weights spread by one edge, that cover a distance of `edges`
-/// edge lengths.
+/// Number of rounds in which weights spread over a distance of `edges` edge lengths. In each round,
+/// weights spread by one edge.
 int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }

@@ -53,10 +53,10 @@ class MaskPainter {
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& points,
                                    const Brush& brush, bool continues_stroke = false);
 
-  /// The weights after removal of a region. At each vertex, the weight of the region goes to the
-  /// vertex's other regions in proportion to their weights. A vertex without other regions gets the
-  /// mean weights of its neighbours, or the first region if no path along edges leads to a vertex
-  /// with other regions.
+  /// The weights after removal of a region. At each vertex, the weight of the removed region goes
+  /// to the vertex's other regions in proportion to their weights. A vertex without other regions
+  /// gets the mean weights of its neighbours, or the first region if no path along edges leads to a
+  /// vertex with other regions.
   /// \throws BrokenPrecondition if there is no other region.
   Alpha alpha_without(Index region) const;
 

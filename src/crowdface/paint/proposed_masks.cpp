@@ -44,9 +44,9 @@ std::vector<std::string> names_of(const std::vector<Band>& bands) {
   return names;
 }
 
-int mask_texels(Index vertices) {
+int mask_side_texels(Index vertex_count) {
   constexpr Index kMany = 100'000;
-  return vertices > kMany ? 2048 : 1024;
+  return vertex_count > kMany ? 2048 : 1024;
 }
 
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
@@ -71,7 +71,7 @@ PaintedMasks propose_masks(const HeadSet& heads, const HeadShape& mean,
         "mesh, the same way for all heads, or blend without regions");
   }
   return paint_masks(heads.topology, heads.uvs,
-                     propose_regions(heads.topology, mean, orientation, bands), mean.skin, size);
+                     propose_regions(heads.topology, mean, orientation, bands), mean.is_skin, size);
 }
 
 }  // namespace crowdface

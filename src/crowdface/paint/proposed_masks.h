@@ -18,7 +18,7 @@ std::vector<std::string> names_of(const std::vector<Band>& bands);
 
 /// Width and height in texels that are sufficient for masks of soft regions on a mesh with this
 /// number of vertices: 1024 or 2048.
-int mask_texels(Index vertices);
+int mask_side_texels(Index vertex_count);
 
 /// Computes regions from the shape of the mean head: #V by #bands.
 /// \throws InvalidInput in the same cases as propose_bands, and if no face is found in the front

@@ -48,9 +48,9 @@ struct Terms {
 
   Terms() {
     for (int c = 0; c < kReliefCells; ++c) {
-      const double x = lateral_mm(c) / kUnitMm, y = (height_mm(c) - kMiddleMm) / kUnitMm;
+      const double x = cell_lateral_mm(c) / kUnitMm, y = (cell_height_mm(c) - kMiddleMm) / kUnitMm;
       Coefficients& terms = of_cell[static_cast<std::size_t>(c)];
-      terms = Coefficients(1, x, y, x * x, y * y, relief_mm(c));
+      terms = Coefficients(1, x, y, x * x, y * y, mean_face_depth_mm(c));
       products += terms * terms.transpose();
     }
   }
@@ -92,7 +92,7 @@ struct CellFit {
     const double without_relief = squares - explained.head<kTerms - 1>().squaredNorm();
     const bool is_flat = !(without_relief > kFlatMm * kFlatMm * count);
     if (cholesky.info() != Eigen::Success || is_flat) return;
-    fit.agreement = by_relief / std::sqrt(without_relief);
+    fit.correlation = by_relief / std::sqrt(without_relief);
     fit.amplitude = by_relief / factor(kTerms - 1, kTerms - 1);
   }
 
@@ -103,7 +103,7 @@ struct CellFit {
 
 }  // namespace
 
-double relief_mm(int cell) {
+double mean_face_depth_mm(int cell) {
   const int column = std::abs(cell % kReliefColumns - (kHalfReliefColumns - 1));
   return kMeanRelief[static_cast<std::size_t>(cell / kReliefColumns)]
                     [static_cast<std::size_t>(column)];
@@ -121,7 +121,7 @@ ReliefFit fit_relief(ReliefDepths depths) {
   CellFit of_cells(depths, used);
   // An open mouth and the openings of the eyes lie behind the face. Exclude cells that are too
   // deep, in two rounds.
-  for (int round = 0; round < 2 && of_cells.fit.agreement > kPromising; ++round) {
+  for (int round = 0; round < 2 && of_cells.fit.correlation > kPromising; ++round) {
     const Coefficients by = of_cells.coefficients();
     const UsedCells before = used;
     for (std::size_t c = 0; c < kReliefCells; ++c) {
@@ -131,7 +131,7 @@ ReliefFit fit_relief(ReliefDepths depths) {
     of_cells = CellFit(depths, used);
   }
   ReliefFit fit = of_cells.fit;
-  if (fit.agreement > kPromising) {
+  if (fit.correlation > kPromising) {
     const Coefficients by = of_cells.coefficients();
     const double eyes = -kMiddleMm / kUnitMm;
     fit.offset = by(0) + by(2) * eyes + by(4) * eyes * eyes + foremost;

@@ -18,16 +18,16 @@ inline constexpr double kReliefSpacingMm = 8, kReliefTopMm = 32;
 inline constexpr int kCellBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
 
 /// Signed sideways distance of a cell from the symmetry plane of the mean face, in mm.
-constexpr double lateral_mm(int cell) {
+constexpr double cell_lateral_mm(int cell) {
   return kReliefSpacingMm * (cell % kReliefColumns - (kHalfReliefColumns - 1));
 }
 /// Height of a cell above the eyes of the mean face, in mm.
-constexpr double height_mm(int cell) {
+constexpr double cell_height_mm(int cell) {
   const int row = cell / kReliefColumns;
   return kReliefTopMm - kReliefSpacingMm * row;
 }
 /// Depth of the mean face in a cell, relative to the tip of the nose; negative behind the tip.
-double relief_mm(int cell);
+double mean_face_depth_mm(int cell);
 
 /// Depth of a cell without a surface.
 inline constexpr double kNoDepth = -std::numeric_limits<double>::infinity();
@@ -35,10 +35,10 @@ using ReliefDepths = std::array<double, kReliefCells>;
 
 /// Result of comparing the depths of a surface with the mean face.
 struct ReliefFit {
-  double agreement = -1;  ///< see ReliefMatch::agreement
-  double amplitude = 0;   ///< amplitude of the relief, 1 for the mean face
-  double offset = 0;      ///< depth between the eyes minus the depth of the fitted relief there
-  double slope_up = 0;    ///< vertical slope of the depths without the relief
+  double correlation = -1;  ///< see ReliefMatch::correlation
+  double amplitude = 0;     ///< amplitude of the relief, 1 for the mean face
+  double offset = 0;        ///< depth between the eyes minus the depth of the fitted relief there
+  double slope_up = 0;      ///< vertical slope of the depths without the relief
 };
 
 /// Fits a model to the depths by least squares. The model is a weighted sum of an offset, slopes,

@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns the vertices of all polygons that contain one of the corners, ascending.
+/// Returns the vertices, ascending, of all polygons that contain at least one of the corners.
 std::vector<std::uint32_t> ring_of(const Topology& topology, const VertexFaces& faces,
                                    const std::array<std::uint32_t, 3>& corners) {
   std::vector<std::uint32_t> ring;
@@ -38,7 +38,7 @@ Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Posit
     const SurfacePoint place =
         nearest_point_around(topology, faces, positions, skin.nearest(point).vertex, point);
     const auto [entry, is_new] =
-        known.emplace(place.corners, static_cast<std::uint32_t>(sites_.size()));
+        known.emplace(place.corners, static_cast<std::uint32_t>(skin_triangles_.size()));
     triangle_indices_.push_back(entry->second);
     shares_.push_back(place.shares);
     if (!is_new) continue;
@@ -53,37 +53,38 @@ Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Posit
       weighted.push_back({r, from.dot(along), from.dot(across)});
     }
     rings_.add_group(weighted);
-    sites_.push_back(place.corners);
+    skin_triangles_.push_back(place.corners);
   }
 }
 
-Anchors::Frame Anchors::frame_at(std::size_t site, const Positions& positions) const {
+Anchors::Frame Anchors::frame_at(std::size_t triangle_index, const Positions& positions) const {
   // Positions are relative to the first corner, so that rounding does not depend on the head's
   // position.
-  const Eigen::Vector3d first = row3(positions, sites_[site][0]);
+  const Eigen::Vector3d first = row3(positions, skin_triangles_[triangle_index][0]);
   Eigen::Vector3d along = Eigen::Vector3d::Zero(), across = along;
-  for (const RingVertex& ring : rings_.items_of(site)) {
+  for (const RingVertex& ring : rings_.items_of(triangle_index)) {
     const Eigen::Vector3d from = row3(positions, ring.vertex) - first;
-    along += ring.along * from;
-    across += ring.across * from;
+    along += ring.first_axis_weight * from;
+    across += ring.second_axis_weight * from;
   }
   const Eigen::Vector3d x = along.normalized(), z = x.cross(across).normalized();
   return {x, z.cross(x), z};
 }
 
 Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const {
-  return point_on(positions, sites_[triangle_indices_[i]], shares_[i]);
+  return point_on(positions, skin_triangles_[triangle_indices_[i]], shares_[i]);
 }
 
-bool Anchors::is_unmoved(std::size_t site, const Positions& before, const Positions& after) const {
-  return std::ranges::all_of(rings_.items_of(site), [&](const RingVertex& ring) {
+bool Anchors::is_unmoved(std::size_t triangle_index, const Positions& before,
+                         const Positions& after) const {
+  return std::ranges::all_of(rings_.items_of(triangle_index), [&](const RingVertex& ring) {
     return before.row(ring.vertex) == after.row(ring.vertex);
   });
 }
 
 std::vector<Eigen::Vector3d> Anchors::offsets(const Positions& head) const {
   std::vector<Frame> frames;
-  for (std::size_t s = 0; s < sites_.size(); ++s) frames.push_back(frame_at(s, head));
+  for (std::size_t s = 0; s < skin_triangles_.size(); ++s) frames.push_back(frame_at(s, head));
   std::vector<Eigen::Vector3d> result;
   for (std::size_t i = 0; i < bound_.size(); ++i) {
     const Eigen::Vector3d offset = head.row(bound_[i]).transpose() - origin(i, head);
@@ -97,7 +98,7 @@ void Anchors::place_vertices(const Positions& target, std::span<const Eigen::Vec
                              Positions& result) const {
   std::vector<Frame> frames;
   std::vector<bool> still;
-  for (std::size_t s = 0; s < sites_.size(); ++s) {
+  for (std::size_t s = 0; s < skin_triangles_.size(); ++s) {
     still.push_back(is_unmoved(s, target, result));
     frames.push_back(still.back() ? Frame{} : frame_at(s, result));
   }

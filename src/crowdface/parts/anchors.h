@@ -29,7 +29,7 @@ class Anchors {
 
   const std::vector<std::uint32_t>& bound_vertices() const { return bound_; }
 
-  /// Returns, for each bound vertex, its offset on a head, in the vertex's frame: #bound.
+  /// Returns the offset of each bound vertex on a head, in the vertex's coordinate frame.
   std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
   /// Moves the bound vertices of `result` to the target's offsets in the frames of `result`.
   /// Where the surrounding skin has not moved, a vertex gets exactly the target's position.
@@ -40,21 +40,23 @@ class Anchors {
   using Frame = std::array<Eigen::Vector3d, 3>;  ///< orthonormal axes
   struct RingVertex {
     std::uint32_t vertex;
-    double along, across;  ///< weights of the vertex in the sums for the first and the second axis
+    /// weights of the vertex in the sums for the frame's first and second axis
+    double first_axis_weight, second_axis_weight;
   };
 
-  Frame frame_at(std::size_t site, const Positions& positions) const;
+  Frame frame_at(std::size_t triangle_index, const Positions& positions) const;
   Eigen::Vector3d origin(std::size_t i, const Positions& positions) const;
-  bool is_unmoved(std::size_t site, const Positions& before, const Positions& after) const;
+  bool is_unmoved(std::size_t triangle_index, const Positions& before,
+                  const Positions& after) const;
 
   std::vector<std::uint32_t> bound_;             ///< ascending
-  std::vector<std::uint32_t> triangle_indices_;  ///< #bound: index into `sites_`
+  std::vector<std::uint32_t> triangle_indices_;  ///< #bound: index into `skin_triangles_`
   std::vector<std::array<double, 3>> shares_;    ///< #bound: barycentric coordinates of each anchor
-  std::vector<Triangle> sites_;                  ///< triangles of the skin
-  CompressedRows<RingVertex> rings_;             ///< #sites: the skin around each triangle
+  std::vector<Triangle> skin_triangles_;         ///< triangles of the skin
+  CompressedRows<RingVertex> rings_;  ///< #skin_triangles_: the skin around each triangle
 };
 
-/// Ties bound vertices to nearby rigid parts: gums follow the teeth.
+/// Ties bound vertices to nearby rigid parts, such as gums to teeth.
 class Ties {
  public:
   Ties() = default;

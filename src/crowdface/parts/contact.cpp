@@ -17,15 +17,16 @@ namespace {
 /// Largest number of vertices of a part that are used; a part with more vertices is subsampled
 /// evenly.
 constexpr std::size_t kMaxVertices = 2500;
-/// kClusterPairs: largest number of pairs in a cluster. kMoreSlack: how many times larger the
-/// height differences within a cluster may be in a new face than in the heads.
+/// kClusterPairs: largest number of pairs in a cluster. kMoreSlack: the heights (distances from the
+/// skin) within a cluster may differ this many times more in a new face than in the heads.
 constexpr std::size_t kClusterPairs = 16;
 constexpr double kMoreSlack = 1.5;
-/// Fractions of the reach (about 4 mm). kNear: largest approximate height of vertices whose exact
-/// height is measured. kFree: smallest height of vertices that count as outside the skin.
+/// Fractions of the reach (about 4 mm). kNear: a vertex's exact height (distance from the skin) is
+/// measured if its approximate height is at most this. kFree: smallest height of vertices that
+/// count as outside the skin.
 constexpr double kNear = 0.5, kFree = -0.005;
-/// Fractions of the reach. kFar: later steps ignore vertices that are farther away from the skin.
-/// kDone: largest violation in the result.
+/// Fractions of the reach. kFar: later steps ignore vertices that are farther from the skin than
+/// this. kDone: largest violation in the result.
 constexpr double kFar = 0.15, kDone = 0.002;
 /// Costs of a rotation (kHoldTurn) and of a change of size (kHoldSize), relative to a translation
 /// that moves the vertices by the same distance.
@@ -40,9 +41,10 @@ enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepS
 
 }  // namespace
 
-Contact::Contact(const Topology& topology, const VertexFaces& faces, const Positions& positions,
-                 const PointGrid& grid, std::span<const std::uint32_t> skin,
-                 std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads)
+PartContact::PartContact(const Topology& topology, const VertexFaces& faces,
+                         const Positions& positions, const PointGrid& grid,
+                         std::span<const std::uint32_t> skin, std::span<const std::uint32_t> part,
+                         double reach, const std::vector<Head>& heads)
     : topology_(&topology), faces_(&faces), reach_(reach), middle_(centre_of(positions, part)) {
   radius_ = std::max(radius_about(middle_, positions, part), 1e-3 * reach);
   double sum = 0;
@@ -71,8 +73,8 @@ Contact::Contact(const Topology& topology, const VertexFaces& faces, const Posit
   });
 }
 
-void Contact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
-                          const std::vector<Head>& heads) {
+void PartContact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
+                              const std::vector<Head>& heads) {
   // If two start vertices are nearer to each other than this distance, searches from both find the
   // same point of the skin.
   const double apart = 0.3 * reach_;
@@ -113,7 +115,7 @@ void Contact::find_starts(const Positions& positions, std::span<const std::uint3
   }
 }
 
-void Contact::find_clusters(const Positions& positions, const std::vector<Head>& heads) {
+void PartContact::find_clusters(const Positions& positions, const std::vector<Head>& heads) {
   // Split the pairs at the median of the longest axis until each cluster is small.
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, pairs_.size()}};
   while (!open.empty()) {
@@ -152,13 +154,13 @@ void Contact::find_clusters(const Positions& positions, const std::vector<Head>&
   }
 }
 
-double Contact::approximate_height(const Pair& pair, const Eigen::Vector3d& point,
-                                   const Positions& skin) const {
+double PartContact::approximate_height(const Pair& pair, const Eigen::Vector3d& point,
+                                       const Positions& skin) const {
   const Eigen::Vector3d place = point_on(skin, pair.corners, pair.shares);
   return normal_sign_ * area_vector(skin, pair.corners).normalized().dot(point - place);
 }
 
-Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions& skin) const {
+Eigen::Vector3d PartContact::normal_near(const SurfacePoint& place, const Positions& skin) const {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     if (place.shares[k] <= 0) continue;
@@ -175,8 +177,8 @@ Eigen::Vector3d Contact::normal_near(const SurfacePoint& place, const Positions&
   return normal_sign_ * normal.normalized();
 }
 
-Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
-                                const Positions& skin) const {
+PartContact::Height PartContact::height(std::size_t pair, const Eigen::Vector3d& point,
+                                        const Positions& skin) const {
   const Starts& starts = pairs_[pair].starts;
   Starts ends = {};
   SurfacePoint place;
@@ -193,8 +195,8 @@ Contact::Height Contact::height(std::size_t pair, const Eigen::Vector3d& point,
   return {side * place.distance, side / place.distance * from};
 }
 
-RigidMotion Contact::keep_out_of_skin(const Positions& target, const RigidMotion& motion,
-                                      const Positions& after, double margin) const {
+RigidMotion PartContact::keep_out_of_skin(const Positions& target, const RigidMotion& motion,
+                                          const Positions& after, double margin) const {
   constexpr int kSteps = 4;
   RigidMotion cleared = motion;
   const auto rough = [&](const Pair& pair) {
@@ -215,8 +217,8 @@ RigidMotion Contact::keep_out_of_skin(const Positions& target, const RigidMotion
   return cleared;
 }
 
-bool Contact::step(const Positions& target, const RigidMotion& start, const Positions& after,
-                   double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const {
+bool PartContact::step(const Positions& target, const RigidMotion& start, const Positions& after,
+                       double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const {
   const Eigen::Vector3d middle = motion.apply(middle_);
   const Eigen::Vector3d shifted = middle - start.apply(middle_);
   const double radius = motion.scale * radius_;

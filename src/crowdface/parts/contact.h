@@ -15,9 +15,9 @@ namespace crowdface {
 
 /// Keeps a rigid part, such as the teeth, out of the skin in front of it, such as lips and cheeks.
 /// Stores pairs that consist of a vertex of the part and a triangle of the skin.
-class Contact {
+class PartContact {
  public:
-  Contact() = default;
+  PartContact() = default;
   /// \param topology   Must outlive this object.
   /// \param faces      Must outlive this object.
   /// \param positions  The head on which the pairs are found.
@@ -25,9 +25,9 @@ class Contact {
   /// \param skin       The skin's vertices.
   /// \param part       The part's vertices.
   /// \param reach      Largest distance between the vertex and the triangle of a pair.
-  Contact(const Topology& topology, const VertexFaces& faces, const Positions& positions,
-          const PointGrid& grid, std::span<const std::uint32_t> skin,
-          std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
+  PartContact(const Topology& topology, const VertexFaces& faces, const Positions& positions,
+              const PointGrid& grid, std::span<const std::uint32_t> skin,
+              std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
 
   /// Signed distance of a pair's vertex from the skin of a head; negative: inside the skin.
   struct Height {
@@ -44,8 +44,8 @@ class Contact {
   /// \param target  The head with the part before the motion.
   /// \param motion  Motion of the surrounding skin.
   /// \param after   The face with the moved skin.
-  /// \param margin  Clearance that the part keeps from the skin where it is clear of the skin in
-  ///                all heads.
+  /// \param margin  Distance that the part keeps from the skin, where the part is outside the skin
+  /// in all heads.
   RigidMotion keep_out_of_skin(const Positions& target, const RigidMotion& motion,
                                const Positions& after, double margin) const;
 

@@ -28,7 +28,7 @@ Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, 
     const Eigen::Vector3d flat = from - from.dot(up) * up;
     spread += flat * flat.transpose();
   }
-  const Eigen::Vector3d main = symmetric_eigen(spread).vectors.col(0);
+  const Eigen::Vector3d main = symmetric_eigen(spread).eigenvectors.col(0);
   const Eigen::Vector3d flat = main - main.dot(up) * up;
   if (flat.norm() > 0.1) return flat.normalized();
   const Eigen::Vector3d axis =

@@ -80,8 +80,8 @@ class Clearance {
              low_weights[0] * heights[low[0]] - low_weights[1] * heights[low[1]];
     }
   };
-  /// Returns the pairs of opposite points at the depths where a segment of one profile begins or
-  /// ends above a segment of the other profile. Segments are straight, so the gap is smallest at
+  /// Returns the pairs of opposite points at all depths where a segment of either profile begins or
+  /// ends opposite a segment of the other profile. Segments are straight, so the gap is smallest at
   /// one of these depths. If no segments overlap in depth, returns the two points that are nearest
   /// in depth.
   ///

@@ -38,9 +38,9 @@ constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
-/// Penalties for violations, as multiples of the radius. The highest penalty is for lid vertices
-/// that are outside the eyeball in all heads, the next for the mean gaps, the lowest for the
-/// largest depths.
+/// Penalties for violations, as multiples of the radius. kNewLidPenalty: for lid vertices that are
+/// outside the eyeball in all heads. kMeanGapPenalty: for the mean gaps. kDeepLidPenalty: for all
+/// other lid vertices.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
 /// Unknowns of an optimisation step of an eyeball. All of them are lengths.
@@ -98,7 +98,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
   for (const std::uint32_t v : rim) {
     const auto at = std::ranges::lower_bound(lids.vertices, v);
     lids.rim.push_back(static_cast<std::uint32_t>(at - lids.vertices.begin()));
-    lids.upper.push_back((row3(positions, v) - centre).dot(axes.up) > 0);
+    lids.is_upper.push_back((row3(positions, v) - centre).dot(axes.up) > 0);
   }
   return lids;
 }
@@ -124,16 +124,17 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
 
 RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
                            const Positions& after) const {
-  return iterate_steps(target, motion, motion, Size::kFree, after);
+  return iterate_steps(target, motion, motion, SizeMode::kFree, after);
 }
 
 RigidMotion EyeSocket::fit_translation(std::size_t target, const RigidMotion& motion,
                                        const RigidMotion& fitted, const Positions& after) const {
-  return iterate_steps(target, motion, fitted, Size::kKept, after);
+  return iterate_steps(target, motion, fitted, SizeMode::kKept, after);
 }
 
 RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& motion,
-                                     RigidMotion fitted, Size size, const Positions& after) const {
+                                     RigidMotion fitted, SizeMode size_mode,
+                                     const Positions& after) const {
   constexpr int kSteps = 4;
   if (lids_.rim.empty()) return fitted;
   std::vector<LidPoint> lids;
@@ -143,7 +144,7 @@ RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& moti
   }
   for (int k = 0; k < kSteps; ++k) {
     const RigidMotion next =
-        step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, size, lids);
+        step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, size_mode, lids);
     const double change = (next.moved_pivot - fitted.moved_pivot).norm();
     fitted = next;
     if (change < kDoneShift * maps_[target].radius()) break;
@@ -152,7 +153,7 @@ RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& moti
 }
 
 RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                            double far, Size size, std::vector<LidPoint>& lids) const {
+                            double far, SizeMode size_mode, std::vector<LidPoint>& lids) const {
   const BallMap& map = maps_[target];
   const double radius = motion.scale * map.radius();
   // A gap is measured along the normal of the eyeball, so the gap is a little smaller than the
@@ -181,13 +182,13 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     const Eigen::Vector3d normal = motion.apply_to_direction(gap.normal) / motion.scale;
     // A translation by x changes the gap by −x · normal.
     QuadraticProgram::Vector a = {-normal.x(), -normal.y(), -normal.z()};
-    if (size == Size::kFree) {
+    if (size_mode == SizeMode::kFree) {
       a[kBallSize] = -normal.dot(lid.point - gap.gap * normal - centre) / radius;
     }
     if (r != kNoIndex) {
       const double missing = gaps_[target][r] - gap.gap;
       program.add_target(a, missing, 1 / rim);
-      auto& of = mean[lids_.upper[r] ? 1 : 0];
+      auto& of = mean[lids_.is_upper[r] ? 1 : 0];
       for (std::size_t i = 0; i < kMeanGapSlack; ++i) of.a[i] += a[i];
       of.missing += missing;
       of.count += 1;
@@ -215,8 +216,8 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
     program.add_target(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
   // Keep the total shift and change of size small.
-  program.add_target(kBallSize, size == Size::kFree ? -grown : 0, kHoldBallSize);
-  if (size == Size::kFree) {
+  program.add_target(kBallSize, size_mode == SizeMode::kFree ? -grown : 0, kHoldBallSize);
+  if (size_mode == SizeMode::kFree) {
     program.add_bounds(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);
   }
   program.add_slack(kMeanGapSlack, kMeanGapPenalty * radius);
@@ -224,7 +225,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
   program.add_slack(kDeepLidSlack, kDeepLidPenalty * radius);
   const QuadraticProgram::Vector x = program.solve(1e-5 * radius);
   return nudged(motion, centre, {x[0], x[1], x[2]}, {0, 0, 0},
-                size == Size::kFree ? x[kBallSize] / radius : 0);
+                size_mode == SizeMode::kFree ? x[kBallSize] / radius : 0);
 }
 
 }  // namespace crowdface

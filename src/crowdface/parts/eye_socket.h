@@ -17,7 +17,7 @@ namespace crowdface {
 struct Lids {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<std::uint32_t> rim;       ///< indices into `vertices`, ascending
-  std::vector<bool> upper;              ///< #rim: whether the vertex belongs to the upper lid
+  std::vector<bool> is_upper;           ///< #rim: whether the vertex belongs to the upper lid
 };
 
 /// Finds the lids of an eyeball.
@@ -58,7 +58,7 @@ class EyeSocket {
   Eigen::Vector3d centre(std::size_t target) const { return maps_[target].centre(); }
 
  private:
-  enum class Size { kFree, kKept };
+  enum class SizeMode { kFree, kKept };
   struct LidPoint {
     Eigen::Vector3d point;
     std::uint32_t index;
@@ -67,9 +67,9 @@ class EyeSocket {
   /// \param far  The function removes lid points that are farther away than this fraction of the
   ///             radius.
   RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                   double far, Size size, std::vector<LidPoint>& lids) const;
+                   double far, SizeMode size_mode, std::vector<LidPoint>& lids) const;
   RigidMotion iterate_steps(std::size_t target, const RigidMotion& start, RigidMotion fitted,
-                            Size size, const Positions& after) const;
+                            SizeMode size_mode, const Positions& after) const;
 
   Lids lids_;
   std::vector<BallMap> maps_;               ///< #heads

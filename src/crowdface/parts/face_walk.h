@@ -65,7 +65,7 @@ class MirroredWalk {
   const Topology& topology_;
   const VertexFaces& vertex_faces_;
   // State of the current walk:
-  /// #V: partner of each vertex, and vertex of each partner; kNoIndex if there is none
+  /// #V: the partner of each vertex, and the vertex whose partner it is; kNoIndex if there is none
   std::vector<std::uint32_t> partners_, vertices_of_partners_;
   /// #F: whether the walk has visited the polygon on the first side
   std::vector<bool> is_visited_;

@@ -112,7 +112,7 @@ std::vector<Candidate> opposite(const Positions& positions, const Positions& nor
 void agree_on_sides(FacingGroup& group) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FacingPair& pair : group) spread += pair.up * pair.up.transpose();
-  const Eigen::Vector3d up = symmetric_eigen(spread).vectors.col(0);
+  const Eigen::Vector3d up = symmetric_eigen(spread).eigenvectors.col(0);
   for (FacingPair& pair : group) {
     if (pair.up.dot(up) >= 0) continue;
     std::swap(pair.low, pair.high);

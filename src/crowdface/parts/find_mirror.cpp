@@ -171,7 +171,7 @@ class PlaceFinder {
       distances[i] = place.distance;
     });
     for (std::size_t i = 0; i < here.size(); ++i) {
-      if (distances[i] > reach) found.map.unpaired.push_back(here[i]);
+      if (distances[i] > reach) found.map.unpaired_vertices.push_back(here[i]);
     }
   }
 
@@ -245,9 +245,9 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
 /// surface has no step.
 void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
-  map.unpaired_offsets.resize(static_cast<Index>(map.unpaired.size()), 3);
-  for (std::size_t i = 0; i < map.unpaired.size(); ++i) {
-    const auto v = static_cast<Index>(map.unpaired[i]);
+  map.unpaired_offsets.resize(static_cast<Index>(map.unpaired_vertices.size()), 3);
+  for (std::size_t i = 0; i < map.unpaired_vertices.size(); ++i) {
+    const auto v = static_cast<Index>(map.unpaired_vertices[i]);
     const Eigen::Vector3d off = row3(mean, v) - row3(image, v);
     const double length = off.norm();
     const double share = length > reach ? 1 - reach / length : 0;
@@ -284,7 +284,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
       const Vertices& here = of_component[c];
       if (partners[c] == kNoIndex) {
         for (const std::uint32_t v : here) PlaceFinder::set_partner(map, v, v);
-        map.unpaired.insert(map.unpaired.end(), here.begin(), here.end());
+        map.unpaired_vertices.insert(map.unpaired_vertices.end(), here.begin(), here.end());
         continue;
       }
       const Vertices& there = of_component[partners[c]];
@@ -301,14 +301,14 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
     const bool agreed = map.is_vertex(partner) && map.corners[partner][0] == v;
     if (map.is_vertex(v) && !agreed) PlaceFinder::mark_unpaired(map, v);
   }
-  std::ranges::sort(map.unpaired);
-  map.unpaired_offsets.setZero(static_cast<Index>(map.unpaired.size()), 3);
+  std::ranges::sort(map.unpaired_vertices);
+  map.unpaired_offsets.setZero(static_cast<Index>(map.unpaired_vertices.size()), 3);
   // Improve the plane with the pairs of partners.
   map.plane = plane_of_partners(map, skin, mean, side);
   keep_form(mean, kMatchReach * extent, map);
   found.rms_distance = std::sqrt(mean_square(map, mean, &found.max_distance));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
-    if (std::ranges::binary_search(map.unpaired, v)) continue;
+    if (std::ranges::binary_search(map.unpaired_vertices, v)) continue;
     ++(map.is_vertex(v) ? found.mutual_vertex_count : found.surface_partner_count);
   }
   return found;

@@ -11,8 +11,8 @@ struct FoundMirror {
   MirrorMap map;
   /// number of vertices in mutual pairs: each vertex of a pair is the partner of the other
   Index mutual_vertex_count = 0;
-  /// number of vertices whose partner is a point on the surface instead of a vertex; all vertices
-  /// that neither count includes have no partner
+  /// number of vertices whose partner is a point on the surface instead of a vertex; vertices in
+  /// neither of both counts have no partner
   Index surface_partner_count = 0;
   /// Distance of the mean head from its mirror image, in the unit of the heads: root mean square
   /// and maximum over all vertices.

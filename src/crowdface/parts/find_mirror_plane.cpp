@@ -94,7 +94,7 @@ void PlaneFit::add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner)
 
 MirrorPlane PlaneFit::plane(const Eigen::Vector3d& side) const {
   MirrorPlane plane;
-  plane.normal = symmetric_eigen(scatter_).vectors.col(0).normalized();
+  plane.normal = symmetric_eigen(scatter_).eigenvectors.col(0).normalized();
   if (plane.normal.dot(side) < 0) plane.normal = -plane.normal;
   plane.offset = plane.normal.dot(midpoint_sum_ / count_);
   return plane;

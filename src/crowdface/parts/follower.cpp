@@ -53,8 +53,8 @@ struct RigidPart {
   std::vector<double> unit_weights;  ///< #vertices: equal weights, for fits of the part's shape
   Socket socket;
   bool is_eyeball = false;
-  EyeSocket eye;    ///< used for eyeballs
-  Contact contact;  ///< used for other parts
+  EyeSocket eye;        ///< used for eyeballs
+  PartContact contact;  ///< used for other parts
 };
 
 /// The mean head and its skin, to which parts are bound.
@@ -103,8 +103,9 @@ RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& 
   bound.is_eyeball = part.is_eyeball;
   if (!part.is_eyeball) {
     bound.socket = socket_of(part, kSocketReach * skin.extent, skin);
-    bound.contact = Contact(skin.heads.topology, skin.around, skin.mean, skin.grid, skin.vertices,
-                            part.vertices, kContactReach * skin.extent, skin.heads.heads);
+    bound.contact =
+        PartContact(skin.heads.topology, skin.around, skin.mean, skin.grid, skin.vertices,
+                    part.vertices, kContactReach * skin.extent, skin.heads.heads);
     return bound;
   }
   const ComponentShape& ball = parts.shapes[part.ball_component];

@@ -234,14 +234,14 @@ Components join_skin(const Components& components, const PartList& parts) {
   return joined;
 }
 
-std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& around) {
-  std::vector<bool> is_skin(around.group_count(), true);
+std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& vertex_faces) {
+  std::vector<bool> is_skin(vertex_faces.group_count(), true);
   for (const Part& part : parts.parts) {
     for (const std::uint32_t v : part.vertices) is_skin[v] = false;
   }
   std::vector<std::uint32_t> skin;
   for (std::uint32_t v = 0; v < is_skin.size(); ++v) {
-    if (is_skin[v] && !around.items_of(v).empty()) skin.push_back(v);
+    if (is_skin[v] && !vertex_faces.items_of(v).empty()) skin.push_back(v);
   }
   return skin;
 }

@@ -63,6 +63,6 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
 Components join_skin(const Components& components, const PartList& parts);
 
 /// Returns the vertices that belong to a polygon but to no part, ascending.
-std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& around);
+std::vector<std::uint32_t> skin_of(const PartList& parts, const VertexFaces& vertex_faces);
 
 }  // namespace crowdface

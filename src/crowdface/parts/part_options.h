@@ -10,7 +10,7 @@ enum class PartShape {
 };
 
 /// How a generated face treats lips and other skin that nearly touches skin.
-enum class Contacts {
+enum class ContactHandling {
   kAuto,  ///< gaps stay between the gaps of the target and of the sources
   kNone,  ///< gaps are not corrected after the blend (Eq. 7)
 };

@@ -51,7 +51,7 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
     }
   } else {
     join_near(n + 1, place, reach, component);
-    join_near(tree_.nodes[n].second, place, reach, component);
+    join_near(tree_.nodes[n].second_child, place, reach, component);
   }
   if (only == kNoIndex) only = only_group(n);
 }
@@ -62,7 +62,7 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
 std::uint32_t ProximityJoiner::only_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];
   if (!node.is_leaf()) {
-    const std::uint32_t a = only_groups_[n + 1], b = only_groups_[node.second];
+    const std::uint32_t a = only_groups_[n + 1], b = only_groups_[node.second_child];
     const bool one = a != kNoIndex && b != kNoIndex && groups_.root(a) == groups_.root(b);
     return one ? a : kNoIndex;
   }

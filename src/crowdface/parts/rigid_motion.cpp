@@ -30,7 +30,7 @@ Eigen::Matrix3d best_turn(const Eigen::Matrix3d& s) {
   n(1, 2) = n(2, 1) = s(0, 1) + s(1, 0);
   n(1, 3) = n(3, 1) = s(2, 0) + s(0, 2);
   n(2, 3) = n(3, 2) = s(1, 2) + s(2, 1);
-  const Eigen::MatrixXd vectors = symmetric_eigen(n).vectors;
+  const Eigen::MatrixXd vectors = symmetric_eigen(n).eigenvectors;
   return rotation_of(vectors(0, 0), vectors(1, 0), vectors(2, 0), vectors(3, 0));
 }
 

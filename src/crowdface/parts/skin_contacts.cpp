@@ -27,8 +27,8 @@ constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices 
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
-/// A gap may miss its range by this fraction of its section's amplitude. This tolerance makes the
-/// amplitudes of neighbouring sections more equal.
+/// A gap may miss its range by this fraction of its section's amplitude (the size of the section's
+/// correction). This tolerance makes the amplitudes of neighbouring sections more equal.
 constexpr double kEvenness = 0.001;
 /// Largest amplitude of a section, as a multiple of the largest deviation of a gap from its range.
 constexpr double kMax = 4;
@@ -139,29 +139,29 @@ SkinContacts::SkinContacts(const HeadSet& heads, const Adjacency& adjacency,
 void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
                        double extent) {
   Sides sides = find_sides(group, adjacency, mean, kSide * extent);
-  Contact contact;
-  contact.begin = sections_.size();
+  SectionGroup section_group;
+  section_group.begin = sections_.size();
   for (GapSection& section : distribute_gap_sections(group, kSectionSpacing * extent)) {
     cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, section);
     if (section.low.empty() || section.high.empty()) continue;
     clearances_.emplace_back(section, adjacency);
     sections_.push_back(std::move(section));
   }
-  contact.end = sections_.size();
-  if (contact.begin == contact.end) return;
+  section_group.end = sections_.size();
+  if (section_group.begin == section_group.end) return;
   round_off(adjacency, mean, kRounding * extent, sides);
-  find_kernels(mean, sides.vertices, sides.side, extent, contact);
-  find_motions(contact);
-  contacts_.push_back(std::move(contact));
+  find_kernels(mean, sides.vertices, sides.side, extent, section_group);
+  find_motions(section_group);
+  section_groups_.push_back(std::move(section_group));
 }
 
 void SkinContacts::find_kernels(const Positions& mean, std::span<const std::uint32_t> around,
                                 const std::vector<double>& side, double extent,
-                                Contact& contact) const {
+                                SectionGroup& section_group) const {
   const double reach = kMotionReach * extent;
   for (const std::uint32_t v : around) {
     std::vector<KernelValue> kernels;
-    for (std::size_t p = contact.begin; p < contact.end; ++p) {
+    for (std::size_t p = section_group.begin; p < section_group.end; ++p) {
       const double distance = (row3(mean, v) - sections_[p].middle).norm() / reach;
       const double weight = side[v] * bump(distance);
       if (std::abs(weight) > kMinWeight) {
@@ -169,27 +169,27 @@ void SkinContacts::find_kernels(const Positions& mean, std::span<const std::uint
       }
     }
     if (kernels.empty()) continue;
-    contact.vertices.push_back(v);
-    contact.kernels.add_group(kernels);
+    section_group.vertices.push_back(v);
+    section_group.kernels.add_group(kernels);
   }
 }
 
-void SkinContacts::find_motions(Contact& contact) const {
-  contact.point_motions.resize(contact.end - contact.begin);
-  for (std::size_t p = contact.begin; p < contact.end; ++p) {
+void SkinContacts::find_motions(SectionGroup& section_group) const {
+  section_group.point_motions.resize(section_group.end - section_group.begin);
+  for (std::size_t p = section_group.begin; p < section_group.end; ++p) {
     const Eigen::Vector3d &up = sections_[p].up, deep = sections_[p].inward();
     const auto add_vertex = [&](std::uint32_t v, double share) {
-      const std::uint32_t row = index_in_list(contact.vertices, v);
+      const std::uint32_t row = index_in_list(section_group.vertices, v);
       if (row == kNoIndex) return;
-      for (const auto& [section, weight] : contact.kernels.items_of(row)) {
-        PointMotions& point_motions = contact.point_motions[section - contact.begin];
+      for (const auto& [section, weight] : section_group.kernels.items_of(row)) {
+        PointMotions& point_motions = section_group.point_motions[section - section_group.begin];
         point_motions.heights.back() += share * weight * up.dot(sections_[section].up);
         point_motions.depths.back() += share * weight * deep.dot(sections_[section].up);
       }
     };
     for (const auto* profile : {&sections_[p].low, &sections_[p].high}) {
       for (const EdgePoint& point : *profile) {
-        for (PointMotions& point_motions : contact.point_motions) {
+        for (PointMotions& point_motions : section_group.point_motions) {
           point_motions.heights.push_back(0);
           point_motions.depths.push_back(0);
         }
@@ -207,7 +207,7 @@ std::vector<double> SkinContacts::gaps(const Positions& positions) const {
   return gaps;
 }
 
-double SkinContacts::max_excess(const Positions& positions) const {
+double SkinContacts::max_gap_excess(const Positions& positions) const {
   const std::vector<double> here = gaps(positions);
   double most = 0;
   for (std::size_t p = 0; p < here.size(); ++p) {
@@ -220,8 +220,8 @@ double SkinContacts::max_excess(const Positions& positions) const {
 
 std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
   std::vector<std::uint32_t> vertices;
-  for (const Contact& contact : contacts_) {
-    vertices.insert(vertices.end(), contact.vertices.begin(), contact.vertices.end());
+  for (const SectionGroup& section_group : section_groups_) {
+    vertices.insert(vertices.end(), section_group.vertices.begin(), section_group.vertices.end());
   }
   return vertices;
 }
@@ -233,14 +233,14 @@ std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
 /// chapter 5). The points at which two profiles are nearest change during the iteration, so each
 /// step computes the gap again.
 std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_amplitudes(
-    const Contact& contact, std::span<const Range> ranges, double max_amplitude, Profiles& profiles,
-    std::vector<double>& amplitudes) const {
+    const SectionGroup& section_group, std::span<const Range> ranges, double max_amplitude,
+    Profiles& profiles, std::vector<double>& amplitudes) const {
   std::vector<AmplitudeChange> changes;
   double largest = std::numeric_limits<double>::max();
   for (int sweep = 0; sweep < kSweeps && largest > tolerance_; ++sweep) {
     largest = 0;
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-      const Range& range = ranges[contact.begin + i];
+      const Range& range = ranges[section_group.begin + i];
       const double rest = amplitudes[i] - profiles.gap(i);
       const double wanted = std::clamp(0.0, (range.min + rest) / (1 + kEvenness),
                                        (range.max + rest) / (1 + kEvenness));
@@ -249,18 +249,19 @@ std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_amplitudes(
       amplitudes[i] += change;
       largest = std::max(largest, std::abs(change));
       changes.push_back({i, change});
-      const std::vector<double>& heights = contact.point_motions[i].heights;
+      const std::vector<double>& heights = section_group.point_motions[i].heights;
       for (std::size_t k = 0; k < heights.size(); ++k) profiles.heights[k] += heights[k] * change;
     }
   }
   return changes;
 }
 
-void SkinContacts::move_depths(const Contact& contact, std::span<const AmplitudeChange> changes,
+void SkinContacts::move_depths(const SectionGroup& section_group,
+                               std::span<const AmplitudeChange> changes,
                                std::vector<double>& depths) {
   parallel_blocks(depths.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (const AmplitudeChange& change : changes) {
-      const std::vector<double>& point_motions = contact.point_motions[change.section].depths;
+      const std::vector<double>& point_motions = section_group.point_motions[change.section].depths;
       for (std::size_t k = begin; k < end; ++k) depths[k] += point_motions[k] * change.amount;
     }
   });
@@ -270,55 +271,56 @@ double SkinContacts::Profiles::gap(std::size_t section) const {
   return Clearance::gap(opposites[section], std::span(heights).subspan(begins[section]));
 }
 
-void SkinContacts::move(const Contact& contact, std::span<const double> amplitudes,
+void SkinContacts::move(const SectionGroup& section_group, std::span<const double> amplitudes,
                         Positions& positions) const {
   std::vector<Eigen::Vector3d> ups;
-  for (std::size_t p = contact.begin; p < contact.end; ++p) ups.push_back(sections_[p].up);
-  parallel_for_each(contact.vertices.size(), kMovedPerBlock, [&](std::size_t i) {
+  for (std::size_t p = section_group.begin; p < section_group.end; ++p)
+    ups.push_back(sections_[p].up);
+  parallel_for_each(section_group.vertices.size(), kMovedPerBlock, [&](std::size_t i) {
     double x = 0, y = 0, z = 0;
-    for (const auto& [section, weight] : contact.kernels.items_of(i)) {
-      const Eigen::Vector3d& up = ups[section - contact.begin];
-      const double share = weight * amplitudes[section - contact.begin];
+    for (const auto& [section, weight] : section_group.kernels.items_of(i)) {
+      const Eigen::Vector3d& up = ups[section - section_group.begin];
+      const double share = weight * amplitudes[section - section_group.begin];
       x += share * up.x();
       y += share * up.y();
       z += share * up.z();
     }
-    positions(contact.vertices[i], 0) += x;
-    positions(contact.vertices[i], 1) += y;
-    positions(contact.vertices[i], 2) += z;
+    positions(section_group.vertices[i], 0) += x;
+    positions(section_group.vertices[i], 1) += y;
+    positions(section_group.vertices[i], 2) += z;
   });
 }
 
 /// Repeats the correction, because other points lie opposite each other after points have moved.
 void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions) const {
-  for (const Contact& contact : contacts_) {
+  for (const SectionGroup& section_group : section_groups_) {
     Profiles profiles;
-    for (std::size_t p = contact.begin; p < contact.end; ++p) {
+    for (std::size_t p = section_group.begin; p < section_group.end; ++p) {
       profiles.begins.push_back(profiles.heights.size());
       append(clearances_[p].heights(positions), profiles.heights);
       append(clearances_[p].depths(positions), profiles.depths);
     }
-    std::vector<double> amplitudes(contact.end - contact.begin, 0.0);
+    std::vector<double> amplitudes(section_group.end - section_group.begin, 0.0);
     std::vector<AmplitudeChange> changes;
     double most = 0;
     for (int round = 0; round < kRounds; ++round) {
       // Update the depths, and find the facing points again.
-      move_depths(contact, changes, profiles.depths);
+      move_depths(section_group, changes, profiles.depths);
       double missing = 0;
       profiles.opposites.clear();
       for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const std::span depths = std::span(profiles.depths).subspan(profiles.begins[i]);
-        profiles.opposites.push_back(clearances_[contact.begin + i].opposite_points(depths));
-        const auto [least, widest] = ranges[contact.begin + i];
+        profiles.opposites.push_back(clearances_[section_group.begin + i].opposite_points(depths));
+        const auto [least, widest] = ranges[section_group.begin + i];
         const double gap = profiles.gap(i);
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (missing <= tolerance_) break;
       // Solve for the amplitudes with these facing points.
       if (round == 0) most = kMax * missing;
-      changes = find_amplitudes(contact, ranges, most, profiles, amplitudes);
+      changes = find_amplitudes(section_group, ranges, most, profiles, amplitudes);
     }
-    if (most > 0) move(contact, amplitudes, positions);
+    if (most > 0) move(section_group, amplitudes, positions);
   }
 }
 

@@ -25,16 +25,16 @@ class SkinContacts {
 
   std::size_t size() const { return sections_.size(); }
   const GapSection& section(std::size_t i) const { return sections_[i]; }
-  /// Returns one value for each section: the gap there, in the heads' unit.
+  /// Returns the gap at each section, in the heads' unit.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns one value for each section: the gap of a head there, in the heads' unit.
+  /// Returns a head's gap at each section, in the heads' unit.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
 
-  /// Returns the largest excess, over all sections, of a gap over the widest gap of any head at the
-  /// same section; 0 if no gap is wider than in the heads.
-  double max_excess(const Positions& positions) const;
+  /// Compares the gap at each section with the widest gap that any head has there. Returns the
+  /// largest excess; 0 if no gap is wider than in the heads.
+  double max_gap_excess(const Positions& positions) const;
 
   /// Returns the vertices that fit_gaps may move.
   std::vector<std::uint32_t> movable_vertices() const;
@@ -56,20 +56,20 @@ class SkinContacts {
     std::uint32_t section;
     double weight;  ///< positive on the high side, negative on the low side
   };
-  /// The movement of all profile points of a contact, section after section, if the amplitude of
+  /// The movement of all profile points of a group, section after section, if the amplitude of
   /// one section grows by one.
   struct PointMotions {
     std::vector<double> heights, depths;
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
-  struct Contact {
+  struct SectionGroup {
     std::size_t begin = 0, end = 0;           ///< range of sections
     std::vector<std::uint32_t> vertices;      ///< vertices that move, ascending
-    CompressedRows<KernelValue> kernels;      ///< #vertices
-    std::vector<PointMotions> point_motions;  ///< #sections of the contact
+    CompressedRows<KernelValue> kernels;      ///< #vertices: values of the nearby sections
+    std::vector<PointMotions> point_motions;  ///< #sections of the group
   };
 
-  /// The current profiles at a contact's sections.
+  /// The current profiles at a group's sections.
   struct Profiles {
     /// coordinates of all points, section after section
     std::vector<double> heights, depths;
@@ -83,31 +83,33 @@ class SkinContacts {
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
   void find_kernels(const Positions& mean, std::span<const std::uint32_t> around,
-                    const std::vector<double>& side, double extent, Contact& contact) const;
-  void find_motions(Contact& contact) const;
+                    const std::vector<double>& side, double extent,
+                    SectionGroup& section_group) const;
+  void find_motions(SectionGroup& section_group) const;
   /// A change of a section's amplitude.
   struct AmplitudeChange {
-    std::size_t section;  ///< index within the contact
+    std::size_t section;  ///< index within the group
     double amount;
   };
   /// Finds the amplitudes that bring the gaps into their ranges (skin_contacts.cpp explains the
   /// method).
   ///
   /// \param max_amplitude  Limit for the absolute value of each amplitude.
-  /// \param amplitudes  Amplitudes of the contact's sections; updated.
+  /// \param amplitudes  Amplitudes of the group's sections; updated.
   /// \return       The changes in order. The depths of `profiles` are not updated.
-  std::vector<AmplitudeChange> find_amplitudes(const Contact& contact,
+  std::vector<AmplitudeChange> find_amplitudes(const SectionGroup& section_group,
                                                std::span<const Range> ranges, double max_amplitude,
                                                Profiles& profiles,
                                                std::vector<double>& amplitudes) const;
-  static void move_depths(const Contact& contact, std::span<const AmplitudeChange> changes,
-                          std::vector<double>& depths);
-  void move(const Contact& contact, std::span<const double> amplitudes, Positions& positions) const;
+  static void move_depths(const SectionGroup& section_group,
+                          std::span<const AmplitudeChange> changes, std::vector<double>& depths);
+  void move(const SectionGroup& section_group, std::span<const double> amplitudes,
+            Positions& positions) const;
 
   double tolerance_ = 0;
   std::vector<GapSection> sections_;
   std::vector<Clearance> clearances_;  ///< #sections
-  std::vector<Contact> contacts_;
+  std::vector<SectionGroup> section_groups_;
   std::vector<std::vector<double>> head_gaps_;  ///< #heads by #sections
 };
 

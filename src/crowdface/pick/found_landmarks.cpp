@@ -21,12 +21,14 @@ constexpr double kFarMm = 25;
 /// Largest distance between a found landmark and the same landmark of the template, after a fit to
 /// all landmarks. The differences between people's faces are smaller than this distance.
 constexpr double kOffMm = 14;
-/// Uncertainty of found landmarks: twice the errors of 1.3 to 2.4 mm that scripts/measure_wrap.sh
-/// shows, because the errors of neighbouring landmarks are correlated.
+/// Assumed error of a found landmark: about twice the error that scripts/measure_wrap.sh measures
+/// (1.3 to 2.4 mm), because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
 
-/// Landmarks by name, as scan vertices, of a scan whose head has the axes `axes`; empty if the mesh
+/// Finds landmarks on a scan. Returns the scan vertex of each landmark, by name; empty if the mesh
 /// is not usable as a head (for example too small).
+/// \param in_mm  the positions of the scan in millimetres.
+/// \param axes  the axes of the head in `in_mm`.
 std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
                                                 const HeadAxes& axes,
                                                 const std::optional<ReliefMatch>& face = {}) {
@@ -46,7 +48,8 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
   while (landmarks.size() > kMinLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));
     const auto off = [&](const WrapLandmark& landmark) {
-      return (apply_similarity(back, landmark.place) - row3(shape.positions, landmark.vertex))
+      return (apply_similarity(back, landmark.scan_position) -
+              row3(shape.positions, landmark.vertex))
           .norm();
     };
     const auto worst = std::ranges::max_element(landmarks, {}, off);
@@ -63,26 +66,26 @@ std::vector<WrapLandmark> find_landmarks(
   PoseHint hint = given;
   if (!hint.face) hint.face = find_scan_face(scan, hint);
   // Estimate the pose of the template on the scan.
-  const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : shape.skin;
+  const SkinMesh& bent = shape.reduced_skin ? shape.reduced_skin->mesh : shape.skin;
   Positions rest = shape.skin.rows_of(shape.positions);
-  if (shape.reduced) rest = bent.rows_of(rest);
+  if (shape.reduced_skin) rest = bent.rows_of(rest);
   const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face);
   const Positions placed = inverse(pose).apply(scan.positions);
   std::optional<ReliefMatch> face = hint.face;
   if (face) {
-    face->between_eyes /= pose.scale;
+    face->eye_midpoint /= pose.scale;
     face->scale /= pose.scale;
   }
-  // Try two orientations and keep the orientation that gives more landmarks: the fitted pose, which
-  // is tilted for scans that differ much from the template, and the axes of the hint, which are
-  // inexact for rotated scans.
+  // Search in two orientations, and keep the result with more landmarks. The axes of the hint are
+  // inexact for rotated scans. The fitted pose is tilted for scans that differ much from the
+  // template.
   const std::array ways = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
       propose_on(scan, placed, shape.axes)};
   std::vector<WrapLandmark> most;
   for (const auto& of_scan : ways) {
     std::vector<WrapLandmark> landmarks;
-    for (const LandmarkName& known : suggested_landmarks()) {
+    for (const LandmarkDefinition& known : suggested_landmarks()) {
       const std::string name(known.name);
       const auto of_template = template_vertices.find(name), found = of_scan.find(name);
       if (!known.is_found_on_scans || of_template == template_vertices.end() ||

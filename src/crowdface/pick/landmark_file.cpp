@@ -30,7 +30,7 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
   }
   for (const YamlEntry& entry : node->entries) {
     LandmarkFile::Place place;
-    place.where = entry.value.place.text();
+    place.file_location = entry.value.place.text();
     if (entry.value.kind == YamlNode::Kind::kList) {
       if (entry.value.items.size() != 3) {
         out.expected(entry.value, "a vertex number or [x, y, z]");
@@ -44,7 +44,7 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
       }
       if (!whole) continue;
     } else {
-      const auto number = read_whole(entry.value, 0, kMaxVertices, out);
+      const auto number = read_whole_number(entry.value, 0, kMaxVertices, out);
       if (!number) continue;
       place.is_vertex = true;
       place.vertex = *number;
@@ -56,7 +56,7 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
 
 std::uint32_t vertex_of(const LandmarkFile::Place& place, Index count, const char* what) {
   if (place.vertex >= static_cast<std::uint64_t>(count)) {
-    throw UsageError(concat(place.where, ": expected a vertex of the ", what, " from 0 to ",
+    throw UsageError(concat(place.file_location, ": expected a vertex of the ", what, " from 0 to ",
                             count - 1, ", found ", place.vertex));
   }
   return static_cast<std::uint32_t>(place.vertex);
@@ -70,12 +70,12 @@ std::uint32_t nearest_vertex(const Positions& positions, const Eigen::Vector3d& 
 
 }  // namespace
 
-LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarkMesh of) {
+LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarkMesh mesh) {
   Complaints complaints;
   LandmarkFile file;
   if (is_file(path)) {
     if (auto list = parse_landmark_list(MappedFile(path).bytes(), path)) {
-      (of == LandmarkMesh::kScan ? file.scan_places : file.template_places) = std::move(*list);
+      (mesh == LandmarkMesh::kScan ? file.scan_places : file.template_places) = std::move(*list);
       return file;
     }
   }
@@ -121,11 +121,11 @@ std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
   std::string template_lines, scan_lines;
   for (const PickedLandmark& landmark : landmarks) {
     const std::string key = concat("  ", write_scalar(landmark.name), ": ");
-    if (landmark.vertex) template_lines += concat(key, *landmark.vertex, '\n');
+    if (landmark.template_vertex) template_lines += concat(key, *landmark.template_vertex, '\n');
     if (landmark.scan_vertex) {
       scan_lines += concat(key, *landmark.scan_vertex, '\n');
-    } else if (landmark.point) {
-      const Eigen::Vector3d& p = *landmark.point;
+    } else if (landmark.scan_point) {
+      const Eigen::Vector3d& p = *landmark.scan_point;
       scan_lines += concat(key, '[', p.x(), ", ", p.y(), ", ", p.z(), "]\n");
     }
   }
@@ -149,7 +149,7 @@ std::string_view opening_comments(std::string_view text) {
 }
 
 bool has_more_comments(std::string_view text) {
-  // This is also true if a quoted name contains " #"; then the user gets a needless warning.
+  // A " #" inside a quoted name also counts as a comment. The user then gets a needless warning.
   text.remove_prefix(opening_comments(text).size());
   return text.find(" #") != std::string_view::npos || text.find("\n#") != std::string_view::npos ||
          text.starts_with('#');

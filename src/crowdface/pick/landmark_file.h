@@ -22,7 +22,7 @@ struct LandmarkFile {
   std::map<std::string, Place> template_places, scan_places;  ///< by name of the landmark
 };
 
-/// The mesh to which a file's landmarks belong if the file does not name the mesh.
+/// The mesh whose landmarks a file contains if the file has no keys `template` and `scan`.
 enum class LandmarkMesh { kTemplate, kScan };
 
 /// Reads a landmark file: YAML with the keys `template: {chin: 966}` and `scan: {chin: [x, y, z]}`,
@@ -30,7 +30,7 @@ enum class LandmarkMesh { kTemplate, kScan };
 /// (parse_landmark_list).
 /// \throws UsageError, MissingInput with a message that names every wrong place.
 LandmarkFile read_landmarks(const std::filesystem::path& path,
-                            LandmarkMesh of = LandmarkMesh::kScan);
+                            LandmarkMesh mesh = LandmarkMesh::kScan);
 
 /// The template vertex of a landmark: the given vertex number, or the vertex nearest to the given
 /// point.
@@ -49,14 +49,14 @@ std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
 /// A named landmark on the template, on the scan, or on both.
 struct PickedLandmark {
   std::string name;
-  std::optional<std::uint32_t> vertex;   ///< template vertex
-  std::optional<Eigen::Vector3d> point;  ///< point on the scan, in the unit of its file
-  /// Set if the landmark file gives a vertex number instead of a point.
+  std::optional<std::uint32_t> template_vertex;
+  std::optional<Eigen::Vector3d> scan_point;  ///< in the unit of its file
+  /// Scan vertex of the landmark, if the landmark file gives a vertex number instead of a point.
   std::optional<std::uint32_t> scan_vertex;
 };
 
 /// The text of a landmark file, from which read_landmarks reads the same landmarks. The text omits
-/// landmarks without a place.
+/// landmarks that are neither on the template nor on the scan.
 /// \param comments  lines put in front, see opening_comments.
 std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
                              std::string_view comments = {});

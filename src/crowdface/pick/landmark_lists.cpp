@@ -19,7 +19,7 @@ using ListJson = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxListed = 1000;
 
-/// Collects places by name. Errors name the file and the place in it.
+/// Collects landmarks by name. Error messages name the file and the faulty position in the file.
 class PlaceList {
  public:
   explicit PlaceList(const std::filesystem::path& path) : path_(path.string()) {}
@@ -29,7 +29,7 @@ class PlaceList {
       fail(where, concat("expected at most ", kMaxListed, " landmarks"));
     if (name.empty()) name = std::to_string(places_.size() + 1);
     LandmarkPlace place;
-    place.where = concat(path_, where);
+    place.file_location = concat(path_, where);
     place.is_vertex = numbers.size() == 1;
     if (place.is_vertex) {
       if (!(numbers[0] >= 0 && numbers[0] < 4e9) || numbers[0] != std::floor(numbers[0])) {

@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// Reads landmarks of one mesh that another program has written: MeshLab's picked points (.pp),
+/// Reads a file of another program that lists landmarks of one mesh: MeshLab's picked points (.pp),
 /// tables of names and numbers (CSV, text), JSON ({name: [x, y, z]}, lists of points, 3D Slicer
 /// markups), NumPy arrays (n by 3 points, or n vertex numbers). The name of a nameless point is its
 /// position in the list, from 1.

@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-const std::vector<LandmarkName>& suggested_landmarks() {
-  static const std::vector<LandmarkName> names = [] {
-    std::vector<LandmarkName> all = {
+const std::vector<LandmarkDefinition>& suggested_landmarks() {
+  static const std::vector<LandmarkDefinition> names = [] {
+    std::vector<LandmarkDefinition> all = {
         {"eye_outer_left", "outer corner of the head's own left eye", true},
         {"eye_outer_right", "outer corner of the right eye", true},
         {"nose_tip", "the foremost point of the nose", true},
@@ -37,8 +37,8 @@ const std::vector<LandmarkName>& suggested_landmarks() {
         {"ear_top_left", "where the left ear's upper rim meets the head"},
         {"ear_top_right", "where the right ear's upper rim meets the head"}};
     for (const TraitLandmark& of_traits : trait_landmarks()) {
-      if (std::ranges::find(all, of_traits.name, &LandmarkName::name) == all.end()) {
-        all.push_back({of_traits.name, of_traits.where});
+      if (std::ranges::find(all, of_traits.name, &LandmarkDefinition::name) == all.end()) {
+        all.push_back({of_traits.name, of_traits.location});
       }
     }
     return all;

@@ -9,9 +9,9 @@
 namespace crowdface {
 
 /// A point that can be located on every face. Left and right are the head's own left and right.
-struct LandmarkName {
+struct LandmarkDefinition {
   std::string_view name;
-  std::string_view where;  ///< description for the user
+  std::string_view location;  ///< description for the user
   /// Whether find_landmarks searches for the landmark on scans. Only edges or grooves of the skin
   /// mark a landmark precisely enough; a widest or highest point does not.
   bool is_found_on_scans = false;
@@ -19,7 +19,7 @@ struct LandmarkName {
 
 /// Standard landmarks, in the order in which to pick them, then the other landmarks of the
 /// measurements (trait_landmarks). The first four determine the pose of a head.
-const std::vector<LandmarkName>& suggested_landmarks();
+const std::vector<LandmarkDefinition>& suggested_landmarks();
 
 /// The name of the landmark on the other side: "eye_outer_left" for "eye_outer_right", "brow_l" for
 /// "brow_r"; nothing if the name has no side.

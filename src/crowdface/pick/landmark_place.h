@@ -16,7 +16,7 @@ struct LandmarkPlace {
   bool is_vertex = false;
   std::uint64_t vertex = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  std::string where;  ///< "file:line:column", for messages
+  std::string file_location;  ///< "file:line:column", for messages
 };
 
 }  // namespace crowdface

@@ -75,11 +75,12 @@ std::string name_in(const Json& body) {
 
 Json landmark_json(const PickedLandmark& landmark, const PickSession& session) {
   Json json = {{"name", landmark.name}, {"template", nullptr}, {"scan", nullptr}};
-  if (landmark.vertex) {
-    json["template"] = place_json(session.template_mesh().place_at_vertex(*landmark.vertex), true);
+  if (landmark.template_vertex) {
+    json["template"] =
+        place_json(session.template_mesh().place_at_vertex(*landmark.template_vertex), true);
   }
-  if (landmark.point) {
-    json["scan"] = place_json(session.scan_mesh().place_at_point(*landmark.point), false);
+  if (landmark.scan_point) {
+    json["scan"] = place_json(session.scan_mesh().place_at_point(*landmark.scan_point), false);
     if (landmark.scan_vertex) json["scan"]["vertex"] = *landmark.scan_vertex;
   }
   return json;
@@ -114,15 +115,15 @@ std::vector<PickedLandmark> landmarks_in(const PickSession& session, const Json&
     }
     const Json vertex = item.value("template", Json()), place = item.value("scan", Json());
     if (!vertex.is_null()) {
-      landmark.vertex =
+      landmark.template_vertex =
           number_of(vertex, session.template_mesh().positions().rows(), landmark.name);
     }
     const Positions& scan = session.scan_mesh().positions();
     if (place.is_number()) {
       landmark.scan_vertex = number_of(place, scan.rows(), landmark.name);
-      landmark.point = scan.row(*landmark.scan_vertex).transpose();
+      landmark.scan_point = scan.row(*landmark.scan_vertex).transpose();
     } else if (!place.is_null()) {
-      landmark.point = vector_of(place, landmark.name);
+      landmark.scan_point = vector_of(place, landmark.name);
     }
     landmarks.push_back(landmark);
   }
@@ -151,9 +152,9 @@ HttpAnswer save(PickSession& session, const Json& body) {
   session.save(landmarks);
   std::size_t pairs = 0;
   for (const PickedLandmark& landmark : landmarks) {
-    if (landmark.vertex && landmark.point) ++pairs;
+    if (landmark.template_vertex && landmark.scan_point) ++pairs;
   }
-  return json_answer({{"file", session.inputs().landmarks.string()}, {"pairs", pairs}});
+  return json_answer({{"file", session.inputs().landmark_file.string()}, {"pairs", pairs}});
 }
 
 }  // namespace
@@ -168,47 +169,48 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
       return asked.method == method && asked.path == path;
     };
     const std::shared_ptr<OpenScan> now = scans_.current();
-    if (is("GET", "api/job")) return job(now->session);
+    if (is("GET", "api/job")) return job_answer(now->session);
     if (is("GET", "api/mesh/template")) {
-      return mesh(now->session.template_mesh(), {}, now->shown_template);
+      return mesh_answer(now->session.template_mesh(), {}, now->shown_template);
     }
     if (is("GET", "api/mesh/scan")) {
-      return mesh(now->session.scan_mesh(), now->session.inputs().scan_colours, now->shown_scan);
+      return mesh_answer(now->session.scan_mesh(), now->session.inputs().scan_colours,
+                         now->shown_scan);
     }
     if (is("POST", "api/pick")) return pick(now->session, parse_json_body(asked));
     if (is("POST", "api/suggest")) return suggest(now->session, parse_json_body(asked));
     if (is("PUT", "api/landmarks")) return save(now->session, parse_json_body(asked));
-    if (is("POST", "api/open")) return open(parse_json_body(asked));
+    if (is("POST", "api/open")) return open_scan(parse_json_body(asked));
     return page_answer(page_, asked);
   });
 }
 
-HttpAnswer PickApi::mesh(const PickableMesh& whole, const ColourRows& colours,
-                         ShownMesh& shown) const {
-  std::call_once(shown.once, [&] { shown.bytes = whole.preview(max_triangles_, colours); });
+HttpAnswer PickApi::mesh_answer(const PickableMesh& whole, const ColourRows& colours,
+                                ShownMesh& shown) const {
+  std::call_once(shown.once, [&] { shown.bytes = whole.encode_reduced(max_triangles_, colours); });
   return binary_answer(shown.bytes);
 }
 
-HttpAnswer PickApi::open(const Json& body) {
+HttpAnswer PickApi::open_scan(const Json& body) {
   scans_.open(
       number_of(body.value("scan", Json()), static_cast<Index>(scans_.entries().size()), "scan"));
-  return json_answer({{"scan", scans_.number()}});
+  return json_answer({{"scan", scans_.current_index()}});
 }
 
-HttpAnswer PickApi::job(const PickSession& session) const {
+HttpAnswer PickApi::job_answer(const PickSession& session) const {
   const PickInputs& inputs = session.inputs();
-  const HeadAxes& axes = inputs.shape.axes;
+  const HeadAxes& axes = inputs.wrap_template.axes;
   Json names = Json::array(), landmarks = Json::array();
-  for (const LandmarkName& known : suggested_landmarks()) {
-    names.push_back({{"name", known.name}, {"where", known.where}});
+  for (const LandmarkDefinition& known : suggested_landmarks()) {
+    names.push_back({{"name", known.name}, {"where", known.location}});
   }
   for (const PickedLandmark& landmark : session.landmarks()) {
     landmarks.push_back(landmark_json(landmark, session));
   }
   Json scans = Json::array();
   for (std::size_t i = 0; i < scans_.entries().size(); ++i) {
-    scans.push_back(
-        {{"name", scans_.entries()[i].scan.filename().string()}, {"picked", scans_.is_picked(i)}});
+    scans.push_back({{"name", scans_.entries()[i].scan_file.filename().string()},
+                     {"picked", scans_.is_picked(i)}});
   }
   const auto file_name = [](const std::filesystem::path& path) { return path.filename().string(); };
   return json_answer(
@@ -218,8 +220,8 @@ HttpAnswer PickApi::job(const PickSession& session) const {
         {{"name", file_name(inputs.scan_file)},
          {"stands", stands_json(session.scan_orientation().up, session.scan_orientation().front)}}},
        {"scans", scans},
-       {"number", scans_.number()},
-       {"file", inputs.landmarks.string()},
+       {"number", scans_.current_index()},
+       {"file", inputs.landmark_file.string()},
        {"loses_comments", session.loses_comments()},
        {"names", names},
        {"landmarks", landmarks}});

@@ -29,9 +29,10 @@ class PickApi {
 
  private:
   using Json = nlohmann::ordered_json;
-  HttpAnswer job(const PickSession& session) const;
-  HttpAnswer open(const Json& body);
-  HttpAnswer mesh(const PickableMesh& whole, const ColourRows& colours, ShownMesh& shown) const;
+  HttpAnswer job_answer(const PickSession& session) const;
+  HttpAnswer open_scan(const Json& body);
+  HttpAnswer mesh_answer(const PickableMesh& whole, const ColourRows& colours,
+                         ShownMesh& shown) const;
 
   PickScans& scans_;
   PageFiles page_;

@@ -7,8 +7,9 @@
 
 namespace crowdface {
 
-PickScans::PickScans(std::vector<Entry> entries, std::function<PickInputs(const Entry&)> read)
-    : entries_(std::move(entries)), read_(std::move(read)) {
+PickScans::PickScans(std::vector<Entry> entries,
+                     std::function<PickInputs(const Entry&)> read_inputs)
+    : entries_(std::move(entries)), read_inputs_(std::move(read_inputs)) {
   std::size_t first = 0;
   while (first < entries_.size() && is_picked(first)) ++first;
   open(first < entries_.size() ? first : 0);
@@ -19,24 +20,24 @@ std::shared_ptr<OpenScan> PickScans::current() const {
   return current_;
 }
 
-std::size_t PickScans::number() const {
+std::size_t PickScans::current_index() const {
   const std::lock_guard lock(mutex_);
-  return number_;
+  return current_index_;
 }
 
-bool PickScans::is_picked(std::size_t number) const {
-  return path_exists(entries_[number].landmarks);
+bool PickScans::is_picked(std::size_t index) const {
+  return path_exists(entries_[index].landmark_file);
 }
 
-void PickScans::open(std::size_t number) {
-  PickInputs inputs = read_(entries_[number]);
+void PickScans::open(std::size_t index) {
+  PickInputs inputs = read_inputs_(entries_[index]);
   const std::lock_guard lock(mutex_);
   // Use the template landmarks that were picked with the previous scan.
-  if (inputs.template_landmarks.empty() && current_ && is_picked(number_)) {
-    inputs.template_landmarks = entries_[number_].landmarks;
+  if (inputs.template_landmark_file.empty() && current_ && is_picked(current_index_)) {
+    inputs.template_landmark_file = entries_[current_index_].landmark_file;
   }
   current_ = std::make_shared<OpenScan>(std::move(inputs));
-  number_ = number;
+  current_index_ = index;
 }
 
 }  // namespace crowdface

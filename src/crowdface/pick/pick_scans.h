@@ -30,29 +30,30 @@ struct OpenScan {
 class PickScans {
  public:
   struct Entry {
-    std::filesystem::path scan, landmarks;
+    std::filesystem::path scan_file, landmark_file;
   };
-  /// Opens the first scan without a landmark file, or the first scan if all have one.
-  /// \param read  reads the scan of an entry. \throws Error
-  PickScans(std::vector<Entry> entries, std::function<PickInputs(const Entry&)> read);
+  /// Opens the first scan without a landmark file, or the first scan if all scans have landmark
+  /// files.
+  /// \param read_inputs  reads the scan of an entry. \throws Error
+  PickScans(std::vector<Entry> entries, std::function<PickInputs(const Entry&)> read_inputs);
 
   /// The open scan.
   std::shared_ptr<OpenScan> current() const;
   /// Index of the open scan in entries().
-  std::size_t number() const;
+  std::size_t current_index() const;
   const std::vector<Entry>& entries() const { return entries_; }
   /// Whether the landmark file of an entry exists.
-  bool is_picked(std::size_t number) const;
+  bool is_picked(std::size_t index) const;
   /// Opens a scan. \throws Error; the previous scan then stays open.
-  void open(std::size_t number);
+  void open(std::size_t index);
 
  private:
   std::vector<Entry> entries_;
-  std::function<PickInputs(const Entry&)> read_;
+  std::function<PickInputs(const Entry&)> read_inputs_;
   /// Guards the members below.
   mutable std::mutex mutex_;
   std::shared_ptr<OpenScan> current_;
-  std::size_t number_ = 0;
+  std::size_t current_index_ = 0;
 };
 
 }  // namespace crowdface

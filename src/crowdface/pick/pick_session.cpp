@@ -24,7 +24,7 @@ PoseHint guess_bearing(const Scan& scan) {
   const std::vector<Triangle> reduced = reduce_triangles(scan.triangles, scan.positions, kEnough);
   HeadShape head;
   head.positions = scan.positions;
-  head.skin = used_vertices({scan.positions, reduced});
+  head.is_skin = used_vertices({scan.positions, reduced});
   const auto orientation = find_orientation(topology_of(reduced, scan.positions.rows()), head);
   if (!orientation) return {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
   return {unit_vector(orientation->up), unit_vector(orientation->front)};
@@ -39,11 +39,11 @@ double step_of(const PickableMesh& mesh) {
 std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInputs& inputs) {
   std::map<std::string, PickedLandmark> by_name;
   for (const auto& [name, place] : file.template_places) {
-    by_name[name].vertex = template_vertex(place, inputs.file_positions);
+    by_name[name].template_vertex = template_vertex(place, inputs.template_file_positions);
   }
   for (const auto& [name, place] : file.scan_places) {
     PickedLandmark& landmark = by_name[name];
-    landmark.point = scan_point(place, inputs.scan);
+    landmark.scan_point = scan_point(place, inputs.scan);
     if (place.is_vertex) landmark.scan_vertex = static_cast<std::uint32_t>(place.vertex);
   }
   std::vector<PickedLandmark> landmarks;
@@ -53,7 +53,7 @@ std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInp
     landmarks.push_back(found.mapped());
     landmarks.back().name = name;
   };
-  for (const LandmarkName& known : suggested_landmarks()) take(std::string(known.name));
+  for (const LandmarkDefinition& known : suggested_landmarks()) take(std::string(known.name));
   while (!by_name.empty()) take(std::string(by_name.begin()->first));
   return landmarks;
 }
@@ -62,18 +62,18 @@ std::vector<PickedLandmark> landmarks_of(const LandmarkFile& file, const PickInp
 
 PickSession::PickSession(PickInputs inputs)
     : inputs_(std::move(inputs)),
-      template_(make_pickable(inputs_.shape, inputs_.positions)),
+      template_(make_pickable(inputs_.wrap_template, inputs_.template_positions)),
       scan_(inputs_.scan.positions, inputs_.scan.triangles),
-      plane_(symmetry_plane(inputs_.shape, inputs_.positions)),
-      proposals_(propose_landmarks(inputs_.shape)),
+      symmetry_plane_(symmetry_plane(inputs_.wrap_template, inputs_.template_positions)),
+      proposed_vertices_(propose_landmarks(inputs_.wrap_template)),
       scan_orientation_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
-      known_text_(text_on_disk()) {
+      last_file_text_(text_on_disk()) {
   LandmarkFile file;
-  if (!inputs_.template_landmarks.empty()) {
-    file.template_places = read_landmarks(inputs_.template_landmarks).template_places;
+  if (!inputs_.template_landmark_file.empty()) {
+    file.template_places = read_landmarks(inputs_.template_landmark_file).template_places;
   }
-  if (path_exists(inputs_.landmarks)) {
-    const LandmarkFile own = read_landmarks(inputs_.landmarks);
+  if (path_exists(inputs_.landmark_file)) {
+    const LandmarkFile own = read_landmarks(inputs_.landmark_file);
     for (const auto& [name, place] : own.template_places) file.template_places[name] = place;
     file.scan_places = own.scan_places;
   }
@@ -87,24 +87,24 @@ std::vector<PickedLandmark> PickSession::landmarks() const {
 
 bool PickSession::loses_comments() const {
   const std::lock_guard lock(mutex_);
-  return has_more_comments(known_text_);
+  return has_more_comments(last_file_text_);
 }
 
 std::string PickSession::text_on_disk() const {
-  return path_exists(inputs_.landmarks) ? read_file(inputs_.landmarks) : std::string();
+  return path_exists(inputs_.landmark_file) ? read_file(inputs_.landmark_file) : std::string();
 }
 
 std::optional<PickedPlace> PickSession::pick_on_template(const Eigen::Vector3d& origin,
                                                          const Eigen::Vector3d& direction) const {
   constexpr double kBesideMm = 3;
-  const auto place = template_.cast(origin, direction, kBesideMm);
+  const auto place = template_.cast_ray(origin, direction, kBesideMm);
   if (!place) return std::nullopt;
   return template_.place_at_vertex(place->vertex);
 }
 
 std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& origin,
                                                      const Eigen::Vector3d& direction) const {
-  auto place = scan_.cast(origin, direction, 0);
+  auto place = scan_.cast_ray(origin, direction, 0);
   if (!place) return std::nullopt;
   const double step = step_of(scan_);
   for (double& x : place->point) {
@@ -116,21 +116,21 @@ std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& orig
 }
 
 SuggestedPlaces PickSession::suggest(const std::vector<PickedLandmark>& landmarks) const {
-  return suggest_places(landmarks, template_, scan_, plane_, proposals_);
+  return suggest_places(landmarks, template_, scan_, symmetry_plane_, proposed_vertices_);
 }
 
 void PickSession::save(const std::vector<PickedLandmark>& landmarks) {
   const std::lock_guard lock(mutex_);
   const std::string before = text_on_disk();
-  if (before != known_text_) {
-    known_text_ = before;
+  if (before != last_file_text_) {
+    last_file_text_ = before;
     throw UsageError(concat(
-        inputs_.landmarks.string(),
+        inputs_.landmark_file.string(),
         " has been changed by another program since it was read; save again to overwrite it"));
   }
   std::string text = format_landmarks(landmarks, opening_comments(before));
-  write_file(inputs_.landmarks, text);
-  known_text_ = std::move(text);
+  write_file(inputs_.landmark_file, text);
+  last_file_text_ = std::move(text);
   landmarks_ = landmarks;
 }
 

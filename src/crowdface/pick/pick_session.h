@@ -18,17 +18,17 @@ namespace crowdface {
 
 /// The template, the scan, and the landmark file to write.
 struct PickInputs {
-  const WrapTemplate& shape;
-  Positions positions;  ///< #V by 3 of the template, in millimetres
-  /// #V by 3 of the template, in the unit of its file. The landmark file gives template points in
-  /// this unit.
-  Positions file_positions;
+  const WrapTemplate& wrap_template;
+  Positions template_positions;  ///< #V by 3, in millimetres
+  /// #V by 3: positions of the template, in the unit of the template's file. The landmark file
+  /// gives template points in this unit.
+  Positions template_file_positions;
   Scan scan;
   std::optional<PoseHint> hint;  ///< pose of the scan; estimated if not given
-  std::filesystem::path template_file, scan_file, landmarks;
-  /// Path of another landmark file, for template landmarks that the file `landmarks` lacks; may be
+  std::filesystem::path template_file, scan_file, landmark_file;
+  /// Path of another landmark file, for template landmarks that `landmark_file` lacks; may be
   /// empty.
-  std::filesystem::path template_landmarks = {};
+  std::filesystem::path template_landmark_file = {};
   ColourRows scan_colours = {};  ///< colours of the scan's vertices, or no rows
 };
 
@@ -36,7 +36,7 @@ struct PickInputs {
 class PickSession {
  public:
   /// Reads the landmark file if it exists.
-  /// \param inputs  `inputs.shape` must outlive this object
+  /// \param inputs  `inputs.wrap_template` must outlive this object
   /// \throws Error that names the fault in the file
   explicit PickSession(PickInputs inputs);
 
@@ -69,13 +69,13 @@ class PickSession {
 
   PickInputs inputs_;
   PickableMesh template_, scan_;
-  MirrorPlane plane_;
-  std::map<std::string, std::uint32_t> proposals_;
+  MirrorPlane symmetry_plane_;
+  std::map<std::string, std::uint32_t> proposed_vertices_;
   PoseHint scan_orientation_;
   /// Guards the members below.
   mutable std::mutex mutex_;
   std::vector<PickedLandmark> landmarks_;
-  std::string known_text_;  ///< content of the file when it was last read or written
+  std::string last_file_text_;  ///< content of the file when it was last read or written
 };
 
 }  // namespace crowdface

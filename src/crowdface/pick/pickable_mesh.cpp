@@ -61,8 +61,8 @@ PickableMesh::PickableMesh(Positions positions, std::vector<Triangle> skin,
       scene_(device_, points_around(positions_, middle_), quads_),
       tree_(positions_, skin_) {}
 
-PickedPlace PickableMesh::place_of(const Triangle& corners,
-                                   const std::array<double, 3>& shares) const {
+PickedPlace PickableMesh::place_in_triangle(const Triangle& corners,
+                                            const std::array<double, 3>& shares) const {
   PickedPlace place;
   for (std::size_t k = 0; k < 3; ++k) {
     place.point += shares[k] * row3(positions_, corners[k]);
@@ -88,16 +88,16 @@ std::optional<PickableMesh::Hit> PickableMesh::first_hit(const Eigen::Vector3d& 
                  v * row3(positions_, quad[2])};
 }
 
-std::optional<PickedPlace> PickableMesh::cast(const Eigen::Vector3d& origin,
-                                              const Eigen::Vector3d& direction,
-                                              double beside) const {
+std::optional<PickedPlace> PickableMesh::cast_ray(const Eigen::Vector3d& origin,
+                                                  const Eigen::Vector3d& direction,
+                                                  double max_skin_distance) const {
   const auto hit = first_hit(origin, direction);
   if (!hit) return std::nullopt;
   if (hit->is_skin) {
     const Triangle& corners = skin_[hit->triangle];
-    return place_of(corners, nearest_on_triangle(positions_, corners, hit->point).shares);
+    return place_in_triangle(corners, nearest_on_triangle(positions_, corners, hit->point).shares);
   }
-  return nearest(hit->point, -direction.normalized(), 0, beside);
+  return nearest(hit->point, -direction.normalized(), 0, max_skin_distance);
 }
 
 std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,
@@ -105,7 +105,7 @@ std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,
                                                  double reach) const {
   const SurfaceHit hit = tree_.nearest_facing(point, facing, min_cosine, reach);
   if (hit.triangle == kNoIndex) return std::nullopt;
-  return place_of(skin_[hit.triangle], hit.shares);
+  return place_in_triangle(skin_[hit.triangle], hit.shares);
 }
 
 PickedPlace PickableMesh::place_at_vertex(std::uint32_t vertex) const {
@@ -115,12 +115,13 @@ PickedPlace PickableMesh::place_at_vertex(std::uint32_t vertex) const {
 PickedPlace PickableMesh::place_at_point(const Eigen::Vector3d& point) const {
   const SurfaceHit hit = tree_.nearest(point, std::numeric_limits<double>::infinity());
   if (hit.triangle == kNoIndex) return {kNoIndex, point, Eigen::Vector3d::Zero()};
-  PickedPlace place = place_of(skin_[hit.triangle], hit.shares);
+  PickedPlace place = place_in_triangle(skin_[hit.triangle], hit.shares);
   place.point = point;
   return place;
 }
 
-std::string PickableMesh::preview(std::size_t max_triangles, const ColourRows& colours) const {
+std::string PickableMesh::encode_reduced(std::size_t max_triangles,
+                                         const ColourRows& colours) const {
   std::vector<Triangle> all;
   all.reserve(quads_.size());
   for (const Quad& quad : quads_) all.push_back({quad[0], quad[1], quad[2]});

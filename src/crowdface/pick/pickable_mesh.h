@@ -35,13 +35,14 @@ class PickableMesh {
   PickableMesh& operator=(const PickableMesh&) = delete;
 
   /// The first point of the skin along a ray. If the ray first hits something else, the nearest
-  /// skin point within `beside` of the hit: users often point at the eyeball when they mean the
-  /// corner of the eye.
-  /// \param direction  any nonzero length
-  /// \param beside     in the unit of the mesh
-  std::optional<PickedPlace> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                  double beside) const;
-  /// First hit of a ray. `triangle` numbers the rows of `skin` first, then the rows of `others`.
+  /// skin point within `max_skin_distance` of the hit: users often point at the eyeball when they
+  /// mean the corner of the eye.
+  /// \param direction          any nonzero length
+  /// \param max_skin_distance  in the unit of the mesh
+  std::optional<PickedPlace> cast_ray(const Eigen::Vector3d& origin,
+                                      const Eigen::Vector3d& direction,
+                                      double max_skin_distance) const;
+  /// First hit of a ray. `triangle` is an index into `skin` followed by `others`.
   struct Hit {
     std::uint32_t triangle = 0;
     bool is_skin = false;
@@ -51,8 +52,8 @@ class PickableMesh {
   std::optional<Hit> first_hit(const Eigen::Vector3d& origin,
                                const Eigen::Vector3d& direction) const;
 
-  /// The nearest skin point within `reach` whose surface faces `facing`: the cosine between normal
-  /// and `facing` is at least `min_cosine`.
+  /// The nearest skin point within `reach` for which the cosine between the surface normal and
+  /// `facing` is at least `min_cosine`.
   /// \param facing  unit vector.
   std::optional<PickedPlace> nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                      double min_cosine, double reach) const;
@@ -72,10 +73,11 @@ class PickableMesh {
   /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other), and `colours` if there
   /// are any.
   /// \param colours  of the vertices, or no rows
-  std::string preview(std::size_t max_triangles, const ColourRows& colours = {}) const;
+  std::string encode_reduced(std::size_t max_triangles, const ColourRows& colours = {}) const;
 
  private:
-  PickedPlace place_of(const Triangle& corners, const std::array<double, 3>& shares) const;
+  PickedPlace place_in_triangle(const Triangle& corners,
+                                const std::array<double, 3>& barycentric) const;
 
   Positions positions_;
   std::vector<Triangle> skin_;

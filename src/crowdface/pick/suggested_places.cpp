@@ -24,8 +24,9 @@ std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
                            const Positions& template_positions) {
   std::vector<Pair> pairs;
   for (const PickedLandmark& landmark : landmarks) {
-    if (!landmark.vertex || !landmark.point) continue;
-    pairs.push_back({landmark.name, row3(template_positions, *landmark.vertex), *landmark.point});
+    if (!landmark.template_vertex || !landmark.scan_point) continue;
+    pairs.push_back(
+        {landmark.name, row3(template_positions, *landmark.template_vertex), *landmark.scan_point});
   }
   return pairs;
 }
@@ -70,8 +71,8 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
 /// Returns the index of the pair whose residual is far larger than the other pairs' residuals, or
 /// residuals.size() if there is no such pair.
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
-  // Far above the usual residual: corresponding points of two faces differ by about 5 mm after a
-  // fit.
+  // An outlier has a residual above both kMinMm and kTimes times the median residual. Without
+  // errors, corresponding points of two faces differ by about 5 mm after a fit.
   constexpr double kMinMm = 15, kTimes = 3;
   std::vector<double> sorted;
   std::size_t farthest = residuals.size();
@@ -108,7 +109,7 @@ Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& p
 std::optional<PickedPlace> outermost(const PickableMesh& mesh,
                                      const std::optional<PickedPlace>& place, double depth) {
   if (!place) return place;
-  const auto outside = mesh.cast(place->point + depth * place->normal, -place->normal, 0);
+  const auto outside = mesh.cast_ray(place->point + depth * place->normal, -place->normal, 0);
   return outside && outside->normal.dot(place->normal) > 0 ? outside : place;
 }
 
@@ -121,15 +122,15 @@ std::map<std::string, PickedPlace> suggest_on_template(
   std::map<std::string, PickedPlace> places;
   for (const auto& [name, vertex] : proposals) places[name] = mesh.place_at_vertex(vertex);
   for (const PickedLandmark& landmark : landmarks) {
-    const auto other = landmark.vertex ? mirrored_name(landmark.name) : std::nullopt;
+    const auto other = landmark.template_vertex ? mirrored_name(landmark.name) : std::nullopt;
     if (!other) continue;
-    const PickedPlace here = mesh.place_at_vertex(*landmark.vertex);
+    const PickedPlace here = mesh.place_at_vertex(*landmark.template_vertex);
     const Eigen::Vector3d facing = here.normal - 2 * plane.normal.dot(here.normal) * plane.normal;
     const auto there = mesh.nearest(plane.mirrored(here.point), facing, kMinNormalCosine, kReachMm);
     if (there) places[*other] = mesh.place_at_vertex(there->vertex);
   }
   for (const PickedLandmark& landmark : landmarks) {
-    if (landmark.vertex) places.erase(landmark.name);
+    if (landmark.template_vertex) places.erase(landmark.name);
   }
   return places;
 }
@@ -169,8 +170,9 @@ SuggestedPlaces suggest_places(const std::vector<PickedLandmark>& landmarks,
 
   std::map<std::string, PickedPlace> wanted = suggested.template_places;
   for (const PickedLandmark& landmark : landmarks) {
-    if (landmark.vertex) wanted[landmark.name] = template_mesh.place_at_vertex(*landmark.vertex);
-    if (landmark.point) wanted.erase(landmark.name);
+    if (landmark.template_vertex)
+      wanted[landmark.name] = template_mesh.place_at_vertex(*landmark.template_vertex);
+    if (landmark.scan_point) wanted.erase(landmark.name);
   }
   const std::vector<Pair> pairs = pairs_of(landmarks, template_mesh.positions());
   const Similarity& pose = suggested.pose->pose;

@@ -27,8 +27,8 @@ struct LandmarkPose {
   std::map<std::string, Residual> residuals;  ///< one for each pair
 };
 
-/// Fits the similarity (Umeyama 1991) to landmark pairs. While one pair is an outlier, it is
-/// removed and the fit repeated.
+/// Fits the similarity (Umeyama 1991) to landmark pairs. Removes outlier pairs one by one, and
+/// repeats the fit after each removal.
 /// \return nothing if there are fewer than three pairs, or if the landmarks lie almost on a line.
 std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>& landmarks,
                                                const Positions& template_positions);

@@ -23,20 +23,20 @@ float opacity_at(const Image& image, int x, int y) {
 }
 
 Texture opacity_texture(const Image& image, int max_px) {
-  return shrunk_texture(image.width, image.height, max_px, [&](int y, std::span<Light> texels) {
+  return shrunk_texture(image.width, image.height, max_px, [&](int y, std::span<LinearRgb> texels) {
     for (int x = 0; x < image.width; ++x) {
-      texels[static_cast<std::size_t>(x)] = Light::Constant(opacity_at(image, x, y));
+      texels[static_cast<std::size_t>(x)] = LinearRgb::Constant(opacity_at(image, x, y));
     }
   });
 }
 
 /// Weights colours by opacity, so that the colours of transparent texels do not bleed into the
 /// visible texels next to them.
-void keep_to_what_is_seen(const Image& image, const LightRows& light, int max_px,
-                          const Texture& opacity, Texture& colours) {
+void weight_by_opacity(const Image& image, const ImageRows& light, int max_px,
+                       const Texture& opacity, Texture& colours) {
   const Texture weighted =
-      shrunk_texture(image.width, image.height, max_px, [&](int y, std::span<Light> texels) {
-        light.row(y, texels);
+      shrunk_texture(image.width, image.height, max_px, [&](int y, std::span<LinearRgb> texels) {
+        light.read_row(y, texels);
         for (int x = 0; x < image.width; ++x) {
           texels[static_cast<std::size_t>(x)] *= opacity_at(image, x, y);
         }
@@ -76,18 +76,18 @@ const AttachmentSurface& AttachmentSurfaces::at(const Attachment& item) const {
 AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& source) const {
   AttachmentMaterial material;
   if (source.colour) {
-    material.colour = Light((*source.colour)[0], (*source.colour)[1], (*source.colour)[2]);
+    material.colour = LinearRgb((*source.colour)[0], (*source.colour)[1], (*source.colour)[2]);
   }
   material.opacity_factor = source.opacity;
   if (!source.colour_map.empty()) {
     const Picture& picture = colour_maps_.get(source.colour_map, [&] {
-      const Image image = read_image(source.colour_map, {.jpeg = true});
-      const LightRows light = light_of(image);
-      Texture colours = shrunk_texture(image.width, image.height, max_px_, light.row);
+      const Image image = read_image(source.colour_map, {.allows_jpeg = true});
+      const ImageRows light = light_of(image);
+      Texture colours = shrunk_texture(image.width, image.height, max_px_, light.read_row);
       auto read = std::make_unique<Picture>();
       if (image.alpha_channel >= 0) {
         read->opacity = std::make_shared<const MipMap>(opacity_texture(image, max_px_));
-        keep_to_what_is_seen(image, light, max_px_, read->opacity->levels[0], colours);
+        weight_by_opacity(image, light, max_px_, read->opacity->levels[0], colours);
       }
       read->colours = std::make_shared<const Texture>(std::move(colours));
       return read;
@@ -102,7 +102,7 @@ AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& source
   if (!source.opacity_map.empty()) {
     material.opacity = opacity_maps_.get(source.opacity_map, [&] {
       return std::make_unique<std::shared_ptr<const MipMap>>(std::make_shared<const MipMap>(
-          opacity_texture(read_image(source.opacity_map, {.jpeg = true}), max_px_)));
+          opacity_texture(read_image(source.opacity_map, {.allows_jpeg = true}), max_px_)));
     });
   }
   return material;
@@ -114,11 +114,11 @@ std::uint64_t attachment_texture_bytes(std::span<const Attachment* const> items,
   const auto add = [&](const std::filesystem::path& picture, std::uint64_t textures) {
     if (picture.empty() || !known.emplace(picture, textures).second) return;
     try {
-      const ImageSize size = read_image_size(picture, {.jpeg = true});
+      const ImageSize size = read_image_size(picture, {.allows_jpeg = true});
       const int block = (std::max(size.width, size.height) + max_px - 1) / max_px;
       const auto texels = static_cast<std::uint64_t>(size.width / block + 1) *
                           static_cast<std::uint64_t>(size.height / block + 1);
-      bytes += textures * sizeof(Light) * texels * 4 / 3;  // a mip map adds a third
+      bytes += textures * sizeof(LinearRgb) * texels * 4 / 3;  // a mip map adds a third
     } catch (const RecoverableError&) {
       return;  // rendering continues without the texture
     }
@@ -137,7 +137,7 @@ std::vector<AttachmentMesh> AttachmentSurfaces::meshes(
   std::vector<AttachmentMesh> meshes;
   for (const PlacedAttachment& one : placed) {
     const std::array<float, 3> tint = one.look().tint();
-    meshes.push_back({&at(*one.item), &one.positions, Light(tint[0], tint[1], tint[2])});
+    meshes.push_back({&at(*one.item), &one.positions, LinearRgb(tint[0], tint[1], tint[2])});
   }
   return meshes;
 }

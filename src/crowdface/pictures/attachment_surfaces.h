@@ -19,8 +19,9 @@ namespace crowdface {
 class AttachmentSurfaces {
  public:
   /// \param max_px    larger textures are reduced so that the longer side has this many texels.
-  /// \param textured  whether colour textures are shown; opacity is always applied.
-  AttachmentSurfaces(int max_px, bool textured) : max_px_(max_px), shows_textures_(textured) {}
+  /// \param shows_textures  whether colour textures are shown; opacity is always applied.
+  AttachmentSurfaces(int max_px, bool shows_textures)
+      : max_px_(max_px), shows_textures_(shows_textures) {}
 
   /// \param item  one of the attachments in the crowd's inputs.
   const AttachmentSurface& at(const Attachment& item) const;

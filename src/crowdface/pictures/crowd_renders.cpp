@@ -77,17 +77,17 @@ std::optional<VertexColours> shown_colours(const ColourRows& colours,
 std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactSheet& sheet,
                                  const Inputs& inputs, const PicturedMesh& mesh) {
   std::vector<const Positions*> heads;
-  for (const Head& head : inputs.faces.heads) heads.push_back(&head.positions);
+  for (const Head& head : inputs.head_set.heads) heads.push_back(&head.positions);
   std::vector<Positions> acting;
   if (sheet.shapes > 0 && !inputs.shapes.shapes.empty()) {
     const Positions moves = lowest_moves(inputs.shapes, unit_vector(config.faces.up));
-    for (const Head& head : inputs.faces.heads) acting.emplace_back(head.positions + moves);
+    for (const Head& head : inputs.head_set.heads) acting.emplace_back(head.positions + moves);
   }
   for (const Positions& head : acting) heads.push_back(&head);
-  FramingOptions options{.cut_below = kCutBelow,
-                         .extra_points = extent_of(inputs.attachments, inputs.faces)};
+  FramingOptions options{.bottom_cut_fraction = kCutBelow,
+                         .extra_points = extent_of(inputs.attachments, inputs.head_set)};
   if (mesh.has_body()) {
-    options.cut_below = -PicturedMesh::kShoulderHeight;
+    options.bottom_cut_fraction = -PicturedMesh::kShoulderHeight;
     options.extra_points.push_back(mesh.lowest_shown());
   }
   return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views, options);
@@ -102,7 +102,7 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
       cameras_(fit_to_heads(config, sheet, inputs, mesh_)),
       renderer_(mesh_.topology(), RenderOptions{.size_px = sheet.cell, .front = config.faces.front},
                 mesh_.surfaces(),
-                &PicturedFace(mesh_, inputs.faces.heads.front().positions).positions()),
+                &PicturedFace(mesh_, inputs.head_set.heads.front().positions).positions()),
       inputs_(inputs),
       shows_textures_(sheet.texture != SheetTexture::kNo),
       max_texels_(max_rendered_texels(sheet)),
@@ -111,27 +111,27 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
 FacePictures CrowdRenders::render_files(const std::string& id, Index target,
                                         const Positions& positions,
                                         std::span<const Displacements> moves,
-                                        const FaceTextureSet* own,
+                                        const FaceTextureSet* own_textures,
                                         const std::vector<PlacedAttachment>& placed,
                                         const ColourRows& colours,
                                         const BlendedPicture* body) const {
   std::optional<TextureSet> of_target;
-  if (own == nullptr) of_target = texture_set_of(target);
-  const TextureSet* painted = own != nullptr ? &own->texture_set()
-                              : of_target    ? &*of_target
-                                             : nullptr;
+  if (own_textures == nullptr) of_target = texture_set_of(target);
+  const TextureSet* painted = own_textures != nullptr ? &own_textures->texture_set()
+                              : of_target             ? &*of_target
+                                                      : nullptr;
   const std::optional<VertexColours> shown = shown_colours(colours, painted);
   FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, placed, body),
                         std::nullopt};
   if (gallery_ != nullptr) {
-    pictures.preview = gallery_->face_script(id, positions, moves, painted,
-                                             shown ? &*shown : nullptr, placed, body);
+    pictures.gallery_script = gallery_->face_script(id, positions, moves, painted,
+                                                    shown ? &*shown : nullptr, placed, body);
   }
   return pictures;
 }
 
 std::string CrowdRenders::head_script(Index head, std::span<const Displacements> moves) const {
-  const auto& [name, positions] = inputs_.faces.heads[static_cast<std::size_t>(head)];
+  const auto& [name, positions] = inputs_.head_set.heads[static_cast<std::size_t>(head)];
   const std::optional<TextureSet> texture_set = texture_set_of(head);
   const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
   const auto body = blend_body_texture(recipe_of_head(head));
@@ -159,7 +159,7 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
 }
 
 std::optional<FaceTextureSet> CrowdRenders::face_texture_set(Index target) const {
-  if (!shows_textures_ || !(inputs_.textures.blend() || are_any_rendered(inputs_.maps)))
+  if (!shows_textures_ || !(inputs_.textures.are_blended() || are_any_rendered(inputs_.maps)))
     return std::nullopt;
   return FaceTextureSet(inputs_.textures, inputs_.maps, target, max_texels_);
 }
@@ -177,8 +177,8 @@ std::optional<TextureSet> CrowdRenders::texture_set_of(Index head) const {
   if (!shows_textures_) return std::nullopt;
   std::optional<TextureSet> texture_set = texture_set_of_head(inputs_.textures, head, max_texels_);
   if (!texture_set && are_any_rendered(inputs_.maps)) {
-    texture_set.emplace().of_face.assign(
-        static_cast<std::size_t>(inputs_.faces.topology.face_count()), TextureLayer::kNone);
+    texture_set.emplace().texture_of_face.assign(
+        static_cast<std::size_t>(inputs_.head_set.topology.face_count()), TextureLayer::kNone);
   }
   if (texture_set) add_shading_maps_of_head(inputs_.maps, head, max_texels_, *texture_set);
   return texture_set;
@@ -201,10 +201,11 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
                                      const Recipe& recipe) const {
-  const std::optional<FaceTextureSet> own = face_texture_set(textures, recipe);
+  const std::optional<FaceTextureSet> own_textures = face_texture_set(textures, recipe);
   const auto body = blend_body_texture(recipe);
   const BlendedPicture* const shown_body = body ? &*body : nullptr;
-  if (own) return render_png(positions, nullptr, &own->texture_set(), {}, shown_body);
+  if (own_textures)
+    return render_png(positions, nullptr, &own_textures->texture_set(), {}, shown_body);
   const auto colours = shown_colours(textures.vertex_colours(recipe), nullptr);
   return colours ? render_png(positions, &*colours, nullptr, {}, shown_body)
                  : render_png(positions, recipe.target);

@@ -37,8 +37,8 @@ struct PicturedCrowd {
 
 /// Rendered images of one face, as the bytes of files.
 struct FacePictures {
-  std::string picture;                 ///< PNG
-  std::optional<std::string> preview;  ///< script with the mesh for the gallery, if there is one
+  std::string png;
+  std::optional<std::string> gallery_script;  ///< script with the mesh, if there is a gallery
 };
 
 /// Renders the faces of a crowd. There is one camera per view, fitted to the input heads, so that
@@ -55,21 +55,22 @@ class CrowdRenders {
   /// outlive this object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
   /// Whether `render_files` needs the blend shapes of a face.
-  bool show_shapes() const { return gallery_ != nullptr; }
+  bool needs_shapes() const { return gallery_ != nullptr; }
 
   const PicturedMesh& mesh() const { return mesh_; }
   const AttachmentSurfaces& attachment_surfaces() const { return attachment_surfaces_; }
 
   /// Renders a face and makes its gallery script.
-  /// \param target     the head whose textures the face shows if `own` is null.
-  /// \param positions  in single precision, as in mesh files.
-  /// \param moves      displacements of each shape, for the gallery.
-  /// \param own        the face's own textures, from face_texture_set, or null.
-  /// \param placed     the attachments that the face wears.
-  /// \param colours    vertex colours, shown if there are no textures; may have no rows.
-  /// \param body       texture of the body, or null.
+  /// \param target        the head whose textures the face shows if `own_textures` is null.
+  /// \param positions     in single precision, as in mesh files.
+  /// \param moves         displacements of each shape, for the gallery.
+  /// \param own_textures  the face's own textures, from face_texture_set, or null.
+  /// \param placed        the attachments that the face wears.
+  /// \param colours       vertex colours, shown if there are no textures; may have no rows.
+  /// \param body          texture of the body, or null.
   FacePictures render_files(const std::string& id, Index target, const Positions& positions,
-                            std::span<const Displacements> moves, const FaceTextureSet* own,
+                            std::span<const Displacements> moves,
+                            const FaceTextureSet* own_textures,
                             const std::vector<PlacedAttachment>& placed = {},
                             const ColourRows& colours = {},
                             const BlendedPicture* body = nullptr) const;
@@ -81,8 +82,8 @@ class CrowdRenders {
   /// Vertex colours of a head; nothing if the head has no vertex colours or if textures replace
   /// them.
   std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
-  /// Returns an empty texture set, which the caller fills with a face's own textures; nothing if
-  /// faces have no own textures or if textures are not shown.
+  /// Returns an empty texture set for a face's own textures, which the caller adds. Returns nothing
+  /// if faces have no own textures or if textures are not shown.
   std::optional<FaceTextureSet> face_texture_set(Index target) const;
   /// Returns a texture set that contains the face's own textures.
   std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,

@@ -194,7 +194,7 @@ void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
   std::set<std::filesystem::path> pages;
   std::string script;
   if (const auto a_page = static_cast<std::size_t>(directory_.faces_per_folder); a_page == 0) {
-    script = whole_crowd(std::move(head), crowd, names, settings_, likeness.likeness).dump();
+    script = whole_crowd(std::move(head), crowd, names, settings_digest_, likeness.likeness).dump();
   } else {
     make_directories(directory_.gallery_pages());
     const auto file = [&](std::size_t page) {
@@ -206,10 +206,10 @@ void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
       throw_if_interrupted();
       const std::size_t begin = page * a_page, end = std::min(begin + a_page, crowd.size());
       write_file(file(page),
-                 page_script(crowd, begin, end, page, names, settings_, likeness.likeness));
+                 page_script(crowd, begin, end, page, names, settings_digest_, likeness.likeness));
     });
     head["faces_per_page"] = a_page;
-    head["on_plane"] = on_plane(crowd, names, settings_);
+    head["on_plane"] = on_plane(crowd, names, settings_digest_);
     const std::vector<std::size_t> rank = ranks(likeness.likeness, crowd.size());
     script = head.dump();
     script.pop_back();

@@ -17,11 +17,11 @@
 namespace crowdface {
 namespace {
 
-using With = Config::Comparison::With;
+using Reference = Config::MeshComparison::Reference;
 
 /// Like std::filesystem::exists. \throws MissingInput if the existence cannot be determined, for
 /// example in a folder without read permission.
-bool is_surely_there(const std::filesystem::path& path) {
+bool exists_or_throw(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::status_known(status)) return std::filesystem::exists(status);
@@ -32,7 +32,7 @@ bool is_surely_there(const std::filesystem::path& path) {
 MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id) {
   for (const MeshFormat format : all_mesh_formats()) {
     const bool is_read = traits_of(format).read != nullptr;
-    if (is_read && is_surely_there(directory.mesh(id, format))) return format;
+    if (is_read && exists_or_throw(directory.mesh(id, format))) return format;
   }
   throw MissingInput(
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
@@ -41,7 +41,7 @@ MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id
 /// The folder of another crowd, with the folder layout that the config file in this folder states.
 CrowdDirectory crowd_at(const std::filesystem::path& folder) {
   CrowdDirectory directory{folder};
-  if (!is_surely_there(directory.config())) return directory;
+  if (!exists_or_throw(directory.config())) return directory;
   Complaints complaints;
   const auto root = parse_yaml(read_file(directory.config()), "", complaints);
   const YamlEntry* output = root ? root->find("output") : nullptr;
@@ -62,34 +62,34 @@ Positions read_reference(const std::filesystem::path& file, Index vertices) {
 
 FaceComparison::FaceComparison(const PicturedCrowd& crowd)
     : crowd_(crowd), comparison_(crowd.config.output.contact_sheet->compare) {
-  if (comparison_.with != With::kFile) return;
+  if (comparison_.reference != Reference::kFile) return;
   if (std::filesystem::is_directory(comparison_.file)) {
     other_crowd_ = crowd_at(comparison_.file);
   } else {
-    reference_mesh_ = read_reference(comparison_.file, crowd.inputs.faces.topology.vertex_count);
+    reference_mesh_ = read_reference(comparison_.file, crowd.inputs.head_set.topology.vertex_count);
   }
 }
 
 Positions FaceComparison::mesh_of(std::size_t face) const {
   return read_face_positions(crowd_.directory, crowd_.faces[face].id, crowd_.config.output.meshes,
-                             crowd_.inputs.faces.topology.vertex_count);
+                             crowd_.inputs.head_set.topology.vertex_count);
 }
 
-/// The mesh to compare with the face; nothing if faces are not compared, or if the crowd has no
-/// other face.
+/// Returns the mesh to compare with a face; nothing if the config compares no faces, or if the
+/// crowd has only this face.
 std::optional<Positions> FaceComparison::compared_mesh(std::size_t face) const {
-  switch (comparison_.with) {
-    case With::kTarget:
-      return target_positions(crowd_.inputs.faces, crowd_.faces[face].recipe);
-    case With::kNearest:
+  switch (comparison_.reference) {
+    case Reference::kTarget:
+      return target_positions(crowd_.inputs.head_set, crowd_.faces[face].recipe);
+    case Reference::kNearest:
       if (crowd_.likeness.neighbours[face].empty()) return std::nullopt;
       return mesh_of(crowd_.likeness.neighbours[face].front().face);
-    case With::kFile:
+    case Reference::kFile:
       if (reference_mesh_.rows() > 0) return reference_mesh_;
       return read_face_positions(other_crowd_, crowd_.faces[face].id,
                                  {format_of_face(other_crowd_, crowd_.faces[face].id)},
-                                 crowd_.inputs.faces.topology.vertex_count);
-    case With::kNothing:
+                                 crowd_.inputs.head_set.topology.vertex_count);
+    case Reference::kNothing:
       break;
   }
   return std::nullopt;
@@ -113,9 +113,9 @@ std::string FaceComparison::label(const ComparedFace& compared) const {
 }
 
 std::optional<HeatLegend> FaceComparison::legend() const {
-  if (comparison_.with == With::kNothing) return std::nullopt;
-  const std::string other = comparison_.with == With::kTarget ? "its target"
-                            : comparison_.with == With::kNearest
+  if (comparison_.reference == Reference::kNothing) return std::nullopt;
+  const std::string other = comparison_.reference == Reference::kTarget ? "its target"
+                            : comparison_.reference == Reference::kNearest
                                 ? "its nearest face"
                                 : comparison_.file.filename().string();
   return HeatLegend{comparison_.scale_mm, concat("distance from ", other)};
@@ -123,11 +123,11 @@ std::optional<HeatLegend> FaceComparison::legend() const {
 
 void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
-  if (!sheet || sheet->compare.with != With::kFile) return;
+  if (!sheet || sheet->compare.reference != Reference::kFile) return;
   const std::filesystem::path& file = sheet->compare.file;
   try {
-    if (!is_surely_there(file) || !std::filesystem::is_directory(file)) {
-      read_reference(file, inputs.faces.topology.vertex_count);
+    if (!exists_or_throw(file) || !std::filesystem::is_directory(file)) {
+      read_reference(file, inputs.head_set.topology.vertex_count);
     }
   } catch (const RecoverableError& error) {
     problems.add(error);
@@ -136,7 +136,7 @@ void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& p
 
 void check_compared_crowd(const Config& config, const std::vector<FacePlan>& crowd) {
   const auto& sheet = config.output.contact_sheet;
-  if (!sheet || sheet->compare.with != With::kFile) return;
+  if (!sheet || sheet->compare.reference != Reference::kFile) return;
   const std::filesystem::path& folder = sheet->compare.file;
   if (!std::filesystem::is_directory(folder)) return;
   const CrowdDirectory others = crowd_at(folder);

@@ -35,7 +35,7 @@ class FaceComparison {
   std::optional<Positions> compared_mesh(std::size_t face) const;
 
   const PicturedCrowd& crowd_;
-  const Config::Comparison& comparison_;
+  const Config::MeshComparison& comparison_;
   CrowdDirectory other_crowd_;  ///< the crowd that `comparison` names, if any
   Positions reference_mesh_;    ///< the mesh to compare all faces with, or empty
 };

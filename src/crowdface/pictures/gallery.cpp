@@ -25,7 +25,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// 24,000 triangles have about 12,000 vertices of 10 bytes: 160 kB of base64 text per face.
+/// Largest number of visible triangles of the reduced mesh. 24,000 triangles have about 12,000
+/// vertices of 10 bytes: 160 kB of base64 text per face.
 constexpr std::size_t kMaxTriangles = 24'000;
 /// Largest number of hidden triangles, such as triangles behind closed lips. Hidden triangles have
 /// their own limit, because teeth and mouth cavity have finer meshes than the skin.
@@ -40,9 +41,10 @@ constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction o
 /// Returns the visible fraction of the sky at the vertices of `triangles`, which are part of a
 /// split mesh.
 /// \return #V; 0 for vertices that no triangle uses.
-std::vector<float> openness_at(const Topology& topology, const std::vector<SurfaceKind>& kinds,
-                               const Positions& mean, const SplitMesh& split,
-                               const std::vector<Triangle>& triangles) {
+std::vector<float> sky_visibility_at(const Topology& topology,
+                                     const std::vector<SurfaceKind>& kinds, const Positions& mean,
+                                     const SplitMesh& split,
+                                     const std::vector<Triangle>& triangles) {
   std::vector<std::uint32_t> vertices;
   for (const Triangle& triangle : triangles) {
     for (const std::uint32_t corner : triangle) vertices.push_back(split.corners[corner].vertex);
@@ -58,28 +60,30 @@ std::vector<float> openness_at(const Topology& topology, const std::vector<Surfa
 /// every head.
 /// \return #F labels; kNoIndex for polygons that are not shown.
 /// \param faces  number of polygons of the face; all later polygons belong to the body
-std::vector<std::uint32_t> looks_of(const HeadTextures& textures,
-                                    const std::vector<SurfaceKind>& kinds, std::size_t faces) {
+std::vector<std::uint32_t> texture_labels_of(const HeadTextures& textures,
+                                             const std::vector<SurfaceKind>& kinds,
+                                             std::size_t faces) {
   constexpr std::uint32_t kBody = kNoIndex - 1;
   std::map<std::vector<std::uint32_t>, std::uint32_t> known;
-  std::vector<std::uint32_t> looks;
+  std::vector<std::uint32_t> labels;
   for (std::size_t f = 0; f < kinds.size(); ++f) {
     std::vector<std::uint32_t> pictures;
     if (f >= faces) {  // the body
-      looks.push_back(
+      labels.push_back(
           known.try_emplace({kBody}, static_cast<std::uint32_t>(known.size())).first->second);
       continue;
     }
-    if (textures.blend()) pictures.push_back(textures.blended.layout.of_face[f]);
+    if (textures.are_blended()) pictures.push_back(textures.blended.layout.picture_of_face[f]);
     for (const TextureSet& texture_set : textures.texture_sets) {
-      pictures.push_back(texture_set.of_face.empty() ? TextureSet::kNone : texture_set.of_face[f]);
+      pictures.push_back(texture_set.texture_of_face.empty() ? TextureSet::kNone
+                                                             : texture_set.texture_of_face[f]);
     }
     const auto number = static_cast<std::uint32_t>(known.size());
-    looks.push_back(kinds[f] == SurfaceKind::kHidden
-                        ? kNoIndex
-                        : known.try_emplace(pictures, number).first->second);
+    labels.push_back(kinds[f] == SurfaceKind::kHidden
+                         ? kNoIndex
+                         : known.try_emplace(pictures, number).first->second);
   }
-  return looks;
+  return labels;
 }
 
 std::vector<const Positions*> positions_of(const HeadSet& head_set) {
@@ -91,7 +95,7 @@ std::vector<const Positions*> positions_of(const HeadSet& head_set) {
 /// The coordinate frame for packing positions: a box that encloses all heads and attachments,
 /// because long hair reaches outside the bounding box of the heads.
 PackingFrame frame_of(const Inputs& inputs, const Positions& body) {
-  std::vector<const Positions*> all = positions_of(inputs.faces);
+  std::vector<const Positions*> all = positions_of(inputs.head_set);
   if (body.rows() > 0) all.push_back(&body);
   for (const Attachment& item : inputs.attachments.items) all.push_back(&item.file.positions);
   return PackingFrame::enclosing(all);
@@ -116,7 +120,7 @@ std::string call(const char* function, const Json& value) {
 /// irises from these positions in each pixel, more finely than vertex colours could.
 void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& whole,
               const PreviewMesh& mesh, Json& json) {
-  const PicturedFace mean(whole, inputs.mean);
+  const PicturedFace mean(whole, inputs.mean_head);
   const auto eyes =
       eye_coordinates(whole.topology(), whole.surfaces(), mean.positions(), config.faces.front);
   if (!eyes) return;
@@ -129,7 +133,7 @@ void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& wh
     }
   }
   const auto colour = [](SurfaceKind kind) {
-    const Light light = albedo_of(kind);
+    const LinearRgb light = albedo_of(kind);
     return Json{light[0], light[1], light[2]};
   };
   json["eyes"] = {{"places", base64(little_endian(values))},
@@ -148,21 +152,22 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
       inputs_(inputs),
       pictured_mesh_(shown),
       vertex_faces_(shown.topology()),
-      frame_(frame_of(inputs, shown.body_points())) {
-  const HeadSet& head_set = inputs.faces;
+      packing_frame_(frame_of(inputs, shown.body_points())) {
+  const HeadSet& head_set = inputs.head_set;
   const Topology& topology = shown.topology();
   const Surfaces surfaces = shown.surfaces();
-  const PicturedFace shown_mean(shown, inputs.mean);
+  const PicturedFace shown_mean(shown, inputs.mean_head);
   const Positions& mean = shown_mean.positions();
-  const std::vector<std::uint32_t> looks =
-      looks_of(inputs.textures, surfaces.kinds,
-               static_cast<std::size_t>(inputs.faces.topology.face_count()));
-  const SplitMesh split = split_mesh(topology, surfaces.uvs, looks);
+  const std::vector<std::uint32_t> labels =
+      texture_labels_of(inputs.textures, surfaces.kinds,
+                        static_cast<std::size_t>(inputs.head_set.topology.face_count()));
+  const SplitMesh split = split_mesh(topology, surfaces.uvs, labels);
   const Positions split_mean = split.corner_positions(mean);
   // Reduce the mesh to twice the limit, and find which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
       reduce_triangles(split.triangles, split_mean, 2 * kMaxTriangles);
-  const std::vector<float> open = openness_at(topology, surfaces.kinds, mean, split, triangles);
+  const std::vector<float> open =
+      sky_visibility_at(topology, surfaces.kinds, mean, split, triangles);
   std::vector<bool> hidden;
   for (const Triangle& triangle : triangles) {
     hidden.push_back(std::ranges::none_of(triangle, [&](std::uint32_t corner) {
@@ -177,7 +182,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   colours_ =
       surface_colours(topology, surfaces, mean, config.faces.front)(mesh_.vertices, kAllColumns);
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
-    texture_places_.push_back({mesh_.faces[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
+    texture_places_.push_back({mesh_.face_of_vertex[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
   const std::vector<const Positions*> heads = positions_of(head_set);
   // The bounding box of all heads and the shoulders.
@@ -214,27 +219,27 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shown.vertices.push_back(v);
     }
   }
-  // Also compute the visibility for the shape with the largest displacements, because an open mouth
-  // lets light reach more vertices.
+  // Also compute the visible fraction of the sky for the shape with the largest displacements,
+  // because an open mouth lets light reach more vertices.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
-  widest_shape_ = static_cast<std::size_t>(
+  most_moving_shape_ = static_cast<std::size_t>(
       std::max_element(shapes.begin(), shapes.end(),
                        [&](const Shape& a, const Shape& b) { return way(a) < way(b); }) -
       shapes.begin());
   Positions acting = mean;
-  shapes[widest_shape_].moves.add_to(acting);
-  visibility_in_widest_ =
+  shapes[most_moving_shape_].moves.add_to(acting);
+  visibility_in_most_moving_ =
       vertex_visibility(pictured_mesh_.topology(), surfaces.kinds, acting, mesh_.vertices);
   // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
   for (float& open : visibility_) open = std::max(open, kMinLight);
 }
 
-std::string GalleryMeshes::pack_shapes(std::span<const Displacements> carried) const {
+std::string GalleryMeshes::pack_shapes(std::span<const Displacements> shape_moves) const {
   std::string bytes;
-  for (std::size_t s = 0; s < carried.size(); ++s) {
+  for (std::size_t s = 0; s < shape_moves.size(); ++s) {
     for (const std::uint32_t row : shown_moves_[s].rows) {
-      bytes += pack_move(carried[s].moves.row(row), frame_);
+      bytes += pack_displacement(shape_moves[s].moves.row(row), packing_frame_);
     }
   }
   return bytes;
@@ -244,9 +249,9 @@ std::string GalleryMeshes::textures_as_json(const TextureSet& texture_set) const
   std::vector<std::uint32_t> placed;  // indices of textures, without duplicates
   Json pictures = Json::array(), of_look = Json::array();
   for (const std::uint32_t first : mesh_.material_starts) {
-    const std::uint32_t face = mesh_.faces[mesh_.triangles[3 * first]];
+    const std::uint32_t face = mesh_.face_of_vertex[mesh_.triangles[3 * first]];
     const std::uint32_t texture =
-        texture_set.of_face.empty() ? TextureSet::kNone : texture_set.of_face[face];
+        texture_set.texture_of_face.empty() ? TextureSet::kNone : texture_set.texture_of_face[face];
     if (texture == TextureSet::kNone) {
       of_look.push_back(nullptr);
       continue;
@@ -264,7 +269,7 @@ std::string GalleryMeshes::textures_as_json(const TextureSet& texture_set) const
 
 std::string GalleryMeshes::pack_roughness(const TextureSet& texture_set) const {
   std::string bytes;
-  if (texture_set.roughness.of_face.empty()) return bytes;
+  if (texture_set.roughness.texture_of_face.empty()) return bytes;
   constexpr float kSkin = 0.56F;  // the page's value for skin without a roughness map
   for (const TexturePlace& place : texture_places_) {
     const float rough = roughness_at(texture_set, place).value_or(kSkin);
@@ -289,8 +294,8 @@ std::string GalleryMeshes::shared_script() const {
   json["vertices"] = mesh_.vertices.size();
   json["up"] = axis_to_json(config_.faces.up);
   json["front"] = axis_to_json(config_.faces.front);
-  json["low"] = to_json(frame_.low);
-  json["step"] = frame_.step;
+  json["low"] = to_json(packing_frame_.low_corner);
+  json["step"] = packing_frame_.step;
   json["box"] = {to_json(box_low_), to_json(box_high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
   json["draft"] = base64(little_endian(draft_triangles_));
@@ -310,7 +315,7 @@ std::string GalleryMeshes::shared_script() const {
   };
   json["light"] = light(visibility_);
   if (!shown_moves_.empty())
-    json["widest"] = {{"shape", widest_shape_}, {"light", light(visibility_in_widest_)}};
+    json["widest"] = {{"shape", most_moving_shape_}, {"light", light(visibility_in_most_moving_)}};
   for (const ShownMoves& shown : shown_moves_) {
     json["moved"].push_back(base64(little_endian(shown.vertices)));
   }
@@ -334,8 +339,8 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
                            texture_places_[v], positions, normal);
     };
   }
-  std::string bytes =
-      pack_face(pictured_mesh_.topology(), mesh_.vertices, vertex_faces_, frame_, positions, lean);
+  std::string bytes = pack_face(pictured_mesh_.topology(), mesh_.vertices, vertex_faces_,
+                                packing_frame_, positions, lean);
   if (texture_set != nullptr) bytes += pack_roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
   if (!shown_moves_.empty())
@@ -343,8 +348,9 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   if (!placed.empty()) {
     std::vector<std::string> packed;
     for (const PlacedAttachment& one : placed) {
-      packed.push_back(concat(Json(one.look().name()).dump(), ':',
-                              attachments_.positions_as_json(one, frame_, min_displacement())));
+      packed.push_back(
+          concat(Json(one.look().name()).dump(), ':',
+                 attachments_.positions_as_json(one, packing_frame_, min_displacement())));
     }
     parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }
@@ -360,7 +366,7 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
 std::string GalleryMeshes::attachment_script(const AttachmentLook& look,
                                              const AttachmentSurfaces& surfaces) const {
   return concat("crowdface.setAttachment(", Json(look.name()).dump(), ',',
-                attachments_.look_as_json(look, surfaces.at(*look.item)), ");\n");
+                attachments_.appearance_as_json(look, surfaces.at(*look.item)), ");\n");
 }
 
 }  // namespace crowdface

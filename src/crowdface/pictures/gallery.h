@@ -57,7 +57,7 @@ class GalleryMeshes {
   std::string pack_roughness(const TextureSet& texture_set) const;
   double min_displacement() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
-  std::string pack_shapes(std::span<const Displacements> carried) const;
+  std::string pack_shapes(std::span<const Displacements> shape_moves) const;
 
   const Config& config_;
   const Inputs& inputs_;
@@ -65,7 +65,7 @@ class GalleryMeshes {
   PreviewMesh mesh_;
   std::vector<std::uint32_t> draft_triangles_;  ///< draft_triangles of mesh_
   VertexFaces vertex_faces_;
-  PackingFrame frame_;
+  PackingFrame packing_frame_;
   ShownAttachments attachments_;
   /// colours of surfaces without textures, per vertex of the reduced mesh
   VertexColours colours_;
@@ -80,9 +80,9 @@ class GalleryMeshes {
     std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
   };
   std::vector<ShownMoves> shown_moves_;  ///< #shapes
-  std::size_t widest_shape_ = 0;  ///< index of the shape that moves most, such as an open jaw
+  std::size_t most_moving_shape_ = 0;  ///< index of the shape that moves most, such as an open jaw
   std::vector<float>
-      visibility_in_widest_;  ///< like `visibility_`, but in the shape `widest_shape_`
+      visibility_in_most_moving_;  ///< like `visibility_`, but in the shape `most_moving_shape_`
 };
 
 }  // namespace crowdface

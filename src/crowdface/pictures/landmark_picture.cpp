@@ -26,7 +26,7 @@ struct Pixel {
 Pixel project(const Camera& camera, const Eigen::Vector3d& point, int width) {
   const Eigen::Vector3d away = point - camera.target;
   const double depth = camera.distance - away.dot(camera.back);
-  const double scale = width / 2.0 / (depth * camera.half_tangent);
+  const double scale = width / 2.0 / (depth * camera.tan_half_fov);
   return {width / 2.0 + away.dot(camera.right) * scale, width / 2.0 - away.dot(camera.up) * scale};
 }
 

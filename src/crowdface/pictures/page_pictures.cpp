@@ -13,10 +13,11 @@ namespace crowdface {
 namespace {
 
 Texture small_texture(const Texture& texture, int max_px) {
-  return shrunk_texture(texture.width, texture.height, max_px, [&](int y, std::span<Light> texels) {
-    const auto first = texture.texels.begin() + y * texture.width;
-    std::copy_n(first, texture.width, texels.begin());
-  });
+  return shrunk_texture(texture.width, texture.height, max_px,
+                        [&](int y, std::span<LinearRgb> texels) {
+                          const auto first = texture.texels.begin() + y * texture.width;
+                          std::copy_n(first, texture.width, texels.begin());
+                        });
 }
 
 std::string address_of(std::string_view type, std::string_view bytes) {
@@ -31,7 +32,7 @@ std::uint8_t srgb_byte(float light) {
     std::vector<std::uint8_t> table;
     for (std::size_t i = 0; i < kSteps; ++i) {
       const float root = (static_cast<float>(i) + 0.5F) / kSteps;
-      const float value = to_srgb(Light::Constant(root * root))[0];
+      const float value = to_srgb(LinearRgb::Constant(root * root))[0];
       table.push_back(static_cast<std::uint8_t>(std::lround(255 * std::min(value, 1.0F))));
     }
     return table;
@@ -46,7 +47,7 @@ std::string colour_picture(const Texture& texture, int max_px) {
   const Texture& shown = fits ? texture : small;
   std::vector<std::uint8_t> pixels(3 * shown.texels.size());
   std::uint8_t* at = pixels.data();
-  for (const Light& light : shown.texels) {
+  for (const LinearRgb& light : shown.texels) {
     for (int c = 0; c < 3; ++c) *at++ = srgb_byte(light[c]);
   }
   return address_of("jpeg", encode_jpeg(shown.width, shown.height, pixels));
@@ -55,7 +56,7 @@ std::string colour_picture(const Texture& texture, int max_px) {
 std::string opacity_picture(const Texture& texture, int max_px) {
   const Texture small = small_texture(texture, max_px);
   std::vector<std::uint8_t> pixels;
-  for (const Light& there : small.texels) {
+  for (const LinearRgb& there : small.texels) {
     pixels.push_back(
         static_cast<std::uint8_t>(std::lround(255 * std::clamp(there[0], 0.0F, 1.0F))));
   }

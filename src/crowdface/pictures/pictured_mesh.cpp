@@ -21,7 +21,7 @@ constexpr double kChest = 0.85;
 /// For each vertex of the body, its signed distance from the cut at the chest; images do not show
 /// vertices with negative distances.
 std::vector<double> above_chest(const Config& config, const Inputs& inputs, const Positions& body) {
-  const Eigen::VectorXd heights = inputs.mean * unit_vector(config.faces.up);
+  const Eigen::VectorXd heights = inputs.mean_head * unit_vector(config.faces.up);
   const Eigen::RowVector3d middle = inputs.neck->seam.positions.colwise().mean();
   const double reach = kChest * (heights.maxCoeff() - heights.minCoeff());
   std::vector<double> above;
@@ -56,7 +56,7 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
   const Mesh whole{painter != nullptr ? painter->topology() : neck.body->file.topology, positions,
                    painter != nullptr ? painter->uvs() : TextureCoordinates(0, 2)};
   const Mesh bust = cut_mesh(whole, above_chest(config, inputs, positions));
-  Body body{inputs.faces.topology, inputs.faces.uvs, Positions(0, 3), {}};
+  Body body{inputs.head_set.topology, inputs.head_set.uvs, Positions(0, 3), {}};
   const auto uv_rows = static_cast<std::uint32_t>(body.uvs.rows());
   if (painter != nullptr) {
     body.uvs.conservativeResize(body.uvs.rows() + bust.uvs.rows(), Eigen::NoChange);
@@ -65,8 +65,8 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
       body.topology.corner_uvs.assign(body.topology.corner_vertices.size(), kNoIndex);
     }
   }
-  // In the joined mesh, the body shares the vertices of the face's ring. Its other vertices are
-  // numbered after all vertices of the face.
+  // In the joined mesh, the body shares the vertices of the face's neck ring. The other vertices of
+  // the body follow after all vertices of the face.
   std::vector<std::uint32_t> number(static_cast<std::size_t>(bust.positions.rows()), kNoIndex),
       rows;
   for (std::size_t i = 0; i < neck.body_rim.size(); ++i) {
@@ -91,7 +91,7 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
     body.topology.add_face(corners, with_uvs ? uvs : std::vector<std::uint32_t>());
   }
   body.points = bust.positions(rows, kAllColumns);
-  body.ring = places_at(neck.seam.rim, inputs.faces);
+  body.ring = places_at(neck.seam.rim, inputs.head_set);
   body.topology.vertex_count += body.points.rows();
   body_.emplace(std::move(body));
 }
@@ -101,14 +101,14 @@ Surfaces PicturedMesh::surfaces() const {
   if (!body_) return surfaces;
   const auto polygons = static_cast<std::size_t>(body_->topology.face_count());
   surfaces.kinds.resize(polygons, SurfaceKind::kSkin);
-  if (!surfaces.paints.empty()) surfaces.paints.resize(polygons);
+  if (!surfaces.face_colours.empty()) surfaces.face_colours.resize(polygons);
   if (surfaces.uvs.rows() > 0) surfaces.uvs = body_->uvs;
   return surfaces;
 }
 
 Eigen::Vector3d PicturedMesh::lowest_shown() const {
   const Eigen::Vector3d up = unit_vector(config_.faces.up);
-  const Eigen::VectorXd heights = inputs_.mean * up;
+  const Eigen::VectorXd heights = inputs_.mean_head * up;
   const Eigen::Vector3d middle = inputs_.neck->seam.positions.colwise().mean().transpose();
   const double low = heights.minCoeff(),
                lowest = low - kShoulderHeight * (heights.maxCoeff() - low);
@@ -124,19 +124,19 @@ Positions PicturedMesh::add_body(const Positions& face) const {
 TextureSet PicturedMesh::add_body(TextureSet textures, const BlendedPicture* body,
                                   int max_px) const {
   const auto polygons = static_cast<std::size_t>(body_->topology.face_count());
-  const auto faces = static_cast<std::size_t>(inputs_.faces.topology.face_count());
-  textures.of_face.resize(faces, TextureSet::kNone);
-  textures.of_face.resize(polygons, body == nullptr
-                                        ? TextureSet::kNone
-                                        : static_cast<std::uint32_t>(textures.textures.size()));
+  const auto faces = static_cast<std::size_t>(inputs_.head_set.topology.face_count());
+  textures.texture_of_face.resize(faces, TextureSet::kNone);
+  textures.texture_of_face.resize(
+      polygons,
+      body == nullptr ? TextureSet::kNone : static_cast<std::uint32_t>(textures.textures.size()));
   if (body != nullptr) {
     textures.textures.push_back(std::make_shared<const Texture>(texture_of(*body, max_px)));
   }
-  if (!textures.slopes.of_face.empty()) {
-    textures.slopes.of_face.resize(polygons, TextureLayer::kNone);
+  if (!textures.slopes.texture_of_face.empty()) {
+    textures.slopes.texture_of_face.resize(polygons, TextureLayer::kNone);
   }
   TextureLayer& roughness = textures.roughness;
-  if (roughness.of_face.empty()) return textures;
+  if (roughness.texture_of_face.empty()) return textures;
   float sum = 0, count = 0;
   for (const TexturePlace& place : body_->ring) {
     if (const auto rough = roughness_at(textures, place)) {
@@ -145,11 +145,12 @@ TextureSet PicturedMesh::add_body(TextureSet textures, const BlendedPicture* bod
     }
   }
   const bool known = count > 0 && body != nullptr;
-  roughness.of_face.resize(polygons, known ? static_cast<std::uint32_t>(roughness.textures.size())
-                                           : TextureLayer::kNone);
+  roughness.texture_of_face.resize(
+      polygons,
+      known ? static_cast<std::uint32_t>(roughness.textures.size()) : TextureLayer::kNone);
   if (known) {
     roughness.textures.push_back(
-        std::make_shared<const Texture>(Texture{1, 1, {Light::Constant(sum / count)}}));
+        std::make_shared<const Texture>(Texture{1, 1, {LinearRgb::Constant(sum / count)}}));
   }
   return textures;
 }

@@ -29,8 +29,8 @@ class PicturedMesh {
   PicturedMesh(const Config& config, const Inputs& inputs, const FaceTextures* textures);
 
   bool has_body() const { return body_.has_value(); }
-  const Topology& topology() const { return body_ ? body_->topology : inputs_.faces.topology; }
-  const TextureCoordinates& uvs() const { return body_ ? body_->uvs : inputs_.faces.uvs; }
+  const Topology& topology() const { return body_ ? body_->topology : inputs_.head_set.topology; }
+  const TextureCoordinates& uvs() const { return body_ ? body_->uvs : inputs_.head_set.uvs; }
   /// The kinds of surfaces; the surfaces of the body are skin.
   Surfaces surfaces() const;
   /// The vertex positions of the body; no rows if the body is not shown.

@@ -44,13 +44,13 @@ CrowdPictures::CrowdPictures(const Config& config, const Inputs& inputs, const D
                              const FaceShapes& shapes)
     : config_(config),
       inputs_(inputs),
-      settings_(settings),
+      settings_digest_(settings),
       directory_(directory),
       textures_(textures),
       shapes_(shapes),
       renders_(config, *config.output.contact_sheet, inputs, &textures),
-      page_(page_for(config)) {
-  if (!page_) return;
+      page_folder_(page_for(config)) {
+  if (!page_folder_) return;
   gallery_ = std::make_unique<GalleryMeshes>(config, inputs, renders_.mesh());
   renders_.add_gallery(*gallery_);
 }
@@ -58,7 +58,7 @@ CrowdPictures::CrowdPictures(const Config& config, const Inputs& inputs, const D
 void CrowdPictures::write_heads() {
   if (heads_are_written_) return;
   make_directories(directory_.head_render("").parent_path());
-  const std::vector<Head>& heads = inputs_.faces.heads;
+  const std::vector<Head>& heads = inputs_.head_set.heads;
   for (std::size_t h = 0; h < heads.size(); ++h) {
     throw_if_interrupted();
     write_file(directory_.head_render(heads[h].name),
@@ -79,7 +79,7 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
   make_directories(directory_.gallery_head("").parent_path());
   std::set<std::string> ids, placed;
   for (const FacePlan& face : crowd) ids.insert(face.id);
-  const std::vector<AttachmentLook> looks = inputs_.attachments.looks(crowd);
+  const std::vector<AttachmentLook> looks = inputs_.attachments.looks_of(crowd);
   for (const AttachmentLook& look : looks) placed.insert(look.name());
   for (const fs::path& folder : folder_and_numbered_subfolders(directory_.gallery_faces())) {
     remove_others(folder, ids);
@@ -91,15 +91,15 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
     write_file(directory_.gallery_attachment(looks[i].name()),
                gallery_->attachment_script(looks[i], renders_.attachment_surfaces()));
   });
-  parallel_for_each(inputs_.faces.heads.size(), [&](std::size_t h) {
+  parallel_for_each(inputs_.head_set.heads.size(), [&](std::size_t h) {
     const auto head = static_cast<Index>(h);
-    write_file(directory_.gallery_head(inputs_.faces.heads[h].name),
+    write_file(directory_.gallery_head(inputs_.head_set.heads[h].name),
                renders_.head_script(head, shapes_.shapes_of_head(head)));
   });
   write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
   write_scripts(crowd, likeness);
   for (const std::string_view file : kGalleryPageFiles) {
-    write_file(directory_.gallery() / file, read_file(*page_ / file));
+    write_file(directory_.gallery() / file, read_file(*page_folder_ / file));
   }
 }
 
@@ -109,7 +109,7 @@ WrittenSheets CrowdPictures::finish(const std::vector<FacePlan>& crowd,
   for (const FacePlan& face : crowd) ids.push_back(face.id);
   const PlanNames names = config_.plan_names();
   write_file(directory_.likeness(), likeness_text(likeness, names, ids));
-  if (page_) {
+  if (page_folder_) {
     write_gallery(crowd, likeness);
     log_info(concat("gallery: ", (directory_.gallery() / "index.html").string()));
   }

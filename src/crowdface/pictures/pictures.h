@@ -27,10 +27,10 @@ class CrowdPictures {
 
   const CrowdRenders& renders() const { return renders_; }
 
-  /// Sets the measurements of the input heads that the gallery shows. \param of_heads  #heads by
-  /// #named traits: the measurements
-  void show_traits(std::vector<std::vector<double>> of_heads) {
-    head_traits_ = std::move(of_heads);
+  /// Sets the measurements of the input heads that the gallery shows. \param head_traits  for each
+  /// head, the value of each named trait
+  void set_head_traits(std::vector<std::vector<double>> head_traits) {
+    head_traits_ = std::move(head_traits);
   }
 
   /// Renders the input heads. Further calls do nothing.
@@ -53,13 +53,13 @@ class CrowdPictures {
 
   const Config& config_;
   const Inputs& inputs_;
-  Digest settings_;
+  Digest settings_digest_;
   const CrowdDirectory& directory_;
   const FaceTextures& textures_;
   const FaceShapes& shapes_;
   CrowdRenders renders_;
   /// Folder of the gallery's page, if there is a gallery
-  std::optional<std::filesystem::path> page_;
+  std::optional<std::filesystem::path> page_folder_;
   std::unique_ptr<GalleryMeshes> gallery_;
   bool heads_are_written_ = false;
   std::vector<std::vector<double>> head_traits_;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMaxColumns = 16;
 
 /// A column of a page: a blend shape; a corrective shape is shown together with the shape that it
-/// corrects (see companions_of).
+/// corrects (see find_prerequisites).
 struct Column {
   std::string name;
   std::vector<std::size_t> shapes;
@@ -29,7 +29,7 @@ std::vector<Column> columns_of(const ShapeSet& set, const FaceShapes& shapes) {
   std::vector<Column> columns;
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
     Column column{set.shapes[s].name, {s}};
-    if (const auto other = shapes.companion(s)) {
+    if (const auto other = shapes.prerequisite_of(s)) {
       column.name += concat(" + ", set.shapes[*other].name);
       column.shapes.push_back(*other);
     }
@@ -77,7 +77,7 @@ void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
       const FacePlan& shown_face = crowd.faces[f];
       const Positions face =
           read_face_positions(crowd.directory, shown_face.id, crowd.config.output.meshes,
-                              crowd.inputs.faces.topology.vertex_count);
+                              crowd.inputs.head_set.topology.vertex_count);
       add_row(crowd.renders, shown, shown_face.id, face,
               crowd.shapes.shapes_of_face(shown_face.recipe, face), cells);
     }

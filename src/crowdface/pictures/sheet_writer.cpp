@@ -25,7 +25,7 @@ std::string to_png(const Rgb8Image& image) {
 
 /// Converts to linear light, as EXR requires.
 std::string to_exr(const Rgb8Image& image) {
-  const std::array<float, 256>& linear = light_of_srgb8();
+  const std::array<float, 256>& linear = linear_of_srgb8();
   std::vector<float> pixels(image.pixels.size());
   std::transform(image.pixels.begin(), image.pixels.end(), pixels.begin(),
                  [&](std::uint8_t value) { return linear[value]; });
@@ -77,7 +77,7 @@ void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8I
 void SheetWriter::write_index(const std::string& number) {
   const auto columns = static_cast<int>(
       std::clamp(std::ceil(std::sqrt(static_cast<double>(index_cells_.size()))), 1.0, 8.0));
-  const std::size_t before = volumes_ * kPagesPerVolume;
+  const std::size_t before = finished_volumes_ * kPagesPerVolume;
   const std::string note =
       number.empty() ? concat(index_cells_.size(), " sheets")
                      : concat("sheets ", before + 1, " to ", before + index_cells_.size());
@@ -90,8 +90,9 @@ void SheetWriter::write_index(const std::string& number) {
 }
 
 void SheetWriter::finish_volume(bool is_last) {
-  const bool is_only = is_last && volumes_ == 0;
-  const std::string number = is_only ? std::string() : concat('_', zero_padded(volumes_ + 1, 3));
+  const bool is_only = is_last && finished_volumes_ == 0;
+  const std::string number =
+      is_only ? std::string() : concat('_', zero_padded(finished_volumes_ + 1, 3));
   if (!is_only || index_cells_.size() > 1) write_index(number);
   wait();
   if (!volume_pngs_.empty()) {
@@ -99,7 +100,7 @@ void SheetWriter::finish_volume(bool is_last) {
   }
   index_cells_.clear();
   volume_pngs_.clear();
-  ++volumes_;
+  ++finished_volumes_;
 }
 
 std::vector<std::filesystem::path> SheetWriter::finish() {

@@ -39,7 +39,7 @@ class SheetWriter {
   std::filesystem::path folder_;
   std::vector<SheetFormat> formats_;
   std::string title_;
-  std::size_t volumes_ = 0;               ///< number of finished volumes
+  std::size_t finished_volumes_ = 0;      ///< number of finished volumes
   std::vector<std::string> volume_pngs_;  ///< pages of the current volume, if a PDF is requested
   std::vector<SheetCell> index_cells_;    ///< pages in the index of the current volume
   std::vector<std::filesystem::path> written_files_;

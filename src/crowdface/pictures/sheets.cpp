@@ -53,7 +53,7 @@ class CrowdSheets {
     SheetCell cell{read_render(crowd_.directory.render(crowd_.faces[face].id)),
                    sheet_label(sheet_.labels, crowd_.faces, face, crowd_.likeness,
                                crowd_.config.faces.names, crowd_.config.faces.tags)};
-    if (sheet_.compare.with == Config::Comparison::With::kNothing) return cell;
+    if (sheet_.compare.reference == Config::MeshComparison::Reference::kNothing) return cell;
     const ComparedFace compared = compared_.compare(face);
     const VertexColours colours = heat_colours(compared.mm, sheet_.compare.scale_mm);
     cell.image = joined_pictures(

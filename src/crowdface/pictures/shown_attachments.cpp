@@ -21,20 +21,20 @@ constexpr std::size_t kMaxAttachmentTriangles = 24'000;
 constexpr std::size_t kMaxAttachmentDraft = 6'000, kMinAttachmentDraft = 300;
 constexpr int kMaxAttachmentTexels = 512;
 
-/// The vertices that the blend shape moves by at least `least`: first the indices of these vertices
-/// (4 bytes each), then their displacements.
+/// Packs the vertices that a blend shape moves by at least `min_displacement`: first the vertex
+/// indices (4 bytes each), then the displacements.
 /// \param shown  rows of the full mesh that the page shows
 std::string packed_moves(std::span<const std::uint32_t> shown, const Displacements& shape,
-                         const PackingFrame& frame, double least) {
+                         const PackingFrame& frame, double min_displacement) {
   std::vector<std::uint32_t> vertices;
   std::string moves;
   for (std::uint32_t v = 0; v < shown.size(); ++v) {
     const auto at = std::ranges::lower_bound(shape.vertices, shown[v]);
     if (at == shape.vertices.end() || *at != shown[v]) continue;
     const auto move = shape.moves.row(at - shape.vertices.begin());
-    if (move.norm() < least) continue;
+    if (move.norm() < min_displacement) continue;
     vertices.push_back(v);
-    moves += pack_move(move, frame);
+    moves += pack_displacement(move, frame);
   }
   return little_endian(vertices) + moves;
 }
@@ -81,8 +81,8 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
   });
 }
 
-std::string ShownAttachments::look_as_json(const AttachmentLook& look,
-                                           const AttachmentSurface& surface) const {
+std::string ShownAttachments::appearance_as_json(const AttachmentLook& look,
+                                                 const AttachmentSurface& surface) const {
   const Parts& meshes = parts(*look.item);
   Json json = Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -93,7 +93,8 @@ std::string ShownAttachments::look_as_json(const AttachmentLook& look,
 }
 
 std::string ShownAttachments::positions_as_json(const PlacedAttachment& placed,
-                                                const PackingFrame& frame, double least) const {
+                                                const PackingFrame& frame,
+                                                double min_displacement) const {
   std::vector<std::uint32_t> shown;
   for (const PreviewMesh& part : parts(*placed.item)) {
     shown.insert(shown.end(), part.vertices.begin(), part.vertices.end());
@@ -101,13 +102,13 @@ std::string ShownAttachments::positions_as_json(const PlacedAttachment& placed,
   const std::string points = base64(pack_points(shown, frame, placed.positions));
   Json moves = Json::object();
   for (std::size_t s = 0; s < placed.moves.size(); ++s) {
-    const std::string of_shape = packed_moves(shown, placed.moves[s], frame, least);
+    const std::string of_shape = packed_moves(shown, placed.moves[s], frame, min_displacement);
     if (!of_shape.empty()) moves[std::to_string(s)] = base64(of_shape);
   }
   return (moves.empty() ? Json(points) : Json{{"points", points}, {"moves", moves}}).dump();
 }
 
-std::vector<float> ShownAttachments::points(const PlacedAttachment& placed) const {
+std::vector<float> ShownAttachments::vertex_positions(const PlacedAttachment& placed) const {
   std::vector<float> points;
   for (const PreviewMesh& part : parts(*placed.item)) {
     for (const std::uint32_t v : part.vertices) {

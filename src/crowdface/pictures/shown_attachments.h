@@ -18,14 +18,15 @@ class ShownAttachments {
  public:
   /// The triangles and the appearance of each material of an attachment, which do not depend on the
   /// face, as JSON.
-  std::string look_as_json(const AttachmentLook& look, const AttachmentSurface& surface) const;
+  std::string appearance_as_json(const AttachmentLook& look,
+                                 const AttachmentSurface& surface) const;
   /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
   /// of the face the vertices that the shape moves, with their displacements.
   /// \param min_displacement  shortest displacement to store, in the unit of the positions
   std::string positions_as_json(const PlacedAttachment& placed, const PackingFrame& frame,
                                 double min_displacement) const;
   /// Positions on a face as plain numbers, three per vertex.
-  std::vector<float> points(const PlacedAttachment& placed) const;
+  std::vector<float> vertex_positions(const PlacedAttachment& placed) const;
 
  private:
   /// One mesh per material. A mesh has no triangles if no face has its material.

@@ -54,7 +54,7 @@ bool is_see_through(const SurfaceMaterial& material, const HeadSet& head_set,
       material.opacity_map.empty() ? material.colour_map : material.opacity_map;
   if (file.empty()) return false;
   try {
-    const Image image = read_image(file, {.jpeg = true});
+    const Image image = read_image(file, {.allows_jpeg = true});
     const bool is_alpha = image.alpha_channel >= 0;
     if (!is_alpha && material.opacity_map.empty()) return false;
     const int channel = is_alpha ? image.alpha_channel : 0;
@@ -69,7 +69,7 @@ bool is_see_through(const SurfaceMaterial& material, const HeadSet& head_set,
 
 /// For each material, whether it is transparent. Materials that the skin uses count as opaque.
 std::vector<bool> see_through_materials(const Inputs& inputs) {
-  const Topology& topology = inputs.faces.topology;
+  const Topology& topology = inputs.head_set.topology;
   std::vector<std::vector<Index>> faces(inputs.materials.names.size());
   std::vector<bool> is_skin(faces.size(), false), see_through(faces.size(), false);
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -79,11 +79,11 @@ std::vector<bool> see_through_materials(const Inputs& inputs) {
     if (component == inputs.components.largest()) is_skin[material] = true;
   }
   if (std::ranges::find(is_skin, false) == is_skin.end()) return see_through;
-  const ObjFile& first = inputs.files.front();
+  const ObjFile& first = inputs.head_files.front();
   const std::vector<SurfaceMaterial> materials = surface_materials_of(
       inputs.materials.names, find_material_files(first.material_path(), first.material_libraries));
   for (std::size_t m = 0; m < faces.size(); ++m) {
-    see_through[m] = !is_skin[m] && is_see_through(materials[m], inputs.faces, faces[m]);
+    see_through[m] = !is_skin[m] && is_see_through(materials[m], inputs.head_set, faces[m]);
   }
   return see_through;
 }
@@ -112,7 +112,7 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
       std::any_of(paints.begin(), paints.end(), [](auto& p) { return p.has_value(); });
   for (const std::uint32_t material : of_face) {
     surfaces.kinds.push_back(kinds[material]);
-    if (any_paint) surfaces.paints.push_back(paints[material]);
+    if (any_paint) surfaces.face_colours.push_back(paints[material]);
   }
   // Polygons of a component with the form of an eyeball are eyes, even if the name of their
   // material does not say so.
@@ -121,14 +121,14 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
     for (const std::uint32_t c : part.components) eyeball[c] = part.is_eyeball;
   }
   for (std::size_t f = 0; f < surfaces.kinds.size(); ++f) {
-    const std::uint32_t first = inputs.faces.topology.face(static_cast<Index>(f))[0];
+    const std::uint32_t first = inputs.head_set.topology.face(static_cast<Index>(f))[0];
     if (surfaces.kinds[f] == SurfaceKind::kSkin &&
         eyeball[inputs.components.component_of_vertex[first]] && !chosen[of_face[f]]) {
       surfaces.kinds[f] = SurfaceKind::kEye;
     }
   }
   if (inputs.textures.has_textures() || are_any_rendered(inputs.maps))
-    surfaces.uvs = inputs.faces.uvs;
+    surfaces.uvs = inputs.head_set.uvs;
   return surfaces;
 }
 

@@ -13,16 +13,16 @@ using Eigen::Vector3d;
 
 /// The texture of `layer` that covers the vertex at `place`; null if none covers the vertex.
 const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
-  if (place.face < 0 || layer.of_face.empty()) return nullptr;
-  const std::uint32_t picture = layer.of_face[static_cast<std::size_t>(place.face)];
+  if (place.face < 0 || layer.texture_of_face.empty()) return nullptr;
+  const std::uint32_t picture = layer.texture_of_face[static_cast<std::size_t>(place.face)];
   return picture == TextureLayer::kNone ? nullptr : layer.textures[picture].get();
 }
 
 /// Mean of 3 by 3 samples around a point. The outer samples are 1/512 of the texture's side away in
 /// each direction.
-Light mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
+LinearRgb mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
   constexpr float kReach = 1.0F / 512;
-  Light sum = Light::Zero();
+  LinearRgb sum = LinearRgb::Zero();
   for (const float x : {-kReach, 0.0F, kReach}) {
     for (const float y : {-kReach, 0.0F, kReach}) {
       sum += colour_at(texture, uv + Eigen::Vector2f(x, y));
@@ -57,7 +57,7 @@ Vector3d tilted_normal(const TextureSet& texture_set, const Topology& topology,
     const double length = flat.norm();
     return length > 0 ? Vector3d(sign / length * flat) : Vector3d(Vector3d::Zero());
   };
-  const Light lean = mean_around(*slopes, place.uv);
+  const LinearRgb lean = mean_around(*slopes, place.uv);
   return (normal + double{lean[0]} * along(uv_other.y() * one - uv_one.y() * other) +
           double{lean[1]} * along(uv_one.x() * other - uv_other.x() * one))
       .normalized();

@@ -27,24 +27,25 @@ double cross(const PlanePoint& o, const PlanePoint& a, const PlanePoint& b) {
 
 }  // namespace
 
-std::vector<PlanePoint> circle_layout(Index heads) {
+std::vector<PlanePoint> circle_layout(Index head_count) {
   std::vector<PlanePoint> anchors;
-  for (Index i = 0; i < heads; ++i) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(heads);
+  for (Index i = 0; i < head_count; ++i) {
+    const double angle =
+        2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(head_count);
     anchors.emplace_back(rounded(std::cos(angle)), rounded(std::sin(angle)));
   }
   return anchors;
 }
 
-std::vector<PlanePoint> grid_layout(Index heads) {
+std::vector<PlanePoint> grid_layout(Index head_count) {
   Index columns = 1;
-  while (columns * columns < heads) ++columns;
-  const Index rows = (heads + columns - 1) / columns;
+  while (columns * columns < head_count) ++columns;
+  const Index rows = (head_count + columns - 1) / columns;
   const double step = columns > 1 ? 2.0 / static_cast<double>(columns - 1) : 0.0;
   std::vector<PlanePoint> anchors;
-  for (Index i = 0; i < heads; ++i) {
+  for (Index i = 0; i < head_count; ++i) {
     const Index row = i / columns;
-    const Index in_row = std::min(columns, heads - row * columns);
+    const Index in_row = std::min(columns, head_count - row * columns);
     const double x = static_cast<double>(i % columns) - 0.5 * static_cast<double>(in_row - 1);
     const double y = 0.5 * static_cast<double>(rows - 1) - static_cast<double>(row);
     anchors.emplace_back(rounded(x * step), rounded(y * step));

@@ -16,11 +16,11 @@ enum class Layout { kCircle, kGrid, kSimilarity, kManual };
 /// Places the anchors at equal distances on the unit circle, counter-clockwise from (1, 0). The
 /// coordinates are rounded to 10⁻⁹, because the results of sine functions differ between C
 /// libraries.
-std::vector<PlanePoint> circle_layout(Eigen::Index heads);
+std::vector<PlanePoint> circle_layout(Eigen::Index head_count);
 
 /// Places the anchors row by row on a square grid over [−1, 1]². The first row is at the top. If
 /// the last row is not full, it is centred.
-std::vector<PlanePoint> grid_layout(Eigen::Index heads);
+std::vector<PlanePoint> grid_layout(Eigen::Index head_count);
 
 /// Places the anchors so that the distances between anchors approximate the given distances between
 /// heads, by classical multidimensional scaling (Torgerson 1952) with the two largest components.

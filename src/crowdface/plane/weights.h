@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// A point of the weight plane. Every head has an anchor t_i on this plane, and every region of a
-/// face has a position m.
+/// A point of the weight plane. Every head has a fixed point (anchor) t_i on this plane. Every
+/// region of a face has a position m, whose distances from the anchors give the heads' weights.
 using PlanePoint = Eigen::Vector2d;
 
 /// Returns the weights of Eq. 4, normalised: 1/‖m − t_i‖², divided by the sum over all i. If the

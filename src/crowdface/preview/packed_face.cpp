@@ -56,7 +56,7 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
   bytes.reserve(10 * vertices.size());  // space for the normals too
   for (const std::uint32_t vertex : vertices) {
     for (int axis = 0; axis < 3; ++axis) {
-      append(bytes, (positions(vertex, axis) - frame.low[axis]) / frame.step);
+      append(bytes, (positions(vertex, axis) - frame.low_corner[axis]) / frame.step);
     }
   }
   return bytes;
@@ -78,7 +78,7 @@ std::string pack_face(
   return bytes;
 }
 
-std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame) {
+std::string pack_displacement(const Eigen::RowVector3d& move, const PackingFrame& frame) {
   constexpr double kMax = 32767;
   std::string bytes;
   for (int axis = 0; axis < 3; ++axis) {

@@ -15,7 +15,7 @@ namespace crowdface {
 
 /// The quantization grid of packed positions: a cube with 65,535 grid steps along each side.
 struct PackingFrame {
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates
+  Eigen::Vector3d low_corner = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates
   double step = 1;
 
   /// Returns a cube around all heads. The cube has a margin on each side, a quarter of the heads'
@@ -45,7 +45,7 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
 
 /// Packs a displacement: three little-endian signed 16-bit numbers, in grid steps of the frame,
 /// clamped to the range of 16 bits.
-std::string pack_move(const Eigen::RowVector3d& move, const PackingFrame& frame);
+std::string pack_displacement(const Eigen::RowVector3d& move, const PackingFrame& frame);
 
 /// Encodes bytes as base64 text (RFC 4648).
 std::string base64(std::string_view bytes);

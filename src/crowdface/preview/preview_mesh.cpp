@@ -12,16 +12,18 @@
 namespace crowdface {
 
 PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
-                         const Positions& typical, const std::vector<bool>& shown,
+                         const Positions& typical_positions, const std::vector<bool>& is_shown,
                          std::size_t max_vertices) {
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  require(shown.empty() || shown.size() == faces, "preview: ", shown.size(), " marks, ", faces,
-          " faces");
+  require(is_shown.empty() || is_shown.size() == faces, "preview: ", is_shown.size(), " marks, ",
+          faces, " faces");
   std::vector<std::uint32_t> labels(faces, 0);
-  for (std::size_t f = 0; f < shown.size(); ++f) labels[f] = shown[f] ? 0 : kNoIndex;
+  for (std::size_t f = 0; f < is_shown.size(); ++f) labels[f] = is_shown[f] ? 0 : kNoIndex;
   const SplitMesh split = split_mesh(topology, uvs, labels);
   return preview_from_split_mesh(
-      split, reduce_triangles(split.triangles, split.corner_positions(typical), 2 * max_vertices),
+      split,
+      reduce_triangles(split.triangles, split.corner_positions(typical_positions),
+                       2 * max_vertices),
       uvs);
 }
 
@@ -42,7 +44,7 @@ PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle
         const auto [vertex, uv, material] = split.corners[corner];
         number[corner] = static_cast<std::uint32_t>(mesh.vertices.size());
         mesh.vertices.push_back(vertex);
-        mesh.faces.push_back(split.face_of_corner[corner]);
+        mesh.face_of_vertex.push_back(split.face_of_corner[corner]);
         mesh.first_copies.push_back(first.emplace(vertex, number[corner]).first->second);
         for (int axis = 0; axis < 2 && uvs.rows() > 0; ++axis) {
           mesh.uvs.push_back(uv == kNoIndex ? 0.0F : static_cast<float>(uvs(uv, axis)));
@@ -54,13 +56,14 @@ PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle
   return mesh;
 }
 
-std::vector<std::uint32_t> draft_triangles(const PreviewMesh& mesh, const Positions& typical,
+std::vector<std::uint32_t> draft_triangles(const PreviewMesh& mesh,
+                                           const Positions& typical_positions,
                                            std::size_t max_triangles) {
   std::vector<Triangle> triangles(mesh.triangles.size() / 3);
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
     triangles[c / 3][c % 3] = mesh.triangles[c];
   }
-  const Positions positions = typical(mesh.vertices, kAllColumns);
+  const Positions positions = typical_positions(mesh.vertices, kAllColumns);
   std::vector<std::uint32_t> draft;
   for (const Triangle& triangle : reduce_triangles(triangles, positions, max_triangles)) {
     draft.insert(draft.end(), triangle.begin(), triangle.end());

@@ -20,20 +20,21 @@ struct PreviewMesh {
   /// Indices into `vertices`, three per triangle, grouped by material.
   std::vector<std::uint32_t> triangles;
   std::vector<float> uvs;  ///< two per vertex; empty if there are no texture coordinates
-  /// for each preview vertex: a polygon of the whole mesh that has this corner
-  std::vector<std::uint32_t> faces;
+  /// for each preview vertex: a polygon of the whole mesh that uses this vertex
+  std::vector<std::uint32_t> face_of_vertex;
   /// for each material that has triangles: the first triangle
   std::vector<std::uint32_t> material_starts;
 };
 
 /// Builds a reduced mesh. Treats the polygons of each texture tile as one material.
-/// \param uvs            texture coordinates; polygons need not have any.
-/// \param typical        #V by 3: vertex positions with which the error of edge collapses is
-///                       measured.
-/// \param shown          for each polygon: whether the preview shows it; empty: shows all polygons.
+/// \param uvs  texture coordinates; polygons need not have any.
+/// \param typical_positions  #V by 3: vertex positions with which the error of edge collapses is
+///                           measured.
+/// \param is_shown  for each polygon: whether the preview shows the polygon; empty: shows all
+///                  polygons.
 /// \param max_vertices  approximate maximum number of vertices, counted before vertices are split.
 PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs,
-                         const Positions& typical, const std::vector<bool>& shown,
+                         const Positions& typical_positions, const std::vector<bool>& is_shown,
                          std::size_t max_vertices);
 
 /// Builds the preview mesh from triangles that are already reduced.
@@ -48,9 +49,10 @@ inline constexpr std::size_t kMaxDraftTriangles = 12'000;
 /// Returns the triangles of a coarser mesh that uses some of the vertices of a preview mesh:
 /// triples of indices into `mesh.vertices`. Pages that draw without a graphics card show this draft
 /// mesh while the view or the face moves.
-/// \param typical        positions of all vertices of the whole mesh, #V by 3.
+/// \param typical_positions  positions of all vertices of the whole mesh, #V by 3.
 /// \param max_triangles  approximate maximum number of triangles.
-std::vector<std::uint32_t> draft_triangles(const PreviewMesh& mesh, const Positions& typical,
+std::vector<std::uint32_t> draft_triangles(const PreviewMesh& mesh,
+                                           const Positions& typical_positions,
                                            std::size_t max_triangles);
 
 }  // namespace crowdface

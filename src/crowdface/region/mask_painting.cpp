@@ -211,9 +211,9 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
           size, " texels for ", alpha.rows(), " vertices");
   if (topology.corner_uvs.empty()) throw InvalidInput("a mask needs texture coordinates");
   const auto is_prior = [&](std::uint32_t v) { return has_priority.empty() || has_priority[v]; };
-  const UvSamples samples = gather_uv_samples(topology, uvs, Tiles::kUdim);
+  const UvSamples samples = gather_uv_samples(topology, uvs, UvTiling::kUdim);
   PaintedMasks out;
-  out.size = size;
+  out.texels_per_side = size;
   for (const auto& [tile, faces] : faces_by_tile(topology, uvs)) {
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
@@ -264,10 +264,11 @@ MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& p
     if (masks.is_tiled() && stem.find(kTileWord) == std::string::npos)
       stem += concat('.', kTileWord);
     const auto mask = path.parent_path() / (stem + path.extension().string());
-    out.masks.push_back(mask);
+    out.mask_paths.push_back(mask);
     for (const auto& [number_of_tile, images] : masks.tiles) {
-      out.files.emplace_back(udim_tile_path(mask, number_of_tile),
-                             encode_png(masks.size, masks.size, kRegionsPerImage, images[i]));
+      out.png_files.emplace_back(
+          udim_tile_path(mask, number_of_tile),
+          encode_png(masks.texels_per_side, masks.texels_per_side, kRegionsPerImage, images[i]));
     }
   }
   return out;

@@ -16,10 +16,10 @@ namespace crowdface {
 inline constexpr Index kRegionsPerImage = 3;
 
 /// The mask images of all tiles. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to
-/// images of `size` × `size` × 3 bytes, first row at v = 1. Image i holds regions 3·i to 3·i + 2.
-/// At a painted texel the channel values of all images sum to 255; other texels are black.
+/// images of 3 · `texels_per_side`² bytes, row by row from v = 1 down. Image i holds regions 3·i to
+/// 3·i + 2. At a painted texel the channel values of all images sum to 255; other texels are black.
 struct PaintedMasks {
-  int size = 0;
+  int texels_per_side = 0;
   std::map<int, std::vector<std::vector<std::uint8_t>>> tiles;
 
   bool is_tiled() const;  ///< whether the file names need <UDIM>
@@ -46,9 +46,9 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
 
 struct MaskFiles {
   /// #images: path of each mask image for the config; has <UDIM> if there are several tiles.
-  std::vector<std::filesystem::path> masks;
+  std::vector<std::filesystem::path> mask_paths;
   /// Path and content of each PNG file.
-  std::vector<std::pair<std::filesystem::path, std::string>> files;
+  std::vector<std::pair<std::filesystem::path, std::string>> png_files;
 };
 
 /// Encodes mask images as PNG.

@@ -11,7 +11,7 @@ namespace crowdface {
 namespace {
 
 void check_not_negative(const std::string& file, const Image& image) {
-  const auto channels = mask_channels(image);
+  const auto channels = mask_channel_indices(image);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       for (const int channel : channels) {
@@ -46,7 +46,7 @@ Image MaskSource::read(int tile) const {
   return image;
 }
 
-std::vector<int> mask_channels(const Image& image) {
+std::vector<int> mask_channel_indices(const Image& image) {
   std::vector<int> channels;
   for (int c = 0; c < image.channels; ++c) {
     if (c != image.alpha_channel) channels.push_back(c);

@@ -36,6 +36,6 @@ class MaskSource {
 };
 
 /// The indices of the channels of an image that hold masks: all channels except alpha, in order.
-std::vector<int> mask_channels(const Image& image);
+std::vector<int> mask_channel_indices(const Image& image);
 
 }  // namespace crowdface

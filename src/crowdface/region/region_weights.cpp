@@ -166,7 +166,7 @@ LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::
   for (const int tile : mask.tiled ? used : std::set<int>{kFirstTile}) {
     try {
       Image image = source.read(tile);
-      std::vector<int> channels = mask_channels(image);
+      std::vector<int> channels = mask_channel_indices(image);
       mask.tiles.emplace(tile, LoadedTile{std::move(image), std::move(channels)});
     } catch (const MissingInput& error) {
       if (!mask.tiled) {
@@ -370,14 +370,14 @@ bool all_hold_vertex_weights(const std::vector<MaskSource>& masks) {
 
 /// The texture coordinates of all vertices; empty if all masks are files of vertex weights.
 UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
-                      const std::vector<MaskSource>& masks, const std::vector<bool>& needed) {
+                      const std::vector<MaskSource>& masks, const std::vector<bool>& is_needed) {
   if (all_hold_vertex_weights(masks)) {
     UvSamples none;
     none.offsets.assign(static_cast<std::size_t>(topology.vertex_count) + 1, 0);
     return none;
   }
   const bool tiled = std::ranges::any_of(masks, [](auto& m) { return m.is_tiled(); });
-  return gather_uv_samples(topology, uvs, tiled ? Tiles::kUdim : Tiles::kOne, needed);
+  return gather_uv_samples(topology, uvs, tiled ? UvTiling::kUdim : UvTiling::kOne, is_needed);
 }
 
 }  // namespace
@@ -397,24 +397,24 @@ double sample_bilinear(const Image& image, double u, double v, int channel) {
   return (1 - t) * above + t * below;
 }
 
-RegionWeights whole_head(const Topology& topology) {
+RegionWeights whole_head_weights(const Topology& topology) {
   return {RegionWeights::Alpha::Ones(topology.vertex_count, 1), 0};
 }
 
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions,
-                             const std::vector<bool>& needed,
+                             const std::vector<bool>& is_needed,
                              const std::vector<std::string>& names) {
   require(regions >= 1, "region: weights of ", regions, " regions");
-  if (masks.empty() && regions == 1) return whole_head(topology);
-  const UvSamples samples = samples_for(topology, uvs, masks, needed);
+  if (masks.empty() && regions == 1) return whole_head_weights(topology);
+  const UvSamples samples = samples_for(topology, uvs, masks, is_needed);
   const std::set<int> used = tiles_of(samples);
-  const auto is_needed = [&](Index v) {
-    return needed.empty() || needed[static_cast<std::size_t>(v)];
+  const auto needs_mask = [&](Index v) {
+    return is_needed.empty() || is_needed[static_cast<std::size_t>(v)];
   };
   std::set<int> needed_tiles;
   for (Index v = 0; v < topology.vertex_count; ++v) {
-    if (!is_needed(v)) continue;
+    if (!needs_mask(v)) continue;
     for (const UvSample& sample : samples.items_of(v)) needed_tiles.insert(sample.tile);
   }
   std::vector<LoadedMask> loaded;
@@ -434,15 +434,15 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
     if (normalised_mean(loaded, channels, i, places, weights.alpha.row(i))) return;
     weights.alpha(i, regions - 1) = 1;
     uncovered[static_cast<std::size_t>(i)] =
-        (places.empty() && !by_vertex) || !is_needed(i) ? 0 : 1;
+        (places.empty() && !by_vertex) || !needs_mask(i) ? 0 : 1;
   });
-  weights.uncovered_vertices = std::ranges::count(uncovered, 1);
+  weights.uncovered_vertex_count = std::ranges::count(uncovered, 1);
   return weights;
 }
 
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
-                                const MaskSource& mask, const std::vector<bool>& needed) {
-  const UvSamples samples = samples_for(topology, uvs, {mask}, needed);
+                                const MaskSource& mask, const std::vector<bool>& is_needed) {
+  const UvSamples samples = samples_for(topology, uvs, {mask}, is_needed);
   Problems problems;
   const std::set<int> used = tiles_of(samples);
   const LoadedMask loaded = load(mask, used, used, topology.vertex_count, problems);

@@ -17,11 +17,11 @@ struct RegionWeights {
   Alpha alpha;  ///< #V by #R, not negative, rows sum to one
   /// Number of vertices that belong to a polygon but that no mask covers. They belong to the last
   /// region.
-  Index uncovered_vertices = 0;
+  Index uncovered_vertex_count = 0;
 };
 
 /// Returns the weights of a single region that covers the whole head.
-RegionWeights whole_head(const Topology& topology);
+RegionWeights whole_head_weights(const Topology& topology);
 
 /// Samples the masks at every vertex's texture coordinates.
 ///
@@ -44,7 +44,7 @@ RegionWeights whole_head(const Topology& topology);
 /// the vertex belongs to the last region.
 ///
 /// \param masks   may be empty if there is one region.
-/// \param needed  #V, or empty for all vertices. Tiles that none of these vertices use may be
+/// \param is_needed  #V, or empty for all vertices. Tiles that none of these vertices use may be
 ///                missing; vertices that lie only in missing tiles belong to the last region.
 /// \param names   names of the regions; empty: assigns channels by order only.
 /// \throws MissingInput naming every missing image, and every missing tile that a needed vertex
@@ -54,14 +54,14 @@ RegionWeights whole_head(const Topology& topology);
 ///         vertices lack texture coordinates.
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions,
-                             const std::vector<bool>& needed = {},
+                             const std::vector<bool>& is_needed = {},
                              const std::vector<std::string>& names = {});
 
 /// Samples the first channel of a mask at every vertex, like region_weights, but does not scale the
 /// values. Returns zero for vertices that no polygon uses. Throws the errors of region_weights.
-/// \param needed  #V, or empty for all: vertices that must have texture coordinates.
+/// \param is_needed  #V, or empty for all: vertices that must have texture coordinates.
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
-                                const MaskSource& mask, const std::vector<bool>& needed = {});
+                                const MaskSource& mask, const std::vector<bool>& is_needed = {});
 
 /// Samples one channel of an image bilinearly at (u, v), as in region_weights; coordinates outside
 /// [0, 1] are clamped.

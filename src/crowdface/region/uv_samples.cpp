@@ -29,7 +29,8 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
 }
 
 /// Returns one sample for each corner that has a texture coordinate, in the order of the corners.
-UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles) {
+UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& uvs,
+                            UvTiling tiling) {
   const auto for_each_sample = [&](const auto& put) {
     for (Index f = 0; f < topology.face_count(); ++f) {
       const auto face_uvs = topology.face_uvs(f);
@@ -37,7 +38,7 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
       for (std::size_t c = 0; c < face_uvs.size(); ++c) {
         if (face_uvs[c] == kNoIndex) continue;
         const Eigen::RowVector2d uv = uvs.row(face_uvs[c]);
-        const int tile = tiles == Tiles::kOne
+        const int tile = tiling == UvTiling::kOne
                              ? kFirstTile
                              : tile_number(tile_index(uv[0], mean[0]), tile_index(uv[1], mean[1]));
         put(topology.face(f)[c], {tile, uv[0], uv[1]});
@@ -49,10 +50,10 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
 }
 
 void check_every_used_vertex(const Topology& topology, const UvSamples& samples,
-                             const std::vector<bool>& needed) {
+                             const std::vector<bool>& is_needed) {
   for (Index f = 0; f < topology.face_count(); ++f) {
     for (const std::uint32_t vertex : topology.face(f)) {
-      if (!samples.items_of(vertex).empty() || (!needed.empty() && !needed[vertex])) continue;
+      if (!samples.items_of(vertex).empty() || (!is_needed.empty() && !is_needed[vertex])) continue;
       throw InvalidInput(concat(
           "masks need texture coordinates: vertex ", std::uint64_t{vertex} + 1, " of face ", f + 1,
           " has no texture coordinate (vertex weights, as text or .npy, do not need them)"));
@@ -67,15 +68,15 @@ double tile_index(double coordinate, double polygon_mean) {
   return whole == coordinate ? std::floor(polygon_mean) : whole;
 }
 
-UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles,
-                            const std::vector<bool>& needed) {
+UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs,
+                            UvTiling tiling, const std::vector<bool>& is_needed) {
   require(uvs.allFinite() && std::ranges::all_of(topology.corner_uvs,
                                                  [&](std::uint32_t uv) {
                                                    return uv == kNoIndex || uv < uvs.rows();
                                                  }),
           "region: texture coordinates that are not finite or not there");
-  UvSamples corners = samples_by_vertex(topology, uvs, tiles);
-  check_every_used_vertex(topology, corners, needed);
+  UvSamples corners = samples_by_vertex(topology, uvs, tiling);
+  check_every_used_vertex(topology, corners, is_needed);
   constexpr Index kBlock = 16384;
   std::vector<std::size_t> kept(static_cast<std::size_t>(topology.vertex_count));
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {

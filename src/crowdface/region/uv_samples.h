@@ -18,8 +18,9 @@ struct UvSample {
   auto operator<=>(const UvSample&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The distinct texture coordinates of each vertex, collected from its corners. If the coordinate
-/// lies on the border of tiles, it occurs once for each tile that holds a polygon of the vertex.
+/// The distinct texture coordinates of each vertex, collected from its corners. If a coordinate
+/// lies on the border of tiles, the coordinate occurs once for each tile that holds a polygon of
+/// the vertex.
 using UvSamples = CompressedRows<UvSample>;
 
 /// The column (for u) or row (for v) of the tile that contains a corner's coordinate: the integer
@@ -29,15 +30,15 @@ double tile_index(double coordinate, double polygon_mean);
 
 /// How a mask covers the texture coordinates. kOne means a single image; the tile of every sample
 /// is kFirstTile. kUdim means UDIM tiles.
-enum class Tiles { kOne, kUdim };
+enum class UvTiling { kOne, kUdim };
 
 /// Collects the texture coordinates of every vertex. The list of a vertex that no polygon uses is
 /// empty.
-/// \param needed  #V, or empty for all: vertices that must have a texture coordinate.
+/// \param is_needed  #V, or empty for all: vertices that must have a texture coordinate.
 /// \throws InvalidInput if a needed vertex that some polygon uses has no texture coordinate at any
-///         corner, or if a coordinate lies outside all UDIM tiles (for Tiles::kUdim).
-UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs, Tiles tiles,
-                            const std::vector<bool>& needed = {});
+///         corner, or if a coordinate lies outside all UDIM tiles (for UvTiling::kUdim).
+UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs,
+                            UvTiling tiling, const std::vector<bool>& is_needed = {});
 
 /// The UDIM numbers of all tiles that contain at least one sample.
 std::set<int> tiles_of(const UvSamples& samples);

@@ -42,23 +42,23 @@ AttachmentSurface::AttachmentSurface(const Topology& topology, const TextureCoor
   }
 }
 
-Eigen::Vector2f AttachmentSurface::uv_at(std::uint32_t quad, const Eigen::Vector4f& shares) const {
+Eigen::Vector2f AttachmentSurface::uv_at(std::uint32_t quad, const Eigen::Vector4f& weights) const {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-  for (int c = 0; c < 4; ++c) uv += shares[c] * uvs_[quad][static_cast<std::size_t>(c)];
+  for (int c = 0; c < 4; ++c) uv += weights[c] * uvs_[quad][static_cast<std::size_t>(c)];
   return uv;
 }
 
-Light AttachmentSurface::colour(std::uint32_t quad, const Eigen::Vector4f& shares) const {
+LinearRgb AttachmentSurface::colour(std::uint32_t quad, const Eigen::Vector4f& weights) const {
   const AttachmentMaterial& material = materials_[material_of_quad_[quad]];
-  return material.texture ? colour_at(*material.texture, uv_at(quad, shares)) : material.colour;
+  return material.texture ? colour_at(*material.texture, uv_at(quad, weights)) : material.colour;
 }
 
-float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& shares,
+float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& weights,
                                  std::uint8_t level) const {
   const AttachmentMaterial& material = materials_[material_of_quad_[quad]];
   if (!material.opacity) return material.opacity_factor;
   return material.opacity_factor *
-         colour_at(material.opacity->levels[level], uv_at(quad, shares))[0];
+         colour_at(material.opacity->levels[level], uv_at(quad, weights))[0];
 }
 
 std::uint8_t AttachmentSurface::mip_level(std::uint32_t quad, float pixel_count) const {
@@ -70,8 +70,8 @@ std::uint8_t AttachmentSurface::mip_level(std::uint32_t quad, float pixel_count)
   const float texel_count = std::abs(one.x() * other.y() - one.y() * other.x()) / 2 *
                             static_cast<float>(levels[0].width) *
                             static_cast<float>(levels[0].height);
-  // The nearest level: rounds log₄ of the ratio, without the C library's logarithm, whose last bit
-  // depends on its version.
+  // Round log₄ of the ratio to the nearest level. Not with std::log2, because its last bit differs
+  // between versions of the C library.
   std::uint8_t level = 0;
   for (float ratio = texel_count / pixel_count; ratio >= 2 && level + 1U < levels.size();
        ratio /= 4) {

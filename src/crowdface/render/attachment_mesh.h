@@ -15,14 +15,14 @@ namespace crowdface {
 
 /// Material of an attachment.
 struct AttachmentMaterial {
-  Light colour = Light::Constant(0.5F);         ///< linear; used without a texture
-  std::shared_ptr<const Texture> texture = {};  ///< colours, or null
-  std::shared_ptr<const MipMap> opacity = {};   ///< opacity in the first channel, or null: opaque
-  float opacity_factor = 1;                     ///< factor on the opacity, 0 … 1
+  LinearRgb colour = LinearRgb::Constant(0.5F);  ///< linear; used without a texture
+  std::shared_ptr<const Texture> texture = {};   ///< colours, or null
+  std::shared_ptr<const MipMap> opacity = {};    ///< opacity in the first channel, or null: opaque
+  float opacity_factor = 1;                      ///< factor on the opacity, 0 … 1
 };
 
-/// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Front and back
-/// faces look the same. The mesh may be transparent.
+/// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Polygons look
+/// the same from both sides, and may be transparent.
 class AttachmentSurface {
  public:
   /// \param uvs        #T by 2, may be empty.
@@ -37,17 +37,18 @@ class AttachmentSurface {
   const std::vector<Quad>& quads() const { return quads_; }
   const std::vector<AttachmentMaterial>& materials() const { return materials_; }
 
-  /// Linear colour at a point of a quad. \param shares  interpolation weights from
+  /// Linear colour at a point of a quad. \param weights  interpolation weights from
   /// bilinear_weights.
-  Light colour(std::uint32_t quad, const Eigen::Vector4f& shares) const;
-  /// Opacity at a point of a quad. \param level  of the opacity's mip map; see mip_level.
-  float opacity(std::uint32_t quad, const Eigen::Vector4f& shares, std::uint8_t level) const;
-  /// Returns the level of the opacity's mip map whose texels are about as large as a pixel.
+  LinearRgb colour(std::uint32_t quad, const Eigen::Vector4f& weights) const;
+  /// Opacity at a point of a quad. \param level  level of the opacity's mip map, from mip_level().
+  float opacity(std::uint32_t quad, const Eigen::Vector4f& weights, std::uint8_t level) const;
+  /// Returns a level of the opacity's mip map: the level whose texels are about as large as a
+  /// pixel.
   /// \param pixel_count  area of the quad, in pixels.
   std::uint8_t mip_level(std::uint32_t quad, float pixel_count) const;
 
  private:
-  Eigen::Vector2f uv_at(std::uint32_t quad, const Eigen::Vector4f& shares) const;
+  Eigen::Vector2f uv_at(std::uint32_t quad, const Eigen::Vector4f& weights) const;
 
   Topology topology_;
   NormalFans fans_;
@@ -61,7 +62,7 @@ class AttachmentSurface {
 struct AttachmentMesh {
   const AttachmentSurface* surface;
   const Positions* positions;
-  Light tint = Light::Constant(1);  ///< factors on the colour
+  LinearRgb tint = LinearRgb::Constant(1);  ///< factors on the colour
 };
 
 /// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.

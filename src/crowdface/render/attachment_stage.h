@@ -27,7 +27,7 @@ class AttachmentStage {
   /// The normal and the colour of an attachment at a hit.
   struct HitSurface {
     Eigen::Vector3f normal;  ///< interpolated; any length, on either side
-    Light colour;
+    LinearRgb colour;
   };
   HitSurface surface_at(const RayHit& hit) const;
 
@@ -35,7 +35,7 @@ class AttachmentStage {
   struct Part {
     const AttachmentSurface* surface;
     std::uint32_t first_quad;
-    Light tint;
+    LinearRgb tint;
   };
   const Part& part_of(std::uint32_t quad) const;
 

@@ -41,7 +41,7 @@ Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
           name_of(frame.front));
   const double radians = std::numbers::pi / 180;
   Camera camera;
-  camera.half_tangent = std::tan(options.field_of_view_degrees / 2 * radians);
+  camera.tan_half_fov = std::tan(options.field_of_view_degrees / 2 * radians);
   camera.up = unit_vector(frame.up);
   const Eigen::Vector3d front = unit_vector(frame.front);
   const Eigen::Vector3d side = camera.up.cross(front);
@@ -51,9 +51,9 @@ Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
   return camera;
 }
 
-/// The wedge of fixed slope with the smallest distance that contains all added points, seen from
-/// one side of the camera. A point at offset x and depth z (towards the camera) is inside a wedge
-/// with slope s, centre c and distance d if and only if d ≥ z + |x − c|/s.
+/// The field of view of the camera in one image direction: a wedge of fixed slope that contains all
+/// added points, at the smallest distance of the camera. A point at offset x and depth z (towards
+/// the camera) is inside a wedge with slope s, centre c and distance d if d ≥ z + |x − c|/s.
 struct Wedge {
   double slope;
   double positive = -std::numeric_limits<double>::infinity();  ///< max of z + x/s
@@ -107,7 +107,7 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
     return std::min(kSlices - 1, static_cast<std::size_t>((height - heights.low) * scale));
   };
   constexpr double kNone = -std::numeric_limits<double>::infinity();
-  // The coordinate along the front of the foremost point of each horizontal slice.
+  // For each horizontal slice of the head: how far forward its foremost point lies.
   std::array<double, kSlices> ahead;
   ahead.fill(kNone);
   for (Index i = 0; i < head.rows(); ++i) {
@@ -140,9 +140,9 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
 /// The height of the lowest point that must be visible: necks and shoulders may lie outside the
 /// image, but chins may not.
 double lowest_shown(std::span<const Positions* const> heads, const HeadFrame& frame,
-                    const Heights& heights, double cut_below) {
-  double lowest = heights.at(cut_below);
-  if (cut_below == 0) return lowest;
+                    const Heights& heights, double bottom_cut_fraction) {
+  double lowest = heights.at(bottom_cut_fraction);
+  if (bottom_cut_fraction == 0) return lowest;
   for (const Positions* head : heads) {
     lowest = std::min(lowest, throat_of(*head, frame).value_or(heights.low));
   }
@@ -154,10 +154,10 @@ double lowest_shown(std::span<const Positions* const> heads, const HeadFrame& fr
 Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
                   const FramingOptions& options) {
   Camera camera = aim(frame, view, options);
-  const double slope = camera.half_tangent * (1 - 2 * options.margin);
+  const double slope = camera.tan_half_fov * (1 - 2 * options.margin);
   Wedge across{slope}, along{slope}, head_across{slope};
   const Heights heights = heights_of(heads, camera.up);
-  const double lowest = lowest_shown(heads, frame, heights, options.cut_below);
+  const double lowest = lowest_shown(heads, frame, heights, options.bottom_cut_fraction);
   const double neck = heights.at(kNeck);
   // Find the smallest wedges around all points that must be visible.
   double nearest = -std::numeric_limits<double>::infinity();

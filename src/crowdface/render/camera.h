@@ -20,12 +20,12 @@ struct Camera {
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   Eigen::Vector3d back = Eigen::Vector3d::UnitZ();  ///< direction from the target to the camera
   double distance = 1;                              ///< distance between target and camera
-  double half_tangent = 0.17632698070846498;        ///< tangent of half the field of view
+  double tan_half_fov = 0.17632698070846498;        ///< tangent of half the field of view
 
   Eigen::Vector3d position() const { return target + distance * back; }
   /// Half the side of the image, measured in the plane through `target`, the point that the camera
   /// looks at.
-  double half_extent() const { return distance * half_tangent; }
+  double half_extent() const { return distance * tan_half_fov; }
 };
 
 /// Orientation of the heads in their files.
@@ -39,15 +39,15 @@ struct FramingOptions {
   double margin = 0.06;  ///< free border on each side, as a fraction of the image's side
   /// Fraction of the heads' height that may be cut off at the bottom of the image, so that the face
   /// of a bust fills more of the image. Chins always stay visible.
-  double cut_below = 0;
+  double bottom_cut_fraction = 0;
   /// Additional points that must be visible, such as points of the hair. Points below the visible
   /// part of the heads are ignored.
   std::vector<Eigen::Vector3d> extra_points = {};
 };
 
 /// Returns the camera at the smallest distance at which all vertices of all heads and
-/// `extra_points` are visible, except the part that `cut_below` allows to cut off. Use one camera
-/// for all faces of a set, so that their sizes are comparable.
+/// `extra_points` are visible, except the part that `bottom_cut_fraction` allows to cut off. Use
+/// one camera for all faces of a set, so that their sizes are comparable.
 /// \param heads  at least one; each #V by 3 in the unit of the files, with at least one vertex.
 /// \throws BrokenPrecondition if there is no vertex, or if up and front are the same axis;
 ///     InvalidInput if a coordinate is not finite.

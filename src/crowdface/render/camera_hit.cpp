@@ -13,9 +13,9 @@ using Vector = Eigen::Vector3f;
 
 /// The index of the layer's texture on a quad, or kNone.
 std::uint32_t texture_of(const Stage& stage, const TextureLayer& layer, std::uint32_t primitive) {
-  if (stage.textured_quads.empty() || layer.of_face.empty()) return TextureLayer::kNone;
+  if (stage.textured_quads.empty() || layer.texture_of_face.empty()) return TextureLayer::kNone;
   const TexturedQuad& quad = stage.textured_quads[primitive];
-  return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.of_face[quad.face];
+  return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.texture_of_face[quad.face];
 }
 
 /// The index of the colour texture on a quad, or kNone.
@@ -25,23 +25,24 @@ std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
 }
 
 /// Samples a layer's texture at a point of a quad.
-Light texel_at(const Stage& stage, const TextureLayer& layer, std::uint32_t texture,
-               std::uint32_t primitive, const Eigen::Vector4f& weights) {
+LinearRgb texel_at(const Stage& stage, const TextureLayer& layer, std::uint32_t texture,
+                   std::uint32_t primitive, const Eigen::Vector4f& weights) {
   const TexturedQuad& quad = stage.textured_quads[primitive];
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
   return colour_at(*layer.textures[texture], uv);
 }
 
-Light own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
-                 const Vector& point) {
+LinearRgb own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
+                     const Vector& point) {
   const std::uint32_t texture = texture_of(stage, primitive);
   if (texture != TextureSet::kNone)
     return texel_at(stage, *stage.texture_set, texture, primitive, weights);
-  if (!stage.paints.empty() && stage.paints[primitive]) return *stage.paints[primitive];
+  if (!stage.quad_colours.empty() && stage.quad_colours[primitive])
+    return *stage.quad_colours[primitive];
   const SurfaceKind kind = stage.kinds[primitive];
   if (kind != SurfaceKind::kEye) return albedo_of(kind);
-  const std::uint32_t eye = stage.eyeballs.of_vertex[stage.quads[primitive][0]];
+  const std::uint32_t eye = stage.eyeballs.eyeball_of_vertex[stage.quads[primitive][0]];
   return eye_albedo(stage.eyes[eye], stage.gaze, point);
 }
 
@@ -54,7 +55,7 @@ Vector towards(const Vector& viewer, const Vector& normal) {
 
 /// Tilts a unit normal by slopes along the texture axes (normal mapping).
 Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal,
-               const Light& slopes) {
+               const LinearRgb& slopes) {
   const Quad& quad = stage.quads[primitive];
   const TexturedQuad& textured = stage.textured_quads[primitive];
   // Derive the texture axes from the triangle at the first corner, and use them for the whole quad.
@@ -80,7 +81,7 @@ Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal
 /// Applies the normal and roughness maps of the texture set.
 void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
             Vector& normal, ShadePoint& surface) {
-  if (stage.texture_set == nullptr || surface.inside) return;
+  if (stage.texture_set == nullptr || surface.is_back) return;
   const TextureLayer& slopes = stage.texture_set->slopes;
   const TextureLayer& roughness = stage.texture_set->roughness;
   if (const auto at = texture_of(stage, slopes, primitive); at != TextureLayer::kNone) {
@@ -113,13 +114,13 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   if (texture != TextureSet::kNone && result.surface.kind == SurfaceKind::kSkin)
     result.skin_lightness = stage.skin_lightness[texture];
   const Vector geometric = stage.winding_sign * hit.normal;
-  result.surface.inside = geometric.dot(direction) > 0;
-  const float side = result.surface.inside ? -1.0F : 1.0F;
-  result.surface.to_eye = -direction.normalized();
+  result.surface.is_back = geometric.dot(direction) > 0;
+  const float side = result.surface.is_back ? -1.0F : 1.0F;
+  result.surface.to_viewer = -direction.normalized();
   normal.normalize();
   finish(stage, hit.primitive, weights, normal, result.surface);
-  result.surface.normal = towards(result.surface.to_eye, side * normal);
-  result.may_see_key = faces_key(result.surface.normal, result.surface.kind);
+  result.surface.normal = towards(result.surface.to_viewer, side * normal);
+  result.faces_key_light = faces_key_light(result.surface.normal, result.surface.kind);
   // Start shadow rays on the smooth surface that the vertex normals imply, which lies above the
   // facets, so that facets do not show at grazing light (Hanika 2021, "Hacking the shadow
   // terminator"). At sharp edges a vertex normal may point below the facet; skip such vertices,
@@ -143,11 +144,11 @@ CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& di
   result.surface.albedo = place.colour;
   const Vector geometric = (hit.normal.dot(direction) > 0 ? -1.0F : 1.0F) * hit.normal.normalized();
   const Vector normal = (place.normal.dot(geometric) < 0 ? -1.0F : 1.0F) * place.normal;
-  result.surface.inside = false;
-  result.surface.to_eye = -direction.normalized();
+  result.surface.is_back = false;
+  result.surface.to_viewer = -direction.normalized();
   result.surface.normal =
-      towards(result.surface.to_eye, normal.norm() > 0 ? normal.normalized() : geometric);
-  result.may_see_key = faces_key(result.surface.normal, result.surface.kind);
+      towards(result.surface.to_viewer, normal.norm() > 0 ? normal.normalized() : geometric);
+  result.faces_key_light = faces_key_light(result.surface.normal, result.surface.kind);
   result.ray_origin = result.point + kRayClearance * geometric;
   return result;
 }

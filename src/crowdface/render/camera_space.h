@@ -19,7 +19,7 @@ namespace crowdface {
 /// Transforms positions to camera space: x, y, z of each vertex. \throws InvalidInput if a position
 /// is not finite.
 std::vector<float> to_camera_space(const Positions& positions, const Camera& camera);
-/// Transforms positions to camera space and writes them to existing memory.
+/// Writes positions in camera space to existing memory.
 void to_camera_space(const Positions& positions, const Camera& camera, std::vector<float>& points);
 
 /// Transforms an axis of the file to a unit vector in camera space.
@@ -31,7 +31,7 @@ Eigen::Vector3f to_camera_space(const Camera& camera, Axis axis);
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign);
 
-/// Computes vertex normals in memory that it reuses from face to face.
+/// Computes vertex normals. Reuses its memory from one head to the next.
 struct CameraNormals {
   std::vector<Eigen::Vector3f> areas;    ///< #F area vectors: twice the area times the normal
   std::vector<Eigen::Vector3f> normals;  ///< #V

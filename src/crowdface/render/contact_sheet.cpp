@@ -189,20 +189,20 @@ Rgb8Image shrink_picture(const Rgb8Image& image, int width_px) {
           width_px);
   const int height_px =
       std::max(1, static_cast<int>(std::int64_t{image.height} * width_px / image.width));
-  const std::array<float, 256>& linear = light_of_srgb8();
+  const std::array<float, 256>& linear = linear_of_srgb8();
   Rgb8Image small(width_px, height_px);
   const auto from = [](int at, int of, int whole) {
     return static_cast<int>(std::int64_t{at} * whole / of);
   };
   parallel_for_each(height_px, 16, [&](int y) {
     for (int x = 0; x < width_px; ++x) {
-      Light sum = Light::Zero();
+      LinearRgb sum = LinearRgb::Zero();
       int count = 0;
       for (int v = from(y, height_px, image.height); v < from(y + 1, height_px, image.height);
            ++v) {
         for (int u = from(x, width_px, image.width); u < from(x + 1, width_px, image.width); ++u) {
           const std::uint8_t* p = image.at(u, v);
-          sum += Light(linear[p[0]], linear[p[1]], linear[p[2]]);
+          sum += LinearRgb(linear[p[0]], linear[p[1]], linear[p[2]]);
           ++count;
         }
       }

@@ -60,14 +60,15 @@ struct CellSize {
 /// \throws BrokenPrecondition if there are no cells, or more cells than columns · rows;
 ///         InvalidInput if the sheet would exceed 65,500 pixels on a side or 5·10⁸ pixels in all.
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
-/// Computes the layout for given cells. \throws InvalidInput also if their images differ in size.
+/// Computes the layout for given cells. \throws InvalidInput also if the cells' images differ in
+/// size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Largest number of rows that a sheet with cells of this size can have; 0 if not even one row
 /// fits.
 int max_rows(const CellSize& cell, const SheetOptions& options);
 
-/// Draws the cells in a grid, row by row, with a label under each and a header above the grid.
+/// Draws the cells in a grid, row by row, with a label under each cell and a header above the grid.
 /// \throws InvalidInput like layout_sheet; MissingInput if the font is not installed.
 Rgb8Image contact_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
@@ -83,8 +84,8 @@ Rgb8Image shrink_picture(const Rgb8Image& image, int width_px);
 /// new area gets the background colour of the sheets.
 Rgb8Image pad_picture(const Rgb8Image& image, int width_px, int height_px);
 
-/// Joins images of one height from left to right, for several views of a face in one cell.
-/// \throws BrokenPrecondition if there are no images; InvalidInput if heights differ.
+/// Joins images of equal height side by side, so that one cell can show several views of a face.
+/// \throws BrokenPrecondition if there are no images; InvalidInput if the heights differ.
 Rgb8Image joined_pictures(std::span<const Rgb8Image> images);
 
 }  // namespace crowdface

@@ -14,26 +14,27 @@
 namespace crowdface::embree {
 
 /// kCoherent: the rays of a packet have similar directions, so that Embree can trace them faster.
-enum class Rays { kIncoherent, kCoherent };
+enum class RayCoherence { kIncoherent, kCoherent };
 
 #if CROWDFACE_EMBREE == 4
 
-inline RTCIntersectArguments intersect_arguments(Rays rays) {
+inline RTCIntersectArguments intersect_arguments(RayCoherence coherence) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
-  if (rays == Rays::kCoherent) arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  if (coherence == RayCoherence::kCoherent) arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   return arguments;
 }
 
 /// Finds the first hit of each ray of a packet.
 /// \param valid  -1 for lanes with a ray, 0 for the others; aligned to 64 bytes.
 /// \param query  Rays with empty hits; the function writes the distances and hits.
-inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit8& query) {
-  RTCIntersectArguments arguments = intersect_arguments(rays);
+inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, RTCRayHit8& query) {
+  RTCIntersectArguments arguments = intersect_arguments(coherence);
   rtcIntersect8(valid, scene, &query, &arguments);
 }
-inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit16& query) {
-  RTCIntersectArguments arguments = intersect_arguments(rays);
+inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
+                      RTCRayHit16& query) {
+  RTCIntersectArguments arguments = intersect_arguments(coherence);
   rtcIntersect16(valid, scene, &query, &arguments);
 }
 
@@ -47,28 +48,29 @@ inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
 
 #else
 
-inline RTCIntersectContext intersect_context(Rays rays) {
+inline RTCIntersectContext intersect_context(RayCoherence coherence) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  if (rays == Rays::kCoherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (coherence == RayCoherence::kCoherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
 }
 
-inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit8& query) {
-  RTCIntersectContext context = intersect_context(rays);
+inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, RTCRayHit8& query) {
+  RTCIntersectContext context = intersect_context(coherence);
   rtcIntersect8(valid, scene, &context, &query);
 }
-inline void intersect(const int* valid, RTCScene scene, Rays rays, RTCRayHit16& query) {
-  RTCIntersectContext context = intersect_context(rays);
+inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
+                      RTCRayHit16& query) {
+  RTCIntersectContext context = intersect_context(coherence);
   rtcIntersect16(valid, scene, &context, &query);
 }
 
 inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
-  RTCIntersectContext context = intersect_context(Rays::kIncoherent);
+  RTCIntersectContext context = intersect_context(RayCoherence::kIncoherent);
   rtcOccluded8(valid, scene, &context, &rays);
 }
 inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
-  RTCIntersectContext context = intersect_context(Rays::kIncoherent);
+  RTCIntersectContext context = intersect_context(RayCoherence::kIncoherent);
   rtcOccluded16(valid, scene, &context, &rays);
 }
 

@@ -11,8 +11,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns how far `x` lies beyond `edge`: a smooth step from 0 at edge − kIrisSoftness to 1 at
-/// edge + kIrisSoftness.
+/// A smooth step in `x`: rises from 0 at edge − kIrisSoftness to 1 at edge + kIrisSoftness.
 float beyond(float edge, float x) {
   const float t = std::clamp((x - edge + kIrisSoftness) / (2 * kIrisSoftness), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
@@ -33,27 +32,29 @@ Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>&
       groups.join(vertex, topology.face(f)[0]);
     }
   }
-  eyeballs.of_vertex.assign(vertices, Eyeballs::kNone);
+  eyeballs.eyeball_of_vertex.assign(vertices, Eyeballs::kNone);
   for (std::uint32_t i = 0; i < vertices; ++i) {
     if (!in_eye[i]) continue;
     const std::uint32_t first = groups.root(i);
-    eyeballs.of_vertex[i] = first == i ? eyeballs.count++ : eyeballs.of_vertex[first];
+    eyeballs.eyeball_of_vertex[i] =
+        first == i ? eyeballs.count++ : eyeballs.eyeball_of_vertex[first];
   }
   return eyeballs;
 }
 
-std::vector<PlacedEye> place_eyes(const Eyeballs& eyeballs, const std::vector<float>& points,
-                                  const Eigen::Vector3f& gaze) {
+std::vector<EyeballSphere> eyeball_spheres(const Eyeballs& eyeballs,
+                                           const std::vector<float>& points,
+                                           const Eigen::Vector3f& gaze) {
   using Box = Eigen::AlignedBox3f;
   const auto [across, along] = tangent_basis(gaze);
   std::vector<Box> boxes(eyeballs.count);  // axes: across, along, gaze
-  for (std::size_t i = 0; i < eyeballs.of_vertex.size(); ++i) {
-    if (eyeballs.of_vertex[i] == Eyeballs::kNone) continue;
+  for (std::size_t i = 0; i < eyeballs.eyeball_of_vertex.size(); ++i) {
+    if (eyeballs.eyeball_of_vertex[i] == Eyeballs::kNone) continue;
     const Eigen::Map<const Eigen::Vector3f> point(points.data() + 3 * i);
-    boxes[eyeballs.of_vertex[i]].extend(
+    boxes[eyeballs.eyeball_of_vertex[i]].extend(
         Eigen::Vector3f(point.dot(across), point.dot(along), point.dot(gaze)));
   }
-  std::vector<PlacedEye> eyes;
+  std::vector<EyeballSphere> eyes;
   for (const Box& box : boxes) {
     const Eigen::Vector3f middle = box.center();
     const Eigen::Vector3f half = box.sizes() / 2;
@@ -63,17 +64,18 @@ std::vector<PlacedEye> place_eyes(const Eyeballs& eyeballs, const std::vector<fl
   return eyes;
 }
 
-Light eye_albedo(const PlacedEye& eye, const Eigen::Vector3f& gaze, const Eigen::Vector3f& point) {
-  Light white = albedo_of(SurfaceKind::kEye);
+LinearRgb eye_albedo(const EyeballSphere& eye, const Eigen::Vector3f& gaze,
+                     const Eigen::Vector3f& point) {
+  LinearRgb white = albedo_of(SurfaceKind::kEye);
   const Eigen::Vector3f from_centre = point - eye.centre;
   const float ahead = from_centre.dot(gaze);
   if (ahead <= 0 || eye.radius <= 0) return white;
   const float radius = (from_centre - ahead * gaze).norm() / eye.radius;
   // The iris is lightest next to the pupil and darkest at its rim.
   const float rim = std::clamp((radius - kPupilRadius) / (kIrisRadius - kPupilRadius), 0.0F, 1.0F);
-  const Light iris = albedo_of(SurfaceKind::kIris) * (1.6F - 1.25F * rim * rim);
-  const Light pupil = Light::Constant(0.008F);
-  const Light inner = pupil + (iris - pupil) * beyond(kPupilRadius, radius);
+  const LinearRgb iris = albedo_of(SurfaceKind::kIris) * (1.6F - 1.25F * rim * rim);
+  const LinearRgb pupil = LinearRgb::Constant(0.008F);
+  const LinearRgb inner = pupil + (iris - pupil) * beyond(kPupilRadius, radius);
   return inner + (white - inner) * beyond(kIrisRadius, radius);
 }
 

@@ -16,22 +16,22 @@ namespace crowdface {
 /// texture, the renderer paints an iris that looks straight ahead.
 struct Eyeballs {
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  /// #V eyeball numbers or kNone; empty if there are no eyeballs
-  std::vector<std::uint32_t> of_vertex;
+  /// #V: number of the eyeball that the vertex belongs to, or kNone; empty if there are no eyeballs
+  std::vector<std::uint32_t> eyeball_of_vertex;
   std::uint32_t count = 0;
 };
 
 /// \param kinds  #F kinds, or empty.
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
-/// Radii of pupil and iris relative to the radius of the eyeball, similar to a human eye in dim
-/// light; kIrisSoftness is half the width of the blur at the edges of pupil and iris.
+/// Radii of pupil and iris as fractions of the eyeball's radius, as in dim light. The edges of
+/// pupil and iris are blurred over kIrisSoftness on either side.
 inline constexpr float kPupilRadius = 0.17F;
 inline constexpr float kIrisRadius = 0.42F;
 inline constexpr float kIrisSoftness = 0.025F;
 
 /// Position and size of an eyeball in one head.
-struct PlacedEye {
+struct EyeballSphere {
   Eigen::Vector3f centre;
   /// Half the larger of the two extents perpendicular to the gaze.
   float radius = 0;
@@ -39,10 +39,12 @@ struct PlacedEye {
 
 /// \param points  x, y, z of each vertex.
 /// \param gaze    viewing direction of the eyes, a unit vector.
-std::vector<PlacedEye> place_eyes(const Eyeballs& eyeballs, const std::vector<float>& points,
-                                  const Eigen::Vector3f& gaze);
+std::vector<EyeballSphere> eyeball_spheres(const Eyeballs& eyeballs,
+                                           const std::vector<float>& points,
+                                           const Eigen::Vector3f& gaze);
 
 /// Albedo at a point of the eyeball's surface: white, iris or pupil.
-Light eye_albedo(const PlacedEye& eye, const Eigen::Vector3f& gaze, const Eigen::Vector3f& point);
+LinearRgb eye_albedo(const EyeballSphere& eye, const Eigen::Vector3f& gaze,
+                     const Eigen::Vector3f& point);
 
 }  // namespace crowdface

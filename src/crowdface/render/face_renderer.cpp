@@ -38,7 +38,7 @@ constexpr float kReducedClearance = 2e-3F;
 struct Workspace {
   std::vector<float> points;
   CameraNormals normals;
-  ScreenQuads screen;
+  ScreenQuads rasterizer;
   std::vector<float> occluder_points;
   std::unique_ptr<RayScene> occluders;
 };
@@ -106,8 +106,8 @@ struct FaceRenderer::Prepared {
   Sampling sampling;
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
-  std::vector<std::optional<Light>> quad_paints;  ///< linear; or empty
-  std::vector<TexturedQuad> quad_uvs;             ///< or empty: no texture coordinates
+  std::vector<std::optional<LinearRgb>> quad_colours;  ///< linear; or empty
+  std::vector<TexturedQuad> quad_uvs;                  ///< or empty: no texture coordinates
   Eyeballs eyeballs;
   RayDevice device;
   Occluders occluders;
@@ -118,7 +118,7 @@ struct FaceRenderer::Prepared {
       : topology(mesh),
         fans(mesh),
         options(choice),
-        sampling(choice.samples_per_side, choice.key_rays, choice.sky_rays) {}
+        sampling(choice.samples_per_side, choice.key_light_rays, choice.sky_rays) {}
 
   /// Updates the workspace's scene of occluders from `workspace.points`.
   void put_into_scene(Workspace& workspace) const {
@@ -154,7 +154,8 @@ void add_fan(std::span<const std::uint32_t> face, std::vector<Quad>& quads) {
   }
 }
 
-/// Splits the texture coordinates of a face into quads, as add_fan splits its vertices.
+/// Splits the texture coordinates of a polygon into quads, as add_fan splits the polygon's
+/// vertices.
 void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, Index face,
                      std::vector<TexturedQuad>& quads) {
   if (uvs.rows() == 0 || topology.corner_uvs.empty()) return;
@@ -179,11 +180,11 @@ void check_size(const Topology& topology, const Positions& positions) {
 void check(const Topology& topology, const RenderOptions& options, const Surfaces& surfaces) {
   require(options.size_px >= 1 && options.size_px <= 16384, "render: ", options.size_px, " pixels");
   require(options.samples_per_side >= 1 && options.samples_per_side <= 16 &&
-              options.key_rays >= 1 && options.key_rays <= 256 && options.sky_rays >= 1 &&
-              options.sky_rays <= 256,
-          "render: ", options.samples_per_side, " samples a side, ", options.key_rays, " and ",
-          options.sky_rays, " rays to the lights");
-  for (const std::size_t found : {surfaces.kinds.size(), surfaces.paints.size()}) {
+              options.key_light_rays >= 1 && options.key_light_rays <= 256 &&
+              options.sky_rays >= 1 && options.sky_rays <= 256,
+          "render: ", options.samples_per_side, " samples a side, ", options.key_light_rays,
+          " and ", options.sky_rays, " rays to the lights");
+  for (const std::size_t found : {surfaces.kinds.size(), surfaces.face_colours.size()}) {
     require(found == 0 || static_cast<Index>(found) == topology.face_count(), "render: ", found,
             " surfaces, ", topology.face_count(), " faces");
   }
@@ -197,7 +198,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
   const std::vector<SurfaceKind>& kinds = surfaces.kinds;
   if (typical != nullptr) check_size(topology, *typical);
   prepared_ = std::make_unique<Prepared>(topology, options);
-  if (typical != nullptr) prepared_->winding = winding(topology, *typical);
+  if (typical != nullptr) prepared_->winding = winding_sign(topology, *typical);
   prepared_->eyeballs = find_eyeballs(topology, kinds);
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto kind = kinds.empty() ? SurfaceKind::kSkin : kinds[static_cast<std::size_t>(f)];
@@ -205,13 +206,14 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
     add_fan(topology.face(f), prepared_->quads);
     add_coordinates(topology, surfaces.uvs, f, prepared_->quad_uvs);
     prepared_->quad_kinds.resize(prepared_->quads.size(), kind);
-    if (surfaces.paints.empty()) continue;
-    const auto& paint = surfaces.paints[static_cast<std::size_t>(f)];
-    prepared_->quad_paints.resize(prepared_->quads.size(),
-                                  paint ? std::optional<Light>(from_srgb(*paint)) : std::nullopt);
+    if (surfaces.face_colours.empty()) continue;
+    const auto& paint = surfaces.face_colours[static_cast<std::size_t>(f)];
+    prepared_->quad_colours.resize(
+        prepared_->quads.size(),
+        paint ? std::optional<LinearRgb>(from_srgb(*paint)) : std::nullopt);
   }
   if (typical == nullptr) return;
-  // Choose the occluders once: the camera only rotates and scales the points.
+  // Choose the occluders once for all cameras: a camera only rotates and scales the points.
   prepared_->occluders = occluders_of(prepared_->quads, *typical);
 }
 FaceRenderer::~FaceRenderer() = default;
@@ -224,18 +226,18 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   require(colours == nullptr || colours->rows() == topology.vertex_count,
           "render: colours of another number than vertices");
   require(texture_set == nullptr ||
-              static_cast<Index>(texture_set->of_face.size()) == topology.face_count(),
+              static_cast<Index>(texture_set->texture_of_face.size()) == topology.face_count(),
           "render: textures of another number than faces");
   std::unique_ptr<Workspace> workspace = prepared_->workspaces.take();
   to_camera_space(positions, camera, workspace->points);
   const Eigen::Vector3f gaze = to_camera_space(camera, prepared_->options.front);
-  std::vector<PlacedEye> eyes = place_eyes(prepared_->eyeballs, workspace->points, gaze);
+  std::vector<EyeballSphere> eyes = eyeball_spheres(prepared_->eyeballs, workspace->points, gaze);
   // With a typical face, all faces have its winding, which is determined once.
-  const float sign = prepared_->winding ? *prepared_->winding : winding(topology, positions);
+  const float sign = prepared_->winding ? *prepared_->winding : winding_sign(topology, positions);
   workspace->normals.compute(topology, prepared_->fans, workspace->points, sign);
-  const auto distance = static_cast<float>(1 / camera.half_tangent);
-  workspace->screen.project(workspace->points, prepared_->quads, distance,
-                            prepared_->options.size_px);
+  const auto distance = static_cast<float>(1 / camera.tan_half_fov);
+  workspace->rasterizer.project(workspace->points, prepared_->quads, distance,
+                                prepared_->options.size_px);
   prepared_->put_into_scene(*workspace);
   std::optional<AttachmentStage> attachment_stage;
   if (!attachments.empty()) {
@@ -247,7 +249,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
       skin_lightnesses.push_back(skin_lightness(*texture));
   }
   const Stage stage{workspace->points,
-                    workspace->screen,
+                    workspace->rasterizer,
                     *workspace->occluders,
                     prepared_->occluders.vertices.empty() ? kRayClearance : kReducedClearance,
                     workspace->normals.normals,
@@ -255,7 +257,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     colours,
                     prepared_->quads,
                     prepared_->quad_kinds,
-                    prepared_->quad_paints,
+                    prepared_->quad_colours,
                     prepared_->quad_uvs,
                     texture_set,
                     std::move(skin_lightnesses),
@@ -263,7 +265,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
                     std::move(eyes),
                     gaze,
                     attachment_stage ? &*attachment_stage : nullptr,
-                    prepared_->options.occlusion,
+                    prepared_->options.ambient_occlusion,
                     Eigen::Vector3f(0, 0, distance)};
   const int size = prepared_->options.size_px;
   const int tiles = (size + kSquareSide - 1) / kSquareSide;

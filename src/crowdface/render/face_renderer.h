@@ -22,11 +22,11 @@ struct RenderOptions {
   int samples_per_side = 3;
   /// Rays per pixel towards the key light. The results of the rays are averaged over neighbouring
   /// pixels.
-  int key_rays = 3;
+  int key_light_rays = 3;
   /// Rays per pixel towards the sky. Fewer rays suffice, because the sky casts no sharp shadows.
   int sky_rays = 2;
-  bool occlusion = true;  ///< whether the sky's light is occluded (ambient occlusion)
-  Axis front = {2, 1};    ///< viewing direction of the eyes, for painted irises
+  bool ambient_occlusion = true;  ///< whether the sky's light is occluded (ambient occlusion)
+  Axis front = {2, 1};            ///< viewing direction of the eyes, for painted irises
 };
 
 /// Renders human faces of one topology in portrait light; without colours and textures they look

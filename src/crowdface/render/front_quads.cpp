@@ -104,11 +104,11 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
   }
 }
 
-/// Tolerance in pixels, larger than the rounding errors of positions.
+/// Margin around bounding boxes, in pixels: larger than the rounding errors of positions.
 constexpr float kBlur = 1e-2F;
 
-/// Bounding boxes of kCount quads in pixels, relative to the upper left corner of the first
-/// square's rim.
+/// Bounding boxes of kCount quads, in pixels. The origin is the upper left corner of the image's
+/// first square with its rim.
 struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
@@ -153,7 +153,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   for (std::size_t i = 0; i < Boxes::kCount; i += hn::Lanes(lanes)) {
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
-    // Make boxes relative to the rim, enlarge them by the tolerance and clip them to the image.
+    // Move the origin to the corner of the rim, enlarge the boxes by kBlur and clip them to the
+    // image.
     left = hn::Add(left, hn::Set(lanes, kRimWidth - kBlur));
     top = hn::Add(top, hn::Set(lanes, kRimWidth - kBlur));
     right = hn::Add(right, hn::Set(lanes, kRimWidth + kBlur));
@@ -165,7 +166,7 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     top = hn::Max(top, zero);
     right = hn::Min(right, most);
     bottom = hn::Min(bottom, most);
-    // Convert to pixels, relative to the rim and to the last square that the box overlaps.
+    // Round to pixels, and move the origin to the last square (with its rim) that the box overlaps.
     const auto l = pixel(left), t = pixel(top), r = pixel(right), b = pixel(bottom);
     const auto column = last_square(r), row = last_square(b);
     const auto x = hn::ShiftLeft<kSquareBits>(column), y = hn::ShiftLeft<kSquareBits>(row);
@@ -230,13 +231,14 @@ namespace crowdface {
 HWY_EXPORT(add_to_squares);
 HWY_EXPORT(rasterize_quads);
 
-PixelSamples::PixelSamples(std::vector<Eigen::Vector2f> list) : list_(std::move(list)) {
-  for (const Eigen::Vector2f& place : list_) {
+PixelSamples::PixelSamples(std::vector<Eigen::Vector2f> positions)
+    : positions_(std::move(positions)) {
+  for (const Eigen::Vector2f& place : positions_) {
     x_.push_back(place.x());
     y_.push_back(place.y());
   }
-  x_.resize(list_.size() + kMaxLanes, std::numeric_limits<float>::quiet_NaN());
-  y_.resize(list_.size() + kMaxLanes, std::numeric_limits<float>::quiet_NaN());
+  x_.resize(positions_.size() + kMaxLanes, std::numeric_limits<float>::quiet_NaN());
+  y_.resize(positions_.size() + kMaxLanes, std::numeric_limits<float>::quiet_NaN());
 }
 
 DepthBuffer::DepthBuffer(std::size_t samples)

@@ -26,13 +26,13 @@ inline constexpr std::size_t kMaxLanes = 16;
 /// A vertex projected to the image.
 struct alignas(16) ProjectedVertex {
   float x, y;  ///< in pixels; x is infinite for vertices behind the camera
-  /// Reciprocal of the distance between camera and vertex, measured in lengths of the ray from the
-  /// camera through this vertex to the plane z = 0.
+  /// 1/t for the vertex at parameter t of its camera ray, where t is 0 at the camera and 1 at the
+  /// plane z = 0.
   float nearness;
 };
 
-/// A quad and its bounding box in pixels, relative to the upper left corner of a square's rim; both
-/// ends inclusive.
+/// A quad and its bounding box in pixels, relative to the upper left corner of a square's rim.
+/// `right` and `bottom` are inclusive.
 struct QuadOnPixels {
   std::uint32_t quad;
   std::uint8_t left, top, right, bottom;
@@ -42,7 +42,7 @@ struct QuadOnPixels {
 /// and all other quads that overlap the square.
 using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
-/// Adds quads to the lists of all squares that they may touch, including rims.
+/// Adds each quad to the lists of all squares that the quad may touch, including the squares' rims.
 /// \param first, end  range of `quads`
 /// \param squares_per_row       number of squares in a row
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
@@ -52,17 +52,17 @@ void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t 
 /// Sample positions in a pixel.
 class PixelSamples {
  public:
-  /// \param list  positions in [0, 1)²
-  explicit PixelSamples(std::vector<Eigen::Vector2f> list);
+  /// \param positions  sample positions in [0, 1)²
+  explicit PixelSamples(std::vector<Eigen::Vector2f> positions);
 
-  const std::vector<Eigen::Vector2f>& list() const { return list_; }
-  std::uint32_t count() const { return static_cast<std::uint32_t>(list_.size()); }
-  /// All x coordinates, followed by kMaxLanes NaNs as padding. `y` likewise.
+  const std::vector<Eigen::Vector2f>& positions() const { return positions_; }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
+  /// All x coordinates, followed by kMaxLanes NaNs as padding. y() is like x().
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
 
  private:
-  std::vector<Eigen::Vector2f> list_;
+  std::vector<Eigen::Vector2f> positions_;
   std::vector<float> x_, y_;
 };
 

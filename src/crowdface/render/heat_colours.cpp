@@ -26,8 +26,8 @@ std::uint8_t to_byte(float value) {
 
 }  // namespace
 
-Eigen::Vector3f heat_colour(double share) {
-  const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+Eigen::Vector3f heat_colour(double scale_position) {
+  const double at = std::clamp(scale_position, 0.0, 1.0) * (kStops.size() - 1);
   const auto low = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
   const auto t = static_cast<float>(at - static_cast<double>(low));
   Eigen::Vector3f colour;

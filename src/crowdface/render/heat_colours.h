@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// Colour on a scale from blue over green and yellow to red; yellow is lightest.
-/// \param share  position on the scale, clamped to [0, 1]. \return  sRGB, each in [0, 1].
-Eigen::Vector3f heat_colour(double share);
+/// \param scale_position  position on the scale, clamped to [0, 1]. \return  sRGB, each in [0, 1].
+Eigen::Vector3f heat_colour(double scale_position);
 
 /// Colours for distances. \param distances_mm  #V distances. \param max_mm  end of the scale.
 VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& distances_mm, double max_mm);

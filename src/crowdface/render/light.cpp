@@ -65,22 +65,22 @@ class ByteTable {
 
 }  // namespace
 
-std::array<std::uint8_t, 3> to_srgb8(const Light& light) {
+std::array<std::uint8_t, 3> to_srgb8(const LinearRgb& light) {
   static const ByteTable bytes;
   return {bytes.at(light[0]), bytes.at(light[1]), bytes.at(light[2])};
 }
 
-Eigen::Array3f to_srgb(const Light& colour) {
+Eigen::Array3f to_srgb(const LinearRgb& colour) {
   return colour.unaryExpr([](float value) { return encode_srgb(value); });
 }
 
-Light from_srgb(const Eigen::Array3f& srgb) {
+LinearRgb from_srgb(const Eigen::Array3f& srgb) {
   return srgb.unaryExpr([](float value) {
     return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
   });
 }
 
-const std::array<float, 256>& light_of_srgb8() {
+const std::array<float, 256>& linear_of_srgb8() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> light{};
     for (std::size_t value = 0; value < light.size(); ++value) {

@@ -9,15 +9,15 @@
 namespace crowdface {
 
 /// A linear RGB colour or radiance; 1 is white on the screen.
-using Light = Eigen::Array3f;
+using LinearRgb = Eigen::Array3f;
 
 /// Converts to 8-bit sRGB. Values above 0.6 are compressed so that highlights do not clip.
-std::array<std::uint8_t, 3> to_srgb8(const Light& light);
+std::array<std::uint8_t, 3> to_srgb8(const LinearRgb& light);
 /// Converts surface colours to sRGB without the compression of to_srgb8; clamped to [0, 1].
-Eigen::Array3f to_srgb(const Light& colour);
+Eigen::Array3f to_srgb(const LinearRgb& colour);
 /// Inverse of to_srgb. \param srgb  each in [0, 1].
-Light from_srgb(const Eigen::Array3f& srgb);
-/// Table of the linear light of all 8-bit sRGB values.
-const std::array<float, 256>& light_of_srgb8();
+LinearRgb from_srgb(const Eigen::Array3f& srgb);
+/// Table of the linear values of all 8-bit sRGB values.
+const std::array<float, 256>& linear_of_srgb8();
 
 }  // namespace crowdface

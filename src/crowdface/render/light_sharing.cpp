@@ -20,7 +20,7 @@ HWY_INLINE Numbers number(float value) {
 }
 
 /// Weighted numbers of rays towards a light.
-struct Rays {
+struct RayCounts {
   Numbers visible, traced;
 
   void add(Numbers others_open, Numbers others_asked, Numbers weight) {
@@ -36,11 +36,11 @@ struct Rays {
 };
 
 template <bool kInARow>
-void share(const PointLights& points, std::size_t count, const PixelLights& pixels,
+void share(const PointVisibility& points, std::size_t count, const PixelVisibility& pixels,
            std::size_t pixel, float pixel_side, float* key_shares, float* sky_shares) {
-  using Field = PointLights;
-  // The point's own rays get a small weight: they decide only if the point matches none of the 3 by
-  // 3 pixels.
+  using Field = PointVisibility;
+  // Give the point's own rays a small weight, so that these rays only matter if the point matches
+  // none of the 3 by 3 pixels.
   const Numbers own = number(0.01F);
   const Numbers zero = number(0), one = number(1);
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {
@@ -50,13 +50,13 @@ void share(const PointLights& points, std::size_t count, const PixelLights& pixe
     const Numbers x = of_point(Field::kPoint), y = of_point(Field::kPoint + 1);
     const Numbers z = of_point(Field::kPoint + 2), u = of_point(Field::kNormal);
     const Numbers v = of_point(Field::kNormal + 1), w = of_point(Field::kNormal + 2);
-    Rays key = {zero, zero}, sky = {zero, zero};
+    RayCounts key = {zero, zero}, sky = {zero, zero};
     key.add(of_point(Field::kKeyVisible), of_point(Field::kKeyTraced), own);
     sky.add(of_point(Field::kSkyVisible), of_point(Field::kSkyTraced), own);
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t column = 0; column < 3; ++column) {
         const std::size_t at =
-            pixel + row * PixelLights::kStride + column - PixelLights::kStride - 1;
+            pixel + row * PixelVisibility::kStride + column - PixelVisibility::kStride - 1;
         const auto there = [&](int field) {
           return kInARow ? hn::LoadU(Lanes(), pixels.list(field) + at + i)
                          : number(pixels.list(field)[at]);
@@ -85,8 +85,9 @@ void share(const PointLights& points, std::size_t count, const PixelLights& pixe
   }
 }
 
-void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
-                  std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky) {
+void filter_visibility(const PointVisibility& points, std::size_t count,
+                       const PixelVisibility& pixels, std::size_t pixel, bool in_a_row,
+                       float pixel_side, float* key, float* sky) {
   in_a_row ? share<true>(points, count, pixels, pixel, pixel_side, key, sky)
            : share<false>(points, count, pixels, pixel, pixel_side, key, sky);
 }
@@ -97,15 +98,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
-HWY_EXPORT(share_lights);
+HWY_EXPORT(filter_visibility);
 
-void PixelLights::clear() {
-  numbers_.assign(PointLights::kFields * kSize, 0.0F);
+void PixelVisibility::clear() {
+  field_values_.assign(PointVisibility::kFields * kSize, 0.0F);
 }
 
-void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
-                  std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky) {
-  HWY_DYNAMIC_DISPATCH(share_lights)
+void filter_visibility(const PointVisibility& points, std::size_t count,
+                       const PixelVisibility& pixels, std::size_t pixel, bool in_a_row,
+                       float pixel_side, float* key, float* sky) {
+  HWY_DYNAMIC_DISPATCH(filter_visibility)
   (points, count, pixels, pixel, in_a_row, pixel_side, key, sky);
 }
 

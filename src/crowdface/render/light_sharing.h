@@ -11,7 +11,7 @@ namespace crowdface {
 
 /// Surface points with the results of their shadow rays, as one list per field: position, normal,
 /// and for each light the number of rays that reached the light and the number of traced rays.
-struct PointLights {
+struct PointVisibility {
   enum Field {
     kPoint,
     kNormal = kPoint + 3,
@@ -24,28 +24,30 @@ struct PointLights {
   std::array<const float*, kFields> lists;
 };
 
-/// The fields of PointLights for the pixels of a square and a rim of one pixel: means of positions
-/// and normals (a mean normal is shorter than 1 if the normals differ), and sums of rays.
-class PixelLights {
+/// The fields of PointVisibility for the pixels of a square and a rim of one pixel: means of
+/// positions and normals (a mean normal is shorter than 1 if the normals differ), and sums of the
+/// numbers of rays.
+class PixelVisibility {
  public:
   static constexpr std::size_t kStride =
       kSquareSide + 2 + 14;  ///< row length, padded to a multiple of 16
 
-  PixelLights() { clear(); }
-  /// Marks all pixels as empty: sets their normals to 0, so that share_lights ignores the pixels.
+  PixelVisibility() { clear(); }
+  /// Marks all pixels as empty: sets their normals to 0, so that filter_visibility ignores the
+  /// pixels.
   void clear();
   /// \param x, y  from −1 to kSquareSide, relative to the square's corner
   static std::size_t index(int x, int y) {
     return static_cast<std::size_t>(y + 1) * kStride + static_cast<std::size_t>(x + 1);
   }
-  float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * kSize; }
+  float* list(int field) { return field_values_.data() + static_cast<std::size_t>(field) * kSize; }
   const float* list(int field) const {
-    return numbers_.data() + static_cast<std::size_t>(field) * kSize;
+    return field_values_.data() + static_cast<std::size_t>(field) * kSize;
   }
 
  private:
   static constexpr std::size_t kSize = (kSquareSide + 2) * kStride + 16;
-  std::vector<float> numbers_;
+  std::vector<float> field_values_;
 };
 
 /// Estimates, for each point, the visible fraction of the key light and of the sky, by a bilateral
@@ -58,7 +60,8 @@ class PixelLights {
 /// \param in_a_row   whether the points lie in consecutive pixels of a row
 /// \param pixel_side side of a pixel in the unit of the positions
 /// \param key, sky   results: visible fractions, with room for `count` + kMaxLanes numbers
-void share_lights(const PointLights& points, std::size_t count, const PixelLights& pixels,
-                  std::size_t pixel, bool in_a_row, float pixel_side, float* key, float* sky);
+void filter_visibility(const PointVisibility& points, std::size_t count,
+                       const PixelVisibility& pixels, std::size_t pixel, bool in_a_row,
+                       float pixel_side, float* key, float* sky);
 
 }  // namespace crowdface

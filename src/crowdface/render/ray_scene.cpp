@@ -19,7 +19,8 @@ namespace {
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 
-/// Packet types. Embree traces packets wider than the processor's vectors ray by ray.
+/// Packet types. If a packet is wider than the processor's SIMD vectors, Embree traces its rays one
+/// by one.
 struct EightRays {
   static constexpr std::size_t kCount = 8;
   using Rays = RTCRay8;
@@ -105,7 +106,7 @@ std::vector<std::optional<RayHit>> nearest_hits_of(std::span<const Ray> rays, RT
     fill(some, query.ray, valid);
     std::fill_n(query.hit.geomID, Packet::kCount, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(query.hit.instID[0], Packet::kCount, RTC_INVALID_GEOMETRY_ID);
-    embree::intersect(valid.data(), scene, embree::Rays::kCoherent, query);
+    embree::intersect(valid.data(), scene, embree::RayCoherence::kCoherent, query);
     for (std::size_t r = 0; r < some.size(); ++r) {
       const auto& hit = query.hit;
       if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;

@@ -32,8 +32,8 @@ struct Ray {
   Eigen::Vector3f direction;
   float min_distance = 0;
   float max_distance = 1e30F;
-  /// Seed in 0 … 65535 for stochastic transparency: a surface with opacity α lets rays with certain
-  /// seeds pass, always the same ones, which are the fraction 1−α of all seeds. The rays of a pixel
+  /// Seed in 0 … 65535 for stochastic transparency: the seed decides whether the ray passes a
+  /// surface. A surface with opacity α lets the fraction 1−α of all seeds pass. The rays of a pixel
   /// have evenly spread seeds.
   std::uint32_t opacity_seed = 0;
 };
@@ -81,7 +81,7 @@ class RayScene {
   /// The first hit of each ray, if any. Consecutive rays are traced together, which is fast if
   /// their directions are similar. Not available with kMovable.
   std::vector<std::optional<RayHit>> nearest_hits(std::span<const Ray> rays) const;
-  /// #rays: whether the ray hits any surface.
+  /// Whether each ray hits any surface.
   std::vector<bool> occluded(std::span<const Ray> rays) const;
   Eigen::Vector3f point(std::uint32_t vertex) const;
 

@@ -52,8 +52,8 @@ std::vector<Eigen::Vector2f> sample_positions_in_pixel(int side) {
   return places;
 }
 
-InterleavedDisc::InterleavedDisc(int rays) {
-  const int count = rays * kInterleavePeriod * kInterleavePeriod;
+InterleavedDisc::InterleavedDisc(int rays_per_pixel) {
+  const int count = rays_per_pixel * kInterleavePeriod * kInterleavePeriod;
   for (int i = 0; i < count; ++i) points_.push_back(disc_point(i, count));
 }
 

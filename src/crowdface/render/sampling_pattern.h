@@ -18,14 +18,16 @@ std::vector<Eigen::Vector2f> sample_positions_in_pixel(int side);
 /// sampling").
 inline constexpr int kInterleavePeriod = 3;
 
-/// Ray directions as points of the unit disc, uniform by area. Each pixel has `rays` directions.
-/// Every block of 3 by 3 pixels has the same set of 9 · `rays` points.
+/// Ray directions as points of the unit disc, uniform by area. Each pixel has `rays_per_pixel`
+/// directions. Every block of 3 by 3 pixels has the same set of 9 · `rays_per_pixel` points.
 class InterleavedDisc {
  public:
-  explicit InterleavedDisc(int rays);
+  explicit InterleavedDisc(int rays_per_pixel);
   /// Ray `k` of pixel (x, y). Depends on x and y only modulo kInterleavePeriod.
   const Eigen::Vector2f& point(int x, int y, int k) const;
-  std::size_t rays() const { return points_.size() / (kInterleavePeriod * kInterleavePeriod); }
+  std::size_t rays_per_pixel() const {
+    return points_.size() / (kInterleavePeriod * kInterleavePeriod);
+  }
 
  private:
   std::vector<Eigen::Vector2f> points_;

@@ -66,7 +66,7 @@ void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& 
     looked[static_cast<std::size_t>((y - corner[1]) * kRimmedSide + x - corner[0])] = {&here,
                                                                                        count};
     count += here.count();
-    middles = middles && here.list() == std::vector<Eigen::Vector2f>{{0.5F, 0.5F}};
+    middles = middles && here.positions() == std::vector<Eigen::Vector2f>{{0.5F, 0.5F}};
   });
   DepthBuffer fronts(count);
   for (const SquareLists& squares : square_lists_) {
@@ -79,7 +79,7 @@ void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& 
   std::size_t i = 0;
   for_each_looked([&](int x, int y, const PixelSamples& here) {
     const Eigen::Vector2f pixel(static_cast<float>(x), static_cast<float>(y));
-    for (const Eigen::Vector2f& place : here.list()) {
+    for (const Eigen::Vector2f& place : here.positions()) {
       if (fronts.front_quads[i] != DepthBuffer::kNothing)
         hits[i] = hit(fronts.front_quads[i], pixel + place);
       ++i;
@@ -87,15 +87,15 @@ void ScreenQuads::nearest_hits(std::array<int, 2> square, const PixelRectangle& 
   });
 }
 
-RayHit ScreenQuads::hit(std::uint32_t front, const Eigen::Array2f& at) const {
-  const std::uint32_t number = front / 2;
+RayHit ScreenQuads::hit(std::uint32_t front_quad, const Eigen::Array2f& pixel_position) const {
+  const std::uint32_t number = front_quad / 2;
   const Quad& quad = quads_[number];
-  const bool second = front % 2 == 1;
-  const auto& [i, j, k] = kQuadHalves[front % 2];
+  const bool second = front_quad % 2 == 1;
+  const auto& [i, j, k] = kQuadHalves[front_quad % 2];
   const ProjectedVertex &a = projected_[quad[i]], &b = projected_[quad[j]],
                         &c = projected_[quad[k]];
   const auto from = [&](const ProjectedVertex& corner) -> Eigen::Array2f {
-    return Eigen::Array2f(corner.x, corner.y) - at;
+    return Eigen::Array2f(corner.x, corner.y) - pixel_position;
   };
   const Eigen::Array3f areas(cross(from(b), from(c)), cross(from(c), from(a)),
                              cross(from(a), from(b)));

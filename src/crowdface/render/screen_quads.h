@@ -27,9 +27,9 @@ struct PixelRectangle {
 };
 
 /// A rasterizer for quads, seen by a camera at (0, 0, distance) that looks along −z at the square
-/// [−1, 1]² of the plane z = 0. `put` projects the quads; then any thread may query squares of the
-/// image. Finds the same hits as a RayScene of quads. Faster than refitting a tree if quads are
-/// smaller than pixels.
+/// [−1, 1]² of the plane z = 0. After `project`, any thread may query squares of the image. Finds
+/// the same hits as a RayScene of quads. Faster than refitting a tree if quads are smaller than
+/// pixels.
 class ScreenQuads {
  public:
   /// Replaces and projects the quads. Quads that extend behind the camera are skipped.
@@ -41,7 +41,7 @@ class ScreenQuads {
   /// Finds the first hit of the camera ray through each sample position of some pixels. The unit of
   /// RayHit::distance is the length of the ray from the camera to the plane z = 0.
   /// \param square  column and row of the square
-  /// \param pixels  the pixels: inside the square and its rim
+  /// \param pixels  rectangle of pixels inside the square and its rim
   /// \param samples  sample positions of each of these pixels, or null for no samples
   /// \param hits    result, one for each sample, pixel by pixel
   void nearest_hits(std::array<int, 2> square, const PixelRectangle& pixels,
@@ -49,7 +49,7 @@ class ScreenQuads {
                     std::vector<std::optional<RayHit>>& hits) const;
 
  private:
-  RayHit hit(std::uint32_t front, const Eigen::Array2f& at) const;
+  RayHit hit(std::uint32_t front_quad, const Eigen::Array2f& pixel_position) const;
 
   const float* points_ = nullptr;
   std::span<const Quad> quads_;

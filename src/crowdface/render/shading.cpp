@@ -38,8 +38,8 @@ HWY_INLINE Vectors direction_of(const Lamp& lamp) {
   return {number(lamp.direction.x()), number(lamp.direction.y()), number(lamp.direction.z())};
 }
 
-/// Wrapped diffuse light: the terminator lies at a cosine of −wrap. Mean of a linear and a
-/// quadratic fall-off; its integral is 5/6 of Lambert's for every wrap.
+/// Wrapped diffuse light: the terminator lies at a cosine of −wrap. The light falls off as the mean
+/// of a linear and a quadratic function; the integral is 5/6 of Lambert's for every wrap.
 HWY_INLINE Numbers wrapped(Numbers cosine, Numbers wrap) {
   const Numbers whole = hn::Add(number(1), wrap);
   const Numbers lit = hn::Max(hn::Div(hn::Add(cosine, wrap), whole), number(0));
@@ -62,14 +62,14 @@ HWY_INLINE Numbers with_bounces(Numbers visible, Numbers albedo) {
 }
 
 /// Microfacet reflection (GGX distribution, Walter et al. 2007; Schlick's Fresnel term), multiplied
-/// by the cosine.
+/// by the cosine between normal and light.
 struct Gloss {
-  const Vectors &normal, &to_eye;
+  const Vectors &normal, &to_viewer;
   Numbers alpha2, reflectance, masking;
 
   Gloss(const Vectors& n, const Vectors& eye, Numbers roughness, Numbers at_normal)
-      : normal(n), to_eye(eye), alpha2(square(square(roughness))), reflectance(at_normal) {
-    masking = beyond(hn::Max(dot(normal, to_eye), number(0.05F)));
+      : normal(n), to_viewer(eye), alpha2(square(square(roughness))), reflectance(at_normal) {
+    masking = beyond(hn::Max(dot(normal, to_viewer), number(0.05F)));
   }
   HWY_INLINE Numbers beyond(Numbers cosine) const {
     const Numbers rest = hn::Mul(hn::Sub(number(1), alpha2), square(cosine));
@@ -77,11 +77,11 @@ struct Gloss {
   }
   HWY_INLINE Numbers of(const Vectors& to_light) const {
     const Numbers n_l = dot(normal, to_light);
-    const Vectors sum = {hn::Add(to_light.x, to_eye.x), hn::Add(to_light.y, to_eye.y),
-                         hn::Add(to_light.z, to_eye.z)};
+    const Vectors sum = {hn::Add(to_light.x, to_viewer.x), hn::Add(to_light.y, to_viewer.y),
+                         hn::Add(to_light.z, to_viewer.z)};
     const Numbers length = hn::Max(hn::Sqrt(dot(sum, sum)), number(1e-6F));
     const Numbers n_h = hn::Max(hn::Div(dot(normal, sum), length), number(0));
-    const Numbers v_h = hn::Max(hn::Div(dot(to_eye, sum), length), number(0));
+    const Numbers v_h = hn::Max(hn::Div(dot(to_viewer, sum), length), number(0));
     const Numbers spread = hn::Add(hn::Mul(square(n_h), hn::Sub(alpha2, number(1))), number(1));
     const Numbers away = hn::Sub(number(1), v_h);
     const Numbers away5 = hn::Mul(square(square(away)), away);
@@ -92,13 +92,14 @@ struct Gloss {
   }
 };
 
-/// Shades one SIMD vector of points. \param points, lights  inside a block, at the same point
+/// Shades one SIMD vector of points. \param points, lights  data of the first of these points, in a
+/// block of ShadeBatch's input and output
 HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* lights) {
   const auto field = [&](int f) {
     return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlockSize);
   };
   const auto vectors = [&](int f) { return Vectors{field(f), field(f + 1), field(f + 2)}; };
-  const Vectors normal = vectors(ShadeBatch::kNormal), to_eye = vectors(ShadeBatch::kToEye);
+  const Vectors normal = vectors(ShadeBatch::kNormal), to_viewer = vectors(ShadeBatch::kToViewer);
   const Numbers sky = field(ShadeBatch::kSky), key = field(ShadeBatch::kKey);
   const Vectors to_key = direction_of(lamps.key), to_fill = direction_of(lamps.fill);
   const Vectors to_right = direction_of(lamps.rim_right), to_left = direction_of(lamps.rim_left);
@@ -106,8 +107,10 @@ HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* ligh
   const Numbers right = hn::Mul(hn::Max(dot(normal, to_right), number(0)), sky);
   const Numbers left = hn::Mul(hn::Max(dot(normal, to_left), number(0)), sky);
   const Numbers up = hn::Add(number(0.5F), hn::Mul(number(0.5F), normal.y));
-  const Gloss gloss(normal, to_eye, field(ShadeBatch::kRoughness), field(ShadeBatch::kReflectance));
-  const Numbers specular = field(ShadeBatch::kSpecularTable), shown = field(ShadeBatch::kShown);
+  const Gloss gloss(normal, to_viewer, field(ShadeBatch::kRoughness),
+                    field(ShadeBatch::kReflectance));
+  const Numbers specular = field(ShadeBatch::kSpecularFactor),
+                shown = field(ShadeBatch::kRadianceFactor);
   const Numbers soft = hn::Mul(specular, square(sky));
   const Numbers key_gloss = hn::Mul(gloss.of(to_key), hn::Mul(specular, key));
   const Numbers fill_gloss = hn::Mul(gloss.of(to_fill), soft);
@@ -159,7 +162,7 @@ constexpr float kMinRoughness = 0.14F;
 
 /// Factor on the highlights of a surface with this albedo. Albedos darker than any skin are painted
 /// hair, which has weaker highlights.
-float dark_specular(const Light& albedo) {
+float dark_specular(const LinearRgb& albedo) {
   constexpr float kDarkestSkin = 0.055F;
   return std::clamp(albedo.mean() / kDarkestSkin, 0.25F, 1.0F);
 }
@@ -179,7 +182,7 @@ void ShadeBatch::add(const ShadePoint& point, float specular) {
   const Material& material = material_of(point.kind);
   for (int c = 0; c < 3; ++c) {
     put(kNormal + c, point.normal[c]);
-    put(kToEye + c, point.to_eye[c]);
+    put(kToViewer + c, point.to_viewer[c]);
     put(kAlbedo + c, point.albedo[c]);
     put(kWrap + c, material.wrap[c]);
   }
@@ -190,8 +193,8 @@ void ShadeBatch::add(const ShadePoint& point, float specular) {
   put(kKey, point.key_visibility);
   put(kSky, point.sky_visibility);
   // Attachments are mostly hair, whose strands point in all directions and weaken highlights.
-  put(kSpecularTable, point.kind == SurfaceKind::kAttachment ? 0.45F * specular : specular);
-  put(kShown, point.inside ? 0.3F : 1.0F);
+  put(kSpecularFactor, point.kind == SurfaceKind::kAttachment ? 0.45F * specular : specular);
+  put(kRadianceFactor, point.is_back ? 0.3F : 1.0F);
 }
 
 void ShadeBatch::shade() {
@@ -200,7 +203,7 @@ void ShadeBatch::shade() {
   HWY_DYNAMIC_DISPATCH(shade_blocks)(points_.data(), blocks, studio(), lights_.data());
 }
 
-Light shade(const ShadePoint& point, float specular) {
+LinearRgb shade(const ShadePoint& point, float specular) {
   ShadeBatch alone;
   alone.add(point, specular);
   alone.shade();

@@ -12,11 +12,11 @@ namespace crowdface {
 
 /// A surface point to shade, in camera space: x right, y up, z towards the camera.
 struct ShadePoint {
-  Eigen::Vector3f normal;  ///< unit vector, on the visible side
-  Eigen::Vector3f to_eye;  ///< unit vector
-  Light albedo;
+  Eigen::Vector3f normal;     ///< unit vector, on the visible side
+  Eigen::Vector3f to_viewer;  ///< unit vector
+  LinearRgb albedo;
   SurfaceKind kind = SurfaceKind::kSkin;
-  bool inside = false;       ///< whether the back of the surface is visible, as in nostrils
+  bool is_back = false;      ///< whether the back of the surface is visible, as in nostrils
   float sky_visibility = 1;  ///< visible fraction of the sky
   float key_visibility = 1;  ///< visible fraction of the key light
   float roughness = -1;      ///< 0 … 1; negative: the roughness of the material
@@ -25,19 +25,19 @@ struct ShadePoint {
 /// Radiance that a surface point in the studio reflects towards the camera. Diffuse light reaches
 /// past the edge of shadows (wrapped diffuse), because skin scatters light; red light reaches
 /// farthest. Highlights use a microfacet model (Walter et al. 2007).
-/// \param specular  factor on the specular reflection.
-Light shade(const ShadePoint& point, float specular = 1);
+/// \param specular_factor  factor on the specular reflection.
+LinearRgb shade(const ShadePoint& point, float specular_factor = 1);
 
 /// Shades many points with SIMD, like `shade`. The result of a point is the same with every
 /// instruction set and does not depend on the other points.
 class ShadeBatch {
  public:
   void clear() { count_ = 0; }
-  void add(const ShadePoint& point, float specular);
+  void add(const ShadePoint& point, float specular_factor);
   void shade();
 
-  /// Radiance of point `i`, in order of `add`. Call `shade` first.
-  Light radiance(std::size_t i) const {
+  /// Radiance of the point that was added as number `i`, from 0. Requires a call of `shade`.
+  LinearRgb radiance(std::size_t i) const {
     const float* at = lights_.data() + i / kBlockSize * 3 * kBlockSize + i % kBlockSize;
     return {at[0], at[kBlockSize], at[2 * kBlockSize]};
   }
@@ -46,15 +46,15 @@ class ShadeBatch {
   /// field.
   enum Field {
     kNormal,
-    kToEye = kNormal + 3,
-    kAlbedo = kToEye + 3,
+    kToViewer = kNormal + 3,
+    kAlbedo = kToViewer + 3,
     kWrap = kAlbedo + 3,
     kRoughness = kWrap + 3,
     kReflectance,
     kKey,
     kSky,
-    kSpecularTable,
-    kShown,  ///< factor on the total radiance
+    kSpecularFactor,
+    kRadianceFactor,  ///< factor on the total radiance
     kFields
   };
   static constexpr std::size_t kBlockSize = 16;

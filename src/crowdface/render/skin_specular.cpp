@@ -18,7 +18,7 @@ float skin_lightness(const Texture& texture) {
   return *at;
 }
 
-float skin_specular(const Light& albedo, float skin_lightness) {
+float skin_specular_factor(const LinearRgb& albedo, float skin_lightness) {
   constexpr float kHair = 0.15F, kSkin = 0.7F, kMin = 0.12F;
   if (skin_lightness <= 0) return 1;
   const float skin = (albedo.mean() / skin_lightness - kHair) / (kSkin - kHair);

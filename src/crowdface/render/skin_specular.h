@@ -11,7 +11,7 @@ float skin_lightness(const Texture& texture);
 
 /// Factor on the specular reflection of skin with colour `albedo`, at most 1. Texels much darker
 /// than the skin are painted hair, which has almost no highlight.
-/// \param skin_lightness  from skin_lightness(); 0 means unknown, for a factor of 1.
-float skin_specular(const Light& albedo, float skin_lightness);
+/// \param skin_lightness  from skin_lightness(); 0 means unknown and gives a factor of 1.
+float skin_specular_factor(const LinearRgb& albedo, float skin_lightness);
 
 }  // namespace crowdface

@@ -28,25 +28,24 @@ struct TexturedQuad {
 /// A head in camera space (see camera_space.h), with all data for rendering it.
 struct Stage {
   const std::vector<float>& points;  ///< x, y, z of each vertex
-  const ScreenQuads& screen;         ///< rasterizer of all quads
-                                     /// mesh that occludes light: the full mesh or a reduced mesh
-  const RayScene& occluders;
+  const ScreenQuads& rasterizer;     ///< finds the hits of camera rays on all quads
+  const RayScene& occluders;         ///< mesh that occludes light: the full or a reduced mesh
   /// distance between a surface and the origins of rays that start there
   float clearance;
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
   float winding_sign;                           ///< +1, or −1 if the winding is inside out
   const VertexColours* colours;                 ///< #V, override all other colours; or nullptr
   const std::vector<Quad>& quads;
-  const std::vector<SurfaceKind>& kinds;            ///< #quads
-  const std::vector<std::optional<Light>>& paints;  ///< #quads linear colours, or empty
-  const std::vector<TexturedQuad>& textured_quads;  ///< #quads, or empty
-  const TextureSet* texture_set;                    ///< textures, or nullptr
-  std::vector<float> skin_lightness;                ///< lightness for each texture of `texture_set`
+  const std::vector<SurfaceKind>& kinds;                      ///< #quads
+  const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< #quads linear colours, or empty
+  const std::vector<TexturedQuad>& textured_quads;            ///< #quads, or empty
+  const TextureSet* texture_set;                              ///< textures, or nullptr
+  std::vector<float> skin_lightness;  ///< lightness for each texture of `texture_set`
   const Eyeballs& eyeballs;
-  std::vector<PlacedEye> eyes;
+  std::vector<EyeballSphere> eyes;
   Eigen::Vector3f gaze;
   const AttachmentStage* attachments;  ///< attachments, or nullptr
-  bool occlusion;                      ///< whether the sky's light is occluded
+  bool ambient_occlusion;              ///< whether the sky's light is occluded
   Eigen::Vector3f viewer_position;     ///< position of the camera
 
   Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {
@@ -54,8 +53,8 @@ struct Stage {
   }
 };
 
-/// Offset of ray origins from the surface that also occludes these rays. In camera space (half the
-/// side of the image is 1).
+/// Distance of ray origins from the surface, so that the surface does not block its own rays. In
+/// camera space (half the side of the image is 1).
 inline constexpr float kRayClearance = 2e-4F;
 
 }  // namespace crowdface

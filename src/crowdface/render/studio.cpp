@@ -45,20 +45,20 @@ const Studio& studio() {
   return lamps;
 }
 
-Light albedo_of(SurfaceKind kind) {
+LinearRgb albedo_of(SurfaceKind kind) {
   return material_of(kind).albedo;
 }
 
-Eigen::Vector3f key_direction() {
+Eigen::Vector3f key_light_direction() {
   return studio().key.direction;
 }
 
-bool faces_key(const Eigen::Vector3f& normal, SurfaceKind kind) {
+bool faces_key_light(const Eigen::Vector3f& normal, SurfaceKind kind) {
   return normal.dot(studio().key.direction) > -material_of(kind).wrap.maxCoeff();
 }
 
-Light background_colour(float y) {
-  return Light(0.23F, 0.235F, 0.245F) * (1 - 0.48F * y);
+LinearRgb background_colour(float y) {
+  return LinearRgb(0.23F, 0.235F, 0.245F) * (1 - 0.48F * y);
 }
 
 }  // namespace crowdface

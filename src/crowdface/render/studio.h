@@ -9,8 +9,8 @@
 namespace crowdface {
 
 struct Material {
-  Light albedo;
-  Light wrap;         ///< how far beyond the terminator light is visible, as a cosine
+  LinearRgb albedo;
+  LinearRgb wrap;     ///< how far beyond the terminator light is visible, as a cosine
   float roughness;    ///< roughness of the microfacets; 0 is a mirror
   float reflectance;  ///< at normal incidence
 };
@@ -19,30 +19,30 @@ const Material& material_of(SurfaceKind kind);
 
 struct Lamp {
   Eigen::Vector3f direction;  ///< unit vector towards the lamp
-  Light colour;
+  LinearRgb colour;
 };
 
 /// Portrait lighting that is fixed to the camera: a large key light from the upper left, a weak
 /// fill light from the right, two rim lights from behind, and a sky.
 struct Studio {
   Lamp key, fill, rim_right, rim_left;
-  Light sky_above, sky_below;
+  LinearRgb sky_above, sky_below;
 };
 
 const Studio& studio();
 
 /// Default albedo of surfaces of this kind, for surfaces without a colour of their own.
-Light albedo_of(SurfaceKind kind);
+LinearRgb albedo_of(SurfaceKind kind);
 
 /// Whether the key light can illuminate a surface with this normal.
-bool faces_key(const Eigen::Vector3f& normal, SurfaceKind kind);
+bool faces_key_light(const Eigen::Vector3f& normal, SurfaceKind kind);
 
 /// Unit vector towards the centre of the key light.
-Eigen::Vector3f key_direction();
+Eigen::Vector3f key_light_direction();
 /// Sine of the key light's angular radius.
-inline constexpr float kKeyRadius = 0.16F;
+inline constexpr float kKeyLightRadius = 0.16F;
 
 /// Background colour, lighter at the top. \param y  from 0 (top) to 1.
-Light background_colour(float y);
+LinearRgb background_colour(float y);
 
 }  // namespace crowdface

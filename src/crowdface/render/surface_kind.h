@@ -20,7 +20,7 @@ enum class SurfaceKind : std::uint8_t {
   kTeeth,
   kGums,        ///< gums and tongue
   kAttachment,  ///< attachment with colours of its own: hair, glasses
-  /// Not rendered: lashes, tear fluid, and shells that are transparent only with their textures.
+  /// Not rendered: lashes, tear fluid, and shells that only a texture would make transparent.
   kHidden,
 };
 
@@ -28,7 +28,7 @@ enum class SurfaceKind : std::uint8_t {
 struct Surfaces {
   std::vector<SurfaceKind> kinds;  ///< #F, or empty: all skin
   /// #F colours (sRGB) that replace the default colours of the kinds; or empty.
-  std::vector<std::optional<Eigen::Array3f>> paints = {};
+  std::vector<std::optional<Eigen::Array3f>> face_colours = {};
   /// #T by 2 texture coordinates, indexed by the topology's corners; or empty: no textures.
   TextureCoordinates uvs = {};
 };

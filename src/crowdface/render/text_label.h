@@ -13,7 +13,8 @@ enum class TextAlign { kLeft, kCentre, kRight };
 
 struct LabelStyle {
   int text_px = 14;  ///< nominal height of the letters, reduced for long text
-  /// Smallest height. If the text is still too long, "..." replaces its middle.
+  /// Smallest text height to fit a long text. If the text is still too long, "..." replaces its
+  /// middle.
   int min_text_px = 9;
   TextAlign align = TextAlign::kCentre;
   std::array<std::uint8_t, 3> text_colour = {214, 214, 216};

@@ -9,12 +9,12 @@
 namespace crowdface {
 
 Texture shrunk_texture(int width, int height, int max_px,
-                       const std::function<void(int y, std::span<Light> texels)>& row) {
+                       const std::function<void(int y, std::span<LinearRgb> texels)>& row) {
   const int block = (std::max(width, height) + max_px - 1) / max_px;
   Texture small{std::max(1, width / block), std::max(1, height / block), {}};
   small.texels.assign(
       static_cast<std::size_t>(small.width) * static_cast<std::size_t>(small.height),
-      Light::Zero());
+      LinearRgb::Zero());
   const auto row_of = [&](int y) {
     return std::span(small.texels)
         .subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width),
@@ -34,9 +34,9 @@ Texture shrunk_texture(int width, int height, int max_px,
   };
   const std::vector<std::size_t> left = begins(small.width, width);
   const std::vector<std::size_t> top = begins(small.height, height);
-  std::vector<Light> texels(static_cast<std::size_t>(width));
+  std::vector<LinearRgb> texels(static_cast<std::size_t>(width));
   for (int y = 0; y < small.height; ++y) {
-    const std::span<Light> sums = row_of(y);
+    const std::span<LinearRgb> sums = row_of(y);
     const std::size_t first = top[static_cast<std::size_t>(y)];
     const std::size_t end = top[static_cast<std::size_t>(y) + 1];
     for (std::size_t j = first; j < end; ++j) {
@@ -56,7 +56,7 @@ MipMap::MipMap(Texture texture) {
   levels.push_back(std::move(texture));
   while (std::min(levels.back().width, levels.back().height) > 1) {
     const Texture& larger = levels.back();
-    const auto row = [&](int y, std::span<Light> texels) {
+    const auto row = [&](int y, std::span<LinearRgb> texels) {
       std::copy_n(larger.texels.begin() + std::ptrdiff_t{y} * larger.width, larger.width,
                   texels.begin());
     };
@@ -75,7 +75,7 @@ void spread_colours(Texture& texture, std::vector<bool> painted, int steps) {
     for (int y = 0; y < texture.height; ++y) {
       for (int x = 0; x < texture.width; ++x) {
         if (painted[at(x, y)]) continue;
-        Light sum = Light::Zero();
+        LinearRgb sum = LinearRgb::Zero();
         float count = 0;
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, texture.height - 1); ++v) {
           for (int u = std::max(x - 1, 0); u <= std::min(x + 1, texture.width - 1); ++u) {
@@ -93,7 +93,7 @@ void spread_colours(Texture& texture, std::vector<bool> painted, int steps) {
   }
 }
 
-Light colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
+LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
   const Eigen::Vector2f tile(std::floor(uv.x()), std::floor(uv.y()));
   const auto between = [](float place, int count) {
     return std::clamp(place * static_cast<float>(count) - 0.5F, 0.0F,
@@ -105,7 +105,7 @@ Light colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
   const int top = static_cast<int>(y);
   const int right = std::min(left + 1, texture.width - 1);
   const int bottom = std::min(top + 1, texture.height - 1);
-  const auto at = [&](int i, int j) -> const Light& {
+  const auto at = [&](int i, int j) -> const LinearRgb& {
     return texture.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(texture.width) +
                           static_cast<std::size_t>(i)];
   };

@@ -17,14 +17,14 @@ namespace crowdface {
 struct Texture {
   int width = 0;
   int height = 0;
-  std::vector<Light> texels;  ///< height · width texels; the first row is the top, v = 1
+  std::vector<LinearRgb> texels;  ///< height · width texels; the first row is the top, v = 1
 };
 
 /// Reads a texture row by row and reduces it by averaging whole blocks of texels, until no side is
 /// longer than `max_px`.
 /// \param row  writes the `width` texels of row y; called once for each row, from the top down.
 Texture shrunk_texture(int width, int height, int max_px,
-                       const std::function<void(int y, std::span<Light> texels)>& row);
+                       const std::function<void(int y, std::span<LinearRgb> texels)>& row);
 
 /// Extends colours into unpainted texels, so that interpolation at the border of the painted area
 /// does not mix in unpainted texels. In each step, an unpainted texel gets the mean of its painted
@@ -35,9 +35,9 @@ void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 
 /// The texture's colour, interpolated bilinearly between texel centres and clamped at the edges.
 /// Uses only the fractional parts of `uv`, so that the texture repeats in every unit square.
-Light colour_at(const Texture& texture, const Eigen::Vector2f& uv);
+LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv);
 
-/// A texture at falling resolutions, so that one lookup averages all texels behind a pixel.
+/// A texture at decreasing resolutions, so that one lookup averages all texels behind a pixel.
 struct MipMap {
   /// Level 0 is the texture; each further level has half the size, down to one texel on the
   /// shorter side.
@@ -46,12 +46,12 @@ struct MipMap {
   explicit MipMap(Texture texture);
 };
 
-/// A texture for each face of one head.
+/// The textures of one head, and which polygon has which texture.
 struct TextureLayer {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::shared_ptr<const Texture>> textures;
   /// #F: index into `textures`, or kNone; empty: no face has a texture
-  std::vector<std::uint32_t> of_face;
+  std::vector<std::uint32_t> texture_of_face;
 };
 
 /// Colour textures, normal maps and roughness maps of one head. Faces with kNone have the default

@@ -41,16 +41,16 @@ Vector disc_offset(const Vector& axis, const Eigen::Vector2f& disc) {
 /// only in normals; kEdge: in surface or colour.
 enum class PixelVariation : std::uint8_t { kNone, kRelief, kEdge };
 
-/// Storage for PointLights of a row of points: one list per field.
+/// Storage for PointVisibility of a row of points: one list per field.
 class PointLists {
  public:
   void resize(std::size_t count) {
     room_ = std::max(room_, count + kMaxLanes);
-    numbers_.resize(PointLights::kFields * room_);
+    numbers_.resize(PointVisibility::kFields * room_);
   }
   float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * room_; }
-  PointLights lights() const {
-    PointLights lights;
+  PointVisibility lights() const {
+    PointVisibility lights;
     for (std::size_t f = 0; f < lights.lists.size(); ++f)
       lights.lists[f] = numbers_.data() + f * room_;
     return lights;
@@ -61,20 +61,21 @@ class PointLists {
   std::vector<float> numbers_;
 };
 
-/// \param lists  PointLists or PixelLights
+/// \param lists  PointLists or PixelVisibility
 template <class Lists>
 void put(const CameraHit& hit, std::size_t at, Lists& lists) {
   for (int c = 0; c < 3; ++c) {
-    lists.list(PointLights::kPoint + c)[at] = hit.point[c];
-    lists.list(PointLights::kNormal + c)[at] = hit.surface.normal[c];
+    lists.list(PointVisibility::kPoint + c)[at] = hit.point[c];
+    lists.list(PointVisibility::kNormal + c)[at] = hit.surface.normal[c];
   }
-  lists.list(PointLights::kKeyVisible)[at] = hit.key_visibility.unblocked_rays;
-  lists.list(PointLights::kKeyTraced)[at] = hit.key_visibility.traced_rays;
-  lists.list(PointLights::kSkyVisible)[at] = hit.sky_visibility.unblocked_rays;
-  lists.list(PointLights::kSkyTraced)[at] = hit.sky_visibility.traced_rays;
+  lists.list(PointVisibility::kKeyVisible)[at] = hit.key_visibility.unblocked_rays;
+  lists.list(PointVisibility::kKeyTraced)[at] = hit.key_visibility.traced_rays;
+  lists.list(PointVisibility::kSkyVisible)[at] = hit.sky_visibility.unblocked_rays;
+  lists.list(PointVisibility::kSkyTraced)[at] = hit.sky_visibility.traced_rays;
 }
 
-/// Mean of positions, normals (shorter than 1 where they differ) and albedos; sums of rays.
+/// Averages the positions, normals and albedos of hits, and adds up their numbers of rays. If the
+/// normals differ, the mean normal is shorter than 1.
 CameraHit mean_of(std::span<const CameraHit> camera_hits) {
   CameraHit mean = camera_hits.front();
   for (const CameraHit& other : camera_hits.subspan(1)) {
@@ -102,7 +103,7 @@ struct TileMemory {
   std::vector<std::optional<RayHit>> hits;
   std::vector<CameraHit> camera_hits;
   std::vector<CameraHit*> asking;
-  PixelLights pixels;
+  PixelVisibility pixels;
   PointLists points;
   std::vector<CameraHit> middles;  ///< mean hits of a row of pixels
   Shares row_shares, shares;
@@ -157,7 +158,7 @@ class Tile {
     }
     // Trace shadow rays.
     trace_key_rays();
-    if (stage_.occlusion) trace_sky_rays();
+    if (stage_.ambient_occlusion) trace_sky_rays();
     // Average the results of the rays over neighbouring pixels, and shade.
     summarize();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
@@ -168,7 +169,7 @@ class Tile {
     std::uint32_t first = 0, end = 0;  ///< range in `camera_hits_`
     std::uint32_t missed = 0;          ///< number of samples without a hit
     PixelVariation change = PixelVariation::kNone;
-    Light backdrop = Light::Zero();  ///< sum over the samples without a hit
+    LinearRgb backdrop = LinearRgb::Zero();  ///< sum over the samples without a hit
   };
 
   Pixel& pixel(int x, int y) { return pixels_[outer_.index(x, y)]; }
@@ -186,7 +187,8 @@ class Tile {
   }
 
   /// Traces camera rays and stores their hits in the pixels.
-  /// \param places_of  sample positions for a pixel; null keeps its earlier samples
+  /// \param places_of  returns the sample positions for a pixel, or null to keep the pixel's
+  /// earlier samples
   template <class PlacesOf>
   void trace_camera_rays(const PlacesOf& places_of) {
     std::vector<const PixelSamples*> places;
@@ -196,7 +198,7 @@ class Tile {
       places.push_back(places_of(pixel));
       if (places.back() == nullptr) return;
       std::uint32_t number = 0;
-      for (const Eigen::Vector2f& place : places.back()->list()) {
+      for (const Eigen::Vector2f& place : places.back()->positions()) {
         const Eigen::Vector2f at = on_image(x, y, place);
         rays.push_back({stage_.viewer_position,
                         Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer_position});
@@ -204,7 +206,7 @@ class Tile {
       }
     });
     std::vector<std::optional<RayHit>>& hits = memory_.hits;
-    stage_.screen.nearest_hits({left_ / kSquareSide, top_ / kSquareSide}, outer_, places, hits);
+    stage_.rasterizer.nearest_hits({left_ / kSquareSide, top_ / kSquareSide}, outer_, places, hits);
     // Find attachments in front of the face.
     std::vector<std::optional<RayHit>> attachments;
     if (stage_.attachments != nullptr) {
@@ -220,8 +222,8 @@ class Tile {
       if (looked == nullptr) return;
       pixel.first = static_cast<std::uint32_t>(camera_hits_.size());
       pixel.missed = 0;
-      pixel.backdrop = Light::Zero();
-      for (const Eigen::Vector2f& place : looked->list()) {
+      pixel.backdrop = LinearRgb::Zero();
+      for (const Eigen::Vector2f& place : looked->positions()) {
         prefetch_hits(stage_, hits, ray);
         if (!attachments.empty() && attachments[ray]) {
           camera_hits_.push_back(attachment_hit(stage_, *attachments[ray], rays[ray].direction));
@@ -241,7 +243,7 @@ class Tile {
     return std::span(camera_hits_).subspan(pixel.first, pixel.end - pixel.first);
   }
 
-  /// Whether a pixel and its four neighbours differ in surface or colour.
+  /// How the samples of a pixel differ from each other and from the four neighbouring pixels.
   PixelVariation change_at(int x, int y) {
     const Pixel& at = pixel(x, y);
     const std::span<const CameraHit> camera_hits = hits_of(at);
@@ -263,7 +265,7 @@ class Tile {
     const ShadePoint &here = one.surface, &there = other.surface;
     const float height = (other.point - one.point).dot(here.normal);
     const float cosine = there.normal.dot(here.normal);
-    if (there.kind != here.kind || there.inside != here.inside || cosine < kReliefNormal ||
+    if (there.kind != here.kind || there.is_back != here.is_back || cosine < kReliefNormal ||
         std::abs(height) > pixel_side() ||
         (there.albedo - here.albedo).abs().maxCoeff() > kSameAlbedo) {
       return PixelVariation::kEdge;
@@ -274,13 +276,14 @@ class Tile {
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
   /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, direction by direction, so
-  /// that consecutive rays are similar. A pixel without variation traces `directions.rays()` rays,
-  /// spread over its samples; a pixel with variation traces at least one ray per sample.
+  /// that consecutive rays are similar. A pixel without variation traces
+  /// `directions.rays_per_pixel()` rays, spread over its samples; a pixel with variation traces at
+  /// least one ray per sample.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
         40503;  // spreads the numbers of consecutive rays evenly
-    const std::size_t rays = directions.rays();
+    const std::size_t rays = directions.rays_per_pixel();
     std::uint32_t number = 0;
     for (int shift_y = 0; shift_y < kInterleavePeriod; ++shift_y) {
       for (int shift_x = 0; shift_x < kInterleavePeriod; ++shift_x) {
@@ -331,12 +334,12 @@ class Tile {
   }
 
   void trace_key_rays() {
-    const Vector key = key_direction();
-    trace_shadow_rays(sampling_.key_directions, &CameraHit::key_visibility,
+    const Vector key = key_light_direction();
+    trace_shadow_rays(sampling_.key_light_directions, &CameraHit::key_visibility,
                       [&](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
-                        if (!hit.may_see_key) return std::nullopt;
+                        if (!hit.faces_key_light) return std::nullopt;
                         const Vector start = hit.ray_origin + kThickness * hit.surface.normal;
-                        return Ray{start, key + kKeyRadius * disc_offset(key, disc)};
+                        return Ray{start, key + kKeyLightRadius * disc_offset(key, disc)};
                       });
   }
 
@@ -393,7 +396,9 @@ class Tile {
     return pixel.change == PixelVariation::kNone && pixel.first < pixel.end;
   }
 
-  std::size_t light_index(int x, int y) const { return PixelLights::index(x - left_, y - top_); }
+  std::size_t light_index(int x, int y) const {
+    return PixelVisibility::index(x - left_, y - top_);
+  }
 
   void summarize() {
     memory_.pixels.clear();
@@ -405,13 +410,13 @@ class Tile {
     }
   }
 
-  /// Computes the visible fraction of each light at some points, see share_lights.
+  /// Computes the visible fraction of each light at some points, see filter_visibility.
   void share(const PointLists& points, std::size_t count, int x, int y, bool in_a_row,
              Shares& shares) {
     shares.key.resize(count + kMaxLanes);
     shares.sky.resize(count + kMaxLanes);
-    share_lights(points.lights(), count, memory_.pixels, light_index(x, y), in_a_row, pixel_side(),
-                 shares.key.data(), shares.sky.data());
+    filter_visibility(points.lights(), count, memory_.pixels, light_index(x, y), in_a_row,
+                      pixel_side(), shares.key.data(), shares.sky.data());
   }
 
   void add_to_batch(const CameraHit& hit, const Shares& shares, std::size_t i) {
@@ -420,7 +425,7 @@ class Tile {
     surface.sky_visibility = shares.sky[i];
     if (surface.kind == SurfaceKind::kAttachment)
       surface.sky_visibility = std::max(surface.sky_visibility, kScattered);
-    memory_.batch.add(surface, skin_specular(surface.albedo, hit.skin_lightness));
+    memory_.batch.add(surface, skin_specular_factor(surface.albedo, hit.skin_lightness));
   }
 
   /// For a pixel whose samples differ: adds each sample to the batch for shading.
@@ -459,7 +464,7 @@ class Tile {
     std::size_t next = 0;
     for (int x = left_; x < right_; ++x) {
       const Pixel& at = pixel(x, y);
-      Light light = at.backdrop;  // sum, divided below by the number of samples
+      LinearRgb light = at.backdrop;  // sum, divided below by the number of samples
       if (shows_one(at)) {
         light = memory_.batch.radiance(next++);
       } else {

@@ -14,17 +14,18 @@ namespace crowdface {
 struct Sampling {
   /// One sample in the centre of the pixel.
   PixelSamples centre_sample;
-  /// Samples for pixels with relief; also for all other pixels if there are attachments, which may
-  /// be transparent.
+  /// Samples for pixels that differ from their neighbours only in normals. If there are
+  /// attachments, all pixels without edges use these samples, because attachments may be
+  /// transparent.
   PixelSamples coarse_samples;
-  PixelSamples fine_samples;                       ///< samples for pixels with edges
-  InterleavedDisc key_directions, sky_directions;  ///< rays of a pixel towards each light
+  PixelSamples fine_samples;                             ///< samples for pixels with edges
+  InterleavedDisc key_light_directions, sky_directions;  ///< rays of a pixel towards each light
 
-  Sampling(int samples_per_side, int key_rays, int sky_rays)
+  Sampling(int samples_per_side, int key_light_rays, int sky_rays)
       : centre_sample(sample_positions_in_pixel(1)),
         coarse_samples(sample_positions_in_pixel(std::min(2, samples_per_side))),
         fine_samples(sample_positions_in_pixel(samples_per_side)),
-        key_directions(key_rays),
+        key_light_directions(key_light_rays),
         sky_directions(sky_rays) {}
 };
 

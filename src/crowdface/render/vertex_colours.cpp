@@ -21,7 +21,7 @@ constexpr std::array<std::array<float, 3>, 6> kPalette = {{{0.84F, 0.37F, 0.00F}
                                                            {0.34F, 0.71F, 0.91F}}};
 
 bool is_painted(const Surfaces& surfaces, Eigen::Index face) {
-  return !surfaces.paints.empty() && surfaces.paints[static_cast<std::size_t>(face)];
+  return !surfaces.face_colours.empty() && surfaces.face_colours[static_cast<std::size_t>(face)];
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha,
 
 VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
                               const Positions& positions, Axis front) {
-  const auto paint = [](const Light& albedo) {
+  const auto paint = [](const LinearRgb& albedo) {
     return Eigen::RowVector3f(to_srgb(albedo).matrix().transpose());
   };
   VertexColours colours = paint(albedo_of(SurfaceKind::kSkin)).replicate(positions.rows(), 1);
@@ -47,21 +47,21 @@ VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces
   const Eigen::Vector3f gaze = unit_vector(front).cast<float>();
   const std::vector<float> points(positions.data(), positions.data() + positions.size());
   const Eyeballs eyeballs = find_eyeballs(topology, kinds);
-  const std::vector<PlacedEye> eyes = place_eyes(eyeballs, points, gaze);
+  const std::vector<EyeballSphere> eyes = eyeball_spheres(eyeballs, points, gaze);
   for (Eigen::Index f = 0; f < topology.face_count(); ++f) {
     const SurfaceKind kind = kinds[static_cast<std::size_t>(f)];
     if (is_painted(surfaces, f)) {
       const Eigen::RowVector3f paint_of_face =
-          surfaces.paints[static_cast<std::size_t>(f)]->matrix().transpose();
+          surfaces.face_colours[static_cast<std::size_t>(f)]->matrix().transpose();
       for (const std::uint32_t vertex : topology.face(f)) colours.row(vertex) = paint_of_face;
       continue;
     }
     if (kind == SurfaceKind::kSkin || kind == SurfaceKind::kHidden) continue;
     for (const std::uint32_t vertex : topology.face(f)) {
-      const Light albedo = kind == SurfaceKind::kEye
-                               ? eye_albedo(eyes[eyeballs.of_vertex[vertex]], gaze,
-                                            positions.row(vertex).cast<float>().transpose())
-                               : albedo_of(kind);
+      const LinearRgb albedo = kind == SurfaceKind::kEye
+                                   ? eye_albedo(eyes[eyeballs.eyeball_of_vertex[vertex]], gaze,
+                                                positions.row(vertex).cast<float>().transpose())
+                                   : albedo_of(kind);
       colours.row(vertex) = paint(albedo);
     }
   }
@@ -74,16 +74,16 @@ std::optional<EyeCoordinates> eye_coordinates(const Topology& topology, const Su
   if (eyeballs.count == 0) return std::nullopt;
   const Eigen::Vector3f gaze = unit_vector(front).cast<float>();
   const auto [across, along] = tangent_basis(gaze);
-  const std::vector<PlacedEye> eyes =
-      place_eyes(eyeballs, {positions.data(), positions.data() + positions.size()}, gaze);
+  const std::vector<EyeballSphere> eyes =
+      eyeball_spheres(eyeballs, {positions.data(), positions.data() + positions.size()}, gaze);
   EyeCoordinates coordinates(positions.rows(), 3);
-  coordinates.rowwise() = Eigen::RowVector3f(0, 0, kNoEye);
+  coordinates.rowwise() = Eigen::RowVector3f(0, 0, kNoEyeballCoordinate);
   bool any = false;
   for (Eigen::Index f = 0; f < topology.face_count(); ++f) {
     const bool eye = surfaces.kinds[static_cast<std::size_t>(f)] == SurfaceKind::kEye;
     if (!eye || is_painted(surfaces, f)) continue;
     for (const std::uint32_t vertex : topology.face(f)) {
-      const PlacedEye& placed = eyes[eyeballs.of_vertex[vertex]];
+      const EyeballSphere& placed = eyes[eyeballs.eyeball_of_vertex[vertex]];
       if (placed.radius <= 0) continue;
       const Eigen::Vector3f from =
           (positions.row(vertex).cast<float>().transpose() - placed.centre) / placed.radius;

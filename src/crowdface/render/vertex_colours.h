@@ -34,7 +34,8 @@ VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces
 /// The coordinates are linear functions of the position, so that an iris painted from interpolated
 /// coordinates is round even on a coarse mesh.
 using EyeCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
-inline constexpr float kNoEye = -2;  ///< third coordinate of vertices that belong to no eyeball
+/// third coordinate of vertices that belong to no eyeball
+inline constexpr float kNoEyeballCoordinate = -2;
 
 /// Computes the EyeCoordinates of all vertices.
 /// \return nothing if there are no eyeballs, or if all eyeballs have colours of their own.

@@ -50,7 +50,7 @@ std::vector<float> vertex_visibility(const Topology& topology,
     }
   }
   const std::vector<Vector> normals =
-      camera_normals(topology, NormalFans(topology), points, winding(topology, positions));
+      camera_normals(topology, NormalFans(topology), points, winding_sign(topology, positions));
   const RayDevice device;
   const RayScene scene(device, std::move(points), triangles);
   const InterleavedDisc disc(kRays);

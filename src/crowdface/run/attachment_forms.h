@@ -25,7 +25,7 @@ class AttachmentForms {
   ///              is the attachment's level of detail, or null if the attachment is not reduced.
   template <class Make>
   AttachmentForms(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
-    for (const Attachment* item : level.items(set)) {
+    for (const Attachment* item : level.attachments_in_files(set)) {
       forms_.emplace(item, make(*item, level.find(*item)));
     }
   }
@@ -54,19 +54,19 @@ class AttachmentForms {
   /// attachment of each kind.
   /// \param files  returns the number of files that contain an attachment
   template <class Files>
-  std::size_t encode_bytes(const Files& files) const {
+  std::size_t encoding_memory_bytes(const Files& files) const {
     std::map<std::string, std::size_t> largest;
     for (const auto& [item, form] : forms_) {
       std::size_t& most = largest[item->kind];
-      most = std::max(
-          most, std::invoke(&Form::encode_bytes, form) * static_cast<std::size_t>(files(*item)));
+      most = std::max(most, std::invoke(&Form::encoding_memory_bytes, form) *
+                                static_cast<std::size_t>(files(*item)));
     }
     std::size_t sum = 0;
     for (const auto& [kind, most] : largest) sum += most;
     return sum;
   }
-  std::size_t encode_bytes() const {
-    return encode_bytes([](const Attachment&) { return 1U; });
+  std::size_t encoding_memory_bytes() const {
+    return encoding_memory_bytes([](const Attachment&) { return 1U; });
   }
 
  private:
@@ -81,7 +81,9 @@ struct MeshWithAttachments {
   AttachmentForms<Part> parts;
 
   std::size_t memory_bytes() const { return mesh.memory_bytes() + parts.memory_bytes(); }
-  std::size_t encode_bytes() const { return mesh.encode_bytes() + parts.encode_bytes(); }
+  std::size_t encoding_memory_bytes() const {
+    return mesh.encoding_memory_bytes() + parts.encoding_memory_bytes();
+  }
 };
 
 }  // namespace crowdface

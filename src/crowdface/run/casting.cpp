@@ -60,14 +60,15 @@ CrowdDistances measure_crowd_distances(const FaceSpace& space,
                                        const Eigen::MatrixXd& head_distances,
                                        const CastingResult& crowd_plan) {
   CrowdDistances distances;
-  distances.heads = quartiles(below_diagonal(head_distances));
-  distances.crowd = quartiles(pair_distances(crowd_plan.points));
-  if (distances.heads.median > 0) {
-    distances.ratio = distances.crowd.median / distances.heads.median;
+  distances.between_heads = quartiles(below_diagonal(head_distances));
+  distances.between_faces = quartiles(pair_distances(crowd_plan.points));
+  if (distances.between_heads.median > 0) {
+    distances.median_ratio = distances.between_faces.median / distances.between_heads.median;
   }
   const Index regions = space.sampled_heads().region_weights.cols();
   for (Index k = 0; regions > 1 && k < regions; ++k) {
-    distances.regions.push_back(quartiles(pair_distances(space, k, crowd_plan.points)));
+    distances.between_faces_by_region.push_back(
+        quartiles(pair_distances(space, k, crowd_plan.points)));
   }
   std::vector<double> to_head, to_face;
   for (const FacePlan& face : crowd_plan.crowd) {
@@ -88,20 +89,21 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
     const FamilyPlan& family = crowd_plan.families[f];
     FamilyReport report;
     report.name = family.name;
-    report.members = static_cast<std::uint64_t>(family.end - family.begin);
-    const std::vector<FaceSpace::Point> members(crowd_plan.points.begin() + family.begin,
-                                                crowd_plan.points.begin() + family.end);
+    report.member_count = static_cast<std::uint64_t>(family.members_end - family.members_begin);
+    const std::vector<FaceSpace::Point> members(crowd_plan.points.begin() + family.members_begin,
+                                                crowd_plan.points.begin() + family.members_end);
     report.member_distances = quartiles(pair_distances(members));
     std::vector<double> founder_distances;
     double nearest = HUGE_VAL;
     for (const FaceSpace::Point& member : members) {
       founder_distances.push_back(FaceSpace::distance(member, family.founder_point));
-      nearest = std::min(nearest, index.nearest(member, nearest, 0, family.begin).distance_mm);
       nearest =
-          std::min(nearest, index.nearest(member, nearest, family.end, index.size()).distance_mm);
+          std::min(nearest, index.nearest(member, nearest, 0, family.members_begin).distance_mm);
+      nearest = std::min(
+          nearest, index.nearest(member, nearest, family.members_end, index.size()).distance_mm);
     }
     report.founder_distances = quartiles(std::move(founder_distances));
-    report.nearest_other_mm = nearest < HUGE_VAL ? nearest : 0;
+    report.nearest_outsider_mm = nearest < HUGE_VAL ? nearest : 0;
     if (!config.families[f].parents.empty())
       report.nearer_strangers_fraction = family.nearer_strangers_fraction;
     report.silhouette = silhouette(crowd_plan.families, f, crowd_plan.points);
@@ -113,7 +115,7 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
 std::set<std::string> twin_families(const Config& config) {
   std::set<std::string> names;
   for (const FamilyOptions& family : config.families) {
-    if (family.twins) names.insert(family.name);
+    if (family.are_twins) names.insert(family.name);
   }
   return names;
 }
@@ -154,8 +156,8 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
 /// Returns options for trial castings with other minimum distances. The faces that already exist in
 /// the crowd's folder keep their own minimum distance in these trials.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
-  if (config.crowd.existing_count) {
-    casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing_count,
+  if (config.crowd.existing_face_count) {
+    casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing_face_count,
                                                            casting.diversity.min_distance_mm);
   }
   return casting;
@@ -166,20 +168,20 @@ CastingOptions with_existing_faces(const Config& config, CastingOptions casting)
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache) {
   const std::vector<double> areas =
-      face_vertex_areas(inputs.faces.topology, inputs.skin, unplaced_mean(inputs),
+      face_vertex_areas(inputs.head_set.topology, inputs.skin_components, unplaced_mean(inputs),
                         config.distance.area, config.faces.front, inputs.distance_mask);
   const SampleCells cells = find_cells(inputs, prepared.samples);
   SampledHeads heads =
-      sample_heads(inputs.faces, inputs.regions, prepared.samples, prepared.trajectories,
+      sample_heads(inputs.head_set, inputs.regions, prepared.samples, prepared.trajectories,
                    inputs.max_level, mm_per(config.faces.units));
-  if (inputs.mirror != nullptr) {
-    heads.mirror_images = sample_mirror_images(inputs.faces, inputs.regions, *inputs.mirror,
+  if (inputs.mirror_map != nullptr) {
+    heads.mirror_images = sample_mirror_images(inputs.head_set, inputs.regions, *inputs.mirror_map,
                                                prepared.samples, prepared.traced_samples, heads);
   }
   FaceSpace space =
       cached_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
                         band_count(config.sampling));
-  ProxySkin skin(cell_triangles(inputs.faces.topology, cells), space.sampled_heads().mean,
+  ProxySkin skin(cell_triangles(inputs.head_set.topology, cells), space.sampled_heads().mean,
                  space.sampled_heads().heads);
   return {std::move(space), std::move(skin)};
 }
@@ -213,21 +215,21 @@ AttachmentOptions attachment_options(const Config& config) {
   for (const Group& group : config.groups) {
     if (!group.hair_colours.empty()) draw.hair_colours[group.name] = group.hair_colours;
   }
-  draw.twins = twin_families(config);
+  draw.twin_families = twin_families(config);
   return draw;
 }
 
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
                      const FindMeshDefects& defects, const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
-  const FaceSpace& space = judged_in.space;
+  const FaceSpace& space = judged_in.face_space;
   const Eigen::MatrixXd head_distances = space.head_distances();
   const CastingOptions casting = casting_options(config, inputs, head_distances);
   for (const std::string& conflict : merged_reviews(config.review.reviews).conflicts) {
     log_warning(concat("reviews made at the same time disagree about ", conflict));
   }
   const BelievabilityOptions& believability = config.believability;
-  FaceJudge judge(space, casting.diversity, believability, &judged_in.skin, defects);
+  FaceJudge judge(space, casting.diversity, believability, &judged_in.proxy_skin, defects);
   const auto traits = named_face_traits(config, inputs, prepared);
   std::optional<TraitRules> rules;
   if (traits) judge.set_trait_rules(&rules.emplace(traits->measurer(), casting));
@@ -238,15 +240,15 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     ScarcityWarning warning(casting);
     crowd = cast_crowd(casting, judge, [&](const Rejections& thrown) {
       progress.step();
-      warning.face_joined(thrown);
+      warning.on_face_accepted(thrown);
     });
   }
   if (crowd.shortfall) {
     constexpr std::size_t kMaxTrials = 20;
     Progress progress("searching for values that work", kMaxTrials);
     const Remedy remedy = find_remedy(
-        with_existing_faces(config, casting), space, believability, &judged_in.skin,
-        *crowd.shortfall, [&] { progress.step(); }, judge.traits(), defects);
+        with_existing_faces(config, casting), space, believability, &judged_in.proxy_skin,
+        *crowd.shortfall, [&] { progress.step(); }, judge.trait_rules(), defects);
     std::vector<std::string> about_traits;
     if (remedy.binding_constraint == Reason::kTraits) {
       about_traits = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
@@ -268,12 +270,12 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     choose_colours(colour_options(config), result.crowd);
   }
   if (!config.attachments.items.empty()) {
-    choose_attachments(attachment_options(config), crowd.kinds, result.crowd, crowd.rejected,
-                       crowd.crowd_size_at_rejection);
+    choose_attachments(attachment_options(config), crowd.group_indices, result.crowd,
+                       crowd.rejected, crowd.crowd_size_at_rejection);
   }
   choose_skin(config, inputs, result.crowd);
   replace_changed_faces(config, casting, attachment_options(config), colour_options(config),
-                        crowd.kinds, crowd.changed, result.crowd);
+                        crowd.group_indices, crowd.changed, result.crowd);
   if (traits) {
     measure_faces(*traits, result.crowd);
     measure_faces(*traits, crowd.rejected);
@@ -288,11 +290,12 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     family.founder.family = family.name;
     result.founders.push_back(std::move(family.founder));
   }
-  // Keep the faces' points only if a later stage needs them: a million points take a gigabyte.
+  // Keep the faces' points of the casting space only if a later stage needs these points: a million
+  // points take a gigabyte.
   if (config.output.contact_sheet || !config.groups.empty()) {
     result.points = std::move(crowd.points);
   }
-  result.group_of_face = std::move(crowd.kinds);
+  result.group_of_face = std::move(crowd.group_indices);
   result.rejected = std::move(crowd.rejected);
   result.rejections = crowd.rejections;
   return result;

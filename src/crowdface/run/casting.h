@@ -16,8 +16,8 @@ namespace crowdface {
 /// The vector space in which casting compares faces, and the coarse skin mesh on which casting
 /// checks faces for defects.
 struct CastingSpace {
-  FaceSpace space;
-  ProxySkin skin;
+  FaceSpace face_space;
+  ProxySkin proxy_skin;
 };
 /// \param cache  folder that caches the precomputed tables of the space; empty: no cache
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
@@ -29,25 +29,26 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
 
 /// Distances between the faces of a crowd and, for comparison, between the input heads.
 struct CrowdDistances {
-  Quartiles heads;  ///< distances between input heads
-  Quartiles crowd;  ///< distances between faces of the crowd
-  /// one per region: distances between faces in this region; empty if there is only one region
-  std::vector<Quartiles> regions;
+  Quartiles between_heads;  ///< distances between input heads
+  Quartiles between_faces;  ///< distances between faces of the crowd
+  /// one per region: distances between the faces, measured only in this region; empty if there is
+  /// only one region
+  std::vector<Quartiles> between_faces_by_region;
   Quartiles to_nearest_head, to_nearest_face;
-  double ratio = 0;  ///< crowd median / head median; 0 if there are no heads to compare
+  double median_ratio = 0;  ///< crowd median / head median; 0 if there are no heads to compare
 };
 
 /// Statistics of how similar the members of a family are.
 struct FamilyReport {
   std::string name;
-  std::uint64_t members = 0;
+  std::uint64_t member_count = 0;
   Quartiles member_distances;   ///< distances between members
   Quartiles founder_distances;  ///< distances from the members to the founder
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
-  double nearest_other_mm = 0;
+  double nearest_outsider_mm = 0;
   double silhouette = 0;
   /// only if the family has parents: the fraction of the faces outside the family that are nearer
-  /// to a child than the child's farther parent; the maximum over all children
+  /// to a child than this child's farther parent is; the maximum over all children
   std::optional<double> nearer_strangers_fraction;
 };
 
@@ -62,8 +63,9 @@ struct CrowdPlan {
   std::vector<TraitReport> traits;  ///< reports on the measurements that the config names
   std::vector<FacePlan> founders;   ///< founders of families: hidden faces, not part of the crowd
   std::vector<FacePlan> rejected;   ///< faces that reviews rejected
-  std::vector<FaceSpace::Point>
-      points;  ///< one per face of the crowd; empty if there are neither contact sheets nor groups
+  /// one per face of the crowd: its point in the casting space; empty if there are neither contact
+  /// sheets nor groups
+  std::vector<FaceSpace::Point> points;
 };
 
 /// Converts the config to options for sampling the attachments of a crowd.

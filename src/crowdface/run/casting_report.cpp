@@ -38,11 +38,12 @@ Json nearest_to_json(const Quartiles& q) {
 
 Json distances_to_json(const std::vector<std::string>& regions, const CrowdDistances& distances) {
   Json json;
-  json["between_heads_mm"] = to_json(distances.heads);
-  json["between_faces_mm"] = to_json(distances.crowd);
-  json["median_ratio"] = distances.ratio > 0 ? Json(rounded(distances.ratio)) : Json();
-  for (std::size_t k = 0; k < distances.regions.size(); ++k) {
-    json["between_faces_by_region_mm"][regions[k]] = to_json(distances.regions[k]);
+  json["between_heads_mm"] = to_json(distances.between_heads);
+  json["between_faces_mm"] = to_json(distances.between_faces);
+  json["median_ratio"] =
+      distances.median_ratio > 0 ? Json(rounded(distances.median_ratio)) : Json();
+  for (std::size_t k = 0; k < distances.between_faces_by_region.size(); ++k) {
+    json["between_faces_by_region_mm"][regions[k]] = to_json(distances.between_faces_by_region[k]);
   }
   json["to_nearest_head_mm"] = nearest_to_json(distances.to_nearest_head);
   json["to_nearest_earlier_face_mm"] = nearest_to_json(distances.to_nearest_face);
@@ -115,8 +116,8 @@ Json rejections_to_json(const Rejections& rejections) {
   for (std::size_t r = 0; r < kReasonCount; ++r) {
     const auto reason = static_cast<Reason>(r);
     const bool is_rare = reason == Reason::kRejected || reason == Reason::kTraits;
-    if (is_rare && rejections.count[r] == 0) continue;
-    json[std::string(name_of(static_cast<Reason>(r)))] = rejections.count[r];
+    if (is_rare && rejections.counts[r] == 0) continue;
+    json[std::string(name_of(static_cast<Reason>(r)))] = rejections.counts[r];
   }
   return json;
 }
@@ -125,10 +126,10 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
   Json json = Json::array();
   for (const FamilyReport& family : crowd_plan.families) {
     json.push_back({{"name", family.name},
-                    {"members", family.members},
+                    {"members", family.member_count},
                     {"within_mm", to_json(family.member_distances)},
                     {"to_founder_mm", nearest_to_json(family.founder_distances)},
-                    {"nearest_other_mm", rounded(family.nearest_other_mm)},
+                    {"nearest_other_mm", rounded(family.nearest_outsider_mm)},
                     {"silhouette", rounded(family.silhouette)}});
     if (family.nearer_strangers_fraction) {
       json.back()["strangers_nearer_than_a_parent"] = rounded(*family.nearer_strangers_fraction);
@@ -138,15 +139,16 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
 }
 
 Json trait_to_json(const TraitReport& report) {
-  Json json = {{"heads", nearest_to_json(report.heads)}, {"crowd", nearest_to_json(report.crowd)}};
+  Json json = {{"heads", nearest_to_json(report.head_values)},
+               {"crowd", nearest_to_json(report.crowd_values)}};
   if (report.comparison) {
     json["population"] = {{"asked_mean", report.comparison->target.mean},
                           {"asked_deviation", report.comparison->target.deviation},
                           {"mean", rounded(report.comparison->mean)},
-                          {"deviation", rounded(report.comparison->deviation)},
-                          {"largest_difference", rounded(report.comparison->difference)},
-                          {"asked_below_reach", rounded(report.comparison->below)},
-                          {"asked_above_reach", rounded(report.comparison->above)}};
+                          {"deviation", rounded(report.comparison->standard_deviation)},
+                          {"largest_difference", rounded(report.comparison->max_difference)},
+                          {"asked_below_reach", rounded(report.comparison->fraction_below)},
+                          {"asked_above_reach", rounded(report.comparison->fraction_above)}};
   }
   return json;
 }
@@ -175,15 +177,16 @@ std::vector<std::string> near_head_warnings(const CrowdPlan& crowd_plan,
 void log_casting(const CrowdPlan& crowd_plan) {
   const CrowdDistances& distances = crowd_plan.distances;
   const auto mm = [](double value) { return format_fixed(value, 2); };
-  if (distances.crowd.count > 0) {
-    log_info(concat("distances between faces: closest ", mm(distances.crowd.min), " mm, median ",
-                    mm(distances.crowd.median), " mm; between the input heads: closest ",
-                    mm(distances.heads.min), " mm, median ", mm(distances.heads.median),
-                    " mm; ratio of the medians ", mm(distances.ratio)));
+  if (distances.between_faces.count > 0) {
+    log_info(concat("distances between faces: closest ", mm(distances.between_faces.min),
+                    " mm, median ", mm(distances.between_faces.median),
+                    " mm; between the input heads: closest ", mm(distances.between_heads.min),
+                    " mm, median ", mm(distances.between_heads.median),
+                    " mm; ratio of the medians ", mm(distances.median_ratio)));
   }
   std::vector<std::string> thrown;
   for (std::size_t r = 0; r < kReasonCount; ++r) {
-    const std::uint64_t count = crowd_plan.rejections.count[r];
+    const std::uint64_t count = crowd_plan.rejections.counts[r];
     if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
   }
   if (!thrown.empty()) log_info(concat("candidates rejected: ", join(thrown)));
@@ -201,7 +204,7 @@ Json casting_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   }
   json["families"] = families_to_json(crowd_plan);
   for (const TraitReport& report : crowd_plan.traits) {
-    json["traits"][std::string(measurements()[report.trait].name)] = trait_to_json(report);
+    json["traits"][std::string(measurements()[report.trait_index].name)] = trait_to_json(report);
   }
   json["thrown_away"] = rejections_to_json(crowd_plan.rejections);
   return json;

@@ -125,9 +125,9 @@ class ChangedLooks {
     return face;
   }
 
-  /// Returns the changed face with its colours and attachments. If a later review has rejected the
-  /// face and the face was sampled again, chooses the colours and attachments of the recorded face
-  /// anew.
+  /// Returns the changed face with its colours and attachments. If a later review made casting
+  /// sample this face again, the crowd no longer holds the colours and attachments of the changed
+  /// face, and this function chooses both anew.
   FacePlan look_of(const ChangedFace& changed) const {
     const FacePlan& face = changed.face;
     const auto now = std::ranges::find(crowd_, face.id, &FacePlan::id);

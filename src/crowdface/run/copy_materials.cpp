@@ -151,10 +151,10 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
   MaterialCopies copies(directory, ledger, std::move(own));
   for (const Index target : targets) {
     const auto head = static_cast<std::size_t>(target);
-    copies.add(inputs.files[head], inputs.faces.heads[head].name);
+    copies.add(inputs.head_files[head], inputs.head_set.heads[head].name);
   }
   if (any_format(formats, names_attachment_textures)) {
-    std::vector<AttachmentLook> looks = inputs.attachments.looks(crowd);
+    std::vector<AttachmentLook> looks = inputs.attachments.looks_of(crowd);
     if (config.neck.write_body && config.neck.body_texture.empty()) {
       looks.push_back({inputs.neck->body.get()});
     }

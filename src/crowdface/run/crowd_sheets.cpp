@@ -63,8 +63,8 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
     hasher.add(name).add(digest);
   }
   hasher.add(config_text_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
-  // Hash the plan, which includes each face's notes, and the likeness data. Reviews and the
-  // distance mask change the sheets only through these two.
+  // Hash the plan (with each face's notes) and the likeness data. This covers the reviews and the
+  // distance mask, which change the sheets only through the plan and the likeness data.
   try {
     add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
   } catch (const MissingInput& error) {  // removed by another program: it existed a moment ago
@@ -74,7 +74,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < crowd_plan.crowd.size(); ++i) {
     ids.push_back(crowd_plan.crowd[i].id);
-    for (const FileDigest& file : faces[i].files) hasher.add(file.digest);
+    for (const FileDigest& file : faces[i].file_digests) hasher.add(file.digest);
   }
   add_text(likeness_text(likeness, job.names, ids), hasher);
   return hasher.digest();
@@ -104,7 +104,7 @@ void render_faces(const Job& job, const FaceFileLists& lists, const std::vector<
     throw_if_interrupted();
     const Positions positions =
         read_face_positions(lists.directory(), faces[i].id, job.config.output.meshes,
-                            job.inputs.faces.topology.vertex_count);
+                            job.inputs.head_set.topology.vertex_count);
     FinishedFace face(faces[i], positions);
     finisher.finish(face, busy);
     write_files_of(face, lists.shown_files(faces[i]));
@@ -123,10 +123,10 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   const Digest key = key_of_sheets(job, directory, crowd_plan, likeness, faces);
   // If the sheets show a comparison image from a file, always make them again: the file may have
   // changed.
-  const bool may_change = sheet.compare.with == Config::Comparison::With::kFile;
+  const bool may_change = sheet.compare.reference == Config::MeshComparison::Reference::kFile;
   if (!may_change && ledger.find_proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
-  pictures.get().show_traits(named_head_traits(job.config, job.inputs));
+  pictures.get().set_head_traits(named_head_traits(job.config, job.inputs));
   if (!crowd_plan.founders.empty()) {
     write_founders(crowd_plan.founders, builder.get(), pictures.get());
   }
@@ -150,7 +150,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
   ConfigOverrides overrides;
   overrides.assignments = set;
   const Job job = load_job(directory.config(), overrides, cache);
-  directory.faces_per_folder = directory_of(job.config).faces_per_folder;
+  directory.faces_per_folder = crowd_directory_of(job.config).faces_per_folder;
   if (!job.config.output.contact_sheet) {
     throw UsageError(concat(directory.config().string(),
                             ": this crowd has no contact sheet; ask for one with --set "
@@ -180,7 +180,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
-  pictures.show_traits(named_head_traits(job.config, job.inputs));
+  pictures.set_head_traits(named_head_traits(job.config, job.inputs));
   const WrittenSheets sheets = pictures.finish(crowd, likeness);
   ledger.record_remade(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
   lock.require_same_folder();

@@ -27,7 +27,7 @@ struct Rows {
 /// Spacing of the faces along an axis: 4/3 of the largest extent that any head has along this axis.
 double face_spacing(const Inputs& inputs, Eigen::Index axis) {
   double most = 0;
-  for (const Head& head : inputs.faces.heads) {
+  for (const Head& head : inputs.head_set.heads) {
     const auto along = head.positions.col(axis);
     most = std::max(most, along.maxCoeff() - along.minCoeff());
   }

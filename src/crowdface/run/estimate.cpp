@@ -32,7 +32,7 @@ std::string padded(const std::string& text, std::size_t width) {
 std::string format_csv(const std::vector<EstimateRow>& rows) {
   std::string csv = "faces,spread_mm,first_fit_mm\r\n";
   for (const EstimateRow& row : rows) {
-    csv += concat(row.faces, ',', format_fixed(row.spread_distance_mm, 3), ',',
+    csv += concat(row.face_count, ',', format_fixed(row.spread_distance_mm, 3), ',',
                   format_fixed(row.first_fit_distance_mm, 3), "\r\n");
   }
   return csv;
@@ -45,7 +45,7 @@ class Frame {
   Frame(const std::vector<EstimateRow>& rows, std::uint64_t asked_count, double asked_mm) {
     double most = 1, high = asked_mm;
     for (const EstimateRow& row : rows) {
-      most = std::max(most, static_cast<double>(row.faces));
+      most = std::max(most, static_cast<double>(row.face_count));
       high = std::max({high, row.spread_distance_mm, row.first_fit_distance_mm});
     }
     most = std::max(most, static_cast<double>(asked_count));
@@ -78,7 +78,8 @@ std::string line_of(const Frame& frame, const std::vector<EstimateRow>& rows,
                     double EstimateRow::*mm, const char* colour) {
   std::string points;
   for (const EstimateRow& row : rows) {
-    points += concat(px(frame.x(static_cast<double>(row.faces))), ',', px(frame.y(row.*mm)), ' ');
+    points +=
+        concat(px(frame.x(static_cast<double>(row.face_count))), ',', px(frame.y(row.*mm)), ' ');
   }
   return concat("<polyline fill=\"none\" stroke=\"", colour, "\" stroke-width=\"2\" points=\"",
                 points, "\"/>\n");
@@ -89,10 +90,10 @@ std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t 
                             double asked_mm) {
   std::string table = "   faces   spread, mm   first fit, mm\n";
   for (const EstimateRow& row : rows) {
-    table +=
-        concat(padded(concat(row.faces), 8), padded(format_fixed(row.spread_distance_mm, 2), 13),
-               padded(format_fixed(row.first_fit_distance_mm, 2), 16),
-               row.faces == asked_count ? "   <- asked for" : "", '\n');
+    table += concat(padded(concat(row.face_count), 8),
+                    padded(format_fixed(row.spread_distance_mm, 2), 13),
+                    padded(format_fixed(row.first_fit_distance_mm, 2), 16),
+                    row.face_count == asked_count ? "   <- asked for" : "", '\n');
   }
   if (asked_mm > 0) table += concat("asked for: min_distance ", asked_mm, " mm\n");
   return table;
@@ -141,16 +142,16 @@ std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t as
 std::string estimate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
                      const std::filesystem::path& cache) {
   const Job job = load_job(config_file, overrides, cache);
-  const CrowdDirectory directory = directory_of(job.config);
+  const CrowdDirectory directory = crowd_directory_of(job.config);
   // Accept a folder that holds another crowd: estimate.csv and estimate.svg overwrite none of its
   // files.
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
   const CastingSpace judged_in = casting_space(job.config, job.inputs, prepared, cache);
   const CastingOptions casting =
-      casting_options(job.config, job.inputs, judged_in.space.head_distances());
-  const FaceJudge judge(judged_in.space, casting.diversity, job.config.believability,
-                        &judged_in.skin);
+      casting_options(job.config, job.inputs, judged_in.face_space.head_distances());
+  const FaceJudge judge(judged_in.face_space, casting.diversity, job.config.believability,
+                        &judged_in.proxy_skin);
   const std::uint64_t asked = job.config.crowd.count;
   const auto rows = estimate_capacity(casting, judge, counts_up_to(asked),
                                       std::clamp(5 * asked, kSmallestPool, kLargestPool));

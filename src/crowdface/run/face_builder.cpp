@@ -42,12 +42,12 @@ FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepa
     : config_(config),
       inputs_(inputs),
       prepared_(prepared),
-      keeps_contacts_(config.blending.contacts == Contacts::kAuto),
+      keeps_contacts_(config.blending.contacts == ContactHandling::kAuto),
       mm_per_unit_(mm_per(config.faces.units)) {
   BackgroundTasks beside;  // runs the contacts in parallel with the parts
-  beside.run([&] { contacts_.emplace(inputs.faces, inputs.adjacency, skin_vertices(inputs)); });
+  beside.run([&] { contacts_.emplace(inputs.head_set, inputs.adjacency, skin_vertices(inputs)); });
   if (!inputs.parts.parts.empty()) {
-    follower_.emplace(inputs.faces, inputs.parts, head_axes(config), config.parts.shape);
+    follower_.emplace(inputs.head_set, inputs.parts, head_axes(config), config.parts.shape);
   }
   beside.wait();
   use_masks(config, inputs.regions);
@@ -61,11 +61,11 @@ void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) 
       for (const std::uint32_t v : part.vertices) regions_.alpha.row(v).setZero();
     }
   }
-  turns_.reset();
+  poses_.reset();
   if (inputs_.neck && inputs_.neck->has_differing_poses())
-    turns_.emplace(inputs_, prepared_, regions);
-  if (config.smoothing.levels != Levels::kExact) {
-    blender_.emplace(inputs_.faces, head_levels(config, prepared_), prepared_.patches.patches,
+    poses_.emplace(inputs_, prepared_, regions);
+  if (config.smoothing.levels != LevelRepresentation::kExact) {
+    blender_.emplace(inputs_.head_set, head_levels(config, prepared_), prepared_.patches.patches,
                      regions_);
   }
 }
@@ -75,7 +75,7 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
   if (blender_) {
     blender_->blend(recipes, results);
   } else {
-    blend_exact(inputs_.faces, *prepared_.filter, regions_, recipes, results);
+    blend_exact(inputs_.head_set, *prepared_.filter, regions_, recipes, results);
   }
   require_whole(prepared_);
   parallel_for_each(recipes.size(), [&](std::size_t f) { finish(*recipes[f], results[f]); });
@@ -93,7 +93,7 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) con
   // Clear the previous face before the update, so that an exception cannot leave a half-updated
   // face.
   if (const auto before = std::exchange(previous.recipe, std::nullopt)) {
-    blender_->change(*before, recipe, previous.blended);
+    blender_->update(*before, recipe, previous.blended);
   } else {
     previous.blended = blender_->blend(recipe);
   }
@@ -113,12 +113,12 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (follower_) follower_->follow(recipe.target, face);
   if (const auto turn = motion_to_body(recipe)) move_rows(*turn, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
-  if (inputs_.neck) inputs_.neck->seam.fit(face);
+  if (inputs_.neck) inputs_.neck->seam.bend_to_seam(face);
 }
 
 std::optional<RigidMotion> FaceBuilder::motion_to_body(const Recipe& recipe) const {
-  if (!turns_) return std::nullopt;
-  return turns_->motion_of(recipe, is_unmirrored(recipe) ? nullptr : &mirror().plane);
+  if (!poses_) return std::nullopt;
+  return poses_->motion_of(recipe, is_unmirrored(recipe) ? nullptr : &mirror().plane);
 }
 
 std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
@@ -146,14 +146,14 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
                                  const Positions& face) const {
   std::optional<Positions> mixed;  // the target, unless it is a head
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
-    mixed = target_positions(inputs_.faces, recipe);
+    mixed = target_positions(inputs_.head_set, recipe);
     if (recipe.asymmetry != 1) {
       mixed = blend_with_mirrored(*mixed, mirrored(mirror(), *mixed),
                                   mirrored_weight(recipe.asymmetry, false));
     }
   }
   const Positions& target =
-      mixed ? *mixed : inputs_.faces.heads[static_cast<std::size_t>(recipe.target)].positions;
+      mixed ? *mixed : inputs_.head_set.heads[static_cast<std::size_t>(recipe.target)].positions;
   Positions judged = face;
   const auto turn = motion_to_body(recipe);
   if (inputs_.neck) {  // the bend at the neck is no defect: undo it
@@ -165,7 +165,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
   if (turn) move_rows(inverse(*turn), judged);
   SkinDefects defects =
       mixed ? check.compare(judged, *mixed) : check.compare(judged, recipe.target);
-  defects.gap_excess_mm = contacts_->max_excess(judged) * mm_per_unit_;
+  defects.gap_excess_mm = contacts_->max_gap_excess(judged) * mm_per_unit_;
   return defects;
 }
 
@@ -218,13 +218,13 @@ void FaceBuilder::include_mirrored_ranges(std::vector<SkinContacts::Range>& rang
 }
 
 double FaceBuilder::gap_excess_mm(const Recipe& recipe, const Positions& face) const {
-  const double units = recipe.mirrored ? contacts_->max_excess(mirrored(mirror(), face))
-                                       : contacts_->max_excess(face);
+  const double units = recipe.mirrored ? contacts_->max_gap_excess(mirrored(mirror(), face))
+                                       : contacts_->max_gap_excess(face);
   return units * mm_per_unit_;
 }
 
 std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
-  const auto vertices = static_cast<std::uint64_t>(inputs_.faces.topology.vertex_count);
+  const auto vertices = static_cast<std::uint64_t>(inputs_.head_set.topology.vertex_count);
   std::uint64_t bytes_per_face = 3 * sizeof(double) * vertices;
   if (!blender_) {
     // Memory per region: the difference to smooth (as a matrix and as rows of the filter), four
@@ -233,7 +233,8 @@ std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
     bytes_per_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }
   constexpr std::uint64_t kMirrored = 3;  // the face, its mirror image, and the mesh between them
-  if (inputs_.mirror != nullptr) bytes_per_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
+  if (inputs_.mirror_map != nullptr)
+    bytes_per_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
   return face_count * bytes_per_face;
 }
 

@@ -89,7 +89,7 @@ class FaceBuilder {
   /// the region masks for blending
   RegionWeights regions_;
   std::optional<CrowdBlender> blender_;             ///< empty with `levels: exact`
-  std::optional<FacePoses> turns_;                  ///< empty if all heads have one pose
+  std::optional<FacePoses> poses_;                  ///< empty if all heads have one pose
   std::optional<SkinContacts> contacts_;            ///< always set after construction
   std::vector<std::vector<double>> contact_masks_;  ///< #contacts by #regions; rows sum to one
   bool keeps_contacts_;

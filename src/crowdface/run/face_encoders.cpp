@@ -58,7 +58,7 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
     encoders_.emplace(format, make_mesh_encoders(format, source));
     for (const MeshLevel& level : levels_) {
       need_normals |= std::ranges::any_of(
-          targets, [&](Index target) { return needs_normals(format, level.number, target); });
+          targets, [&](Index target) { return needs_normals(format, level.level_number, target); });
     }
   }
   if (any_format(formats_,
@@ -70,11 +70,11 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
                                 });
     }
   }
-  if (has_own_textures(inputs)) own_.emplace(config, inputs, crowd, shared);
-  if (need_normals) fans_.emplace(inputs.faces.topology);
+  if (has_own_textures(inputs)) own_textures_.emplace(config, inputs, crowd, shared);
+  if (need_normals) fans_.emplace(inputs.head_set.topology);
   const auto carrier_of = [&](const PointSet& points) {
     return PointCarrier(points, inputs.parts, skin_vertices(inputs),
-                        triangles_of(inputs.faces.topology));
+                        triangles_of(inputs.head_set.topology));
   };
   if (!inputs.points.empty()) points_.emplace(carrier_of(inputs.points));
   if (!inputs.rig.empty() && encoders_.contains(MeshFormat::kGlb)) {
@@ -122,20 +122,20 @@ void FaceEncoders::prepare(FinishedFace& face) const {
   if (need_normals) face.normals = normals_of(face.positions);
   if (points_) face.points = points_->carry(target, face.positions);
   if (joints_) face.joints = joints_->carry(target, face.positions);
-  if (holds_textures()) face.images = own_->glb_images(*face.textures);
+  if (holds_textures()) face.images = own_textures_->glb_images(*face.textures);
   face.image_names = own_texture_names(config_, inputs_, face.face.id);
   for (std::size_t level = 0; level < levels_.size(); ++level) {
-    face.meshes.push_back(mesh_on(level, face));
+    face.meshes.push_back(mesh_at_level(level, face));
   }
 }
 
 Positions FaceEncoders::normals_of(const Positions& positions) const {
-  Positions normals = vertex_normals(*fans_, inputs_.faces.topology, positions);
+  Positions normals = vertex_normals(*fans_, inputs_.head_set.topology, positions);
   if (inputs_.neck) inputs_.neck->seam.set_normals(normals);
   return normals;
 }
 
-FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
+FaceMesh FaceEncoders::mesh_at_level(std::size_t level, FinishedFace& face) const {
   const std::string id = face.face.id + level_suffix(level, "_");
   FaceMesh mesh{.id = id,
                 .display_name = id,
@@ -148,13 +148,13 @@ FaceMesh FaceEncoders::mesh_on(std::size_t level, FinishedFace& face) const {
                 .joints = &face.joints,
                 .images = face.images,
                 .image_names = face.image_names};
-  if (own_) mesh.material_file = material_file_name(face.face.id);
+  if (own_textures_) mesh.material_file = material_file_name(face.face.id);
   if (level == 0) {
     mesh.points = &face.points;
     return mesh;
   }
-  const DetailLevel& detail = *levels_[level].face;
-  FinishedFace::Reduced& reduced = face.reduced.emplace_back();
+  const DetailLevel& detail = *levels_[level].face_level;
+  FinishedFace::ReducedMesh& reduced = face.reduced_meshes.emplace_back();
   reduced.positions = detail.restrict_rows(face.positions);
   if (face.normals.rows() > 0) reduced.normals = detail.restrict_rows(face.normals);
   for (const Displacements& shape : face.moves)
@@ -179,9 +179,9 @@ EncodedFile FaceEncoders::mesh(const FinishedFace& face, MeshFormat format, std:
   face.moves[*shape].add_to(positions);
   if (needs_normals(format, level, acting.target)) {
     normals = normals_of(positions);
-    if (level > 0) normals = levels_[level].face->restrict_rows(normals);
+    if (level > 0) normals = levels_[level].face_level->restrict_rows(normals);
   }
-  if (level > 0) positions = levels_[level].face->restrict_rows(positions);
+  if (level > 0) positions = levels_[level].face_level->restrict_rows(positions);
   acting.positions = &positions;
   acting.normals = &normals;
   return encoder.encode(acting);
@@ -228,25 +228,25 @@ std::size_t FaceEncoders::memory_bytes() const {
   return bytes;
 }
 
-std::size_t FaceEncoders::encode_bytes() const {
+std::size_t FaceEncoders::encoding_memory_bytes() const {
   const std::size_t shapes = inputs_.shapes.shapes.size();
   std::size_t bytes = (holds_shapes() ? 2 * displacement_bytes(inputs_.shapes) : 0) +
-                      (fans_ ? normals_bytes(inputs_.faces.topology) : 0);
+                      (fans_ ? normals_bytes(inputs_.head_set.topology) : 0);
   for (const auto& [format, encoders] : encoders_) {
     const bool has_own_files = traits_of(format).shapes == DataStorage::kOwnFiles;
     for (const MeshEncoder& encoder : encoders) {
-      bytes += (has_own_files ? 1 + shapes : 1) * encoder.encode_bytes;
+      bytes += (has_own_files ? 1 + shapes : 1) * encoder.encoding_memory_bytes;
     }
   }
   for (const auto& forms : attachments_) {
-    bytes += forms.encode_bytes([&](const Attachment& item) {
+    bytes += forms.encoding_memory_bytes([&](const Attachment& item) {
       return 1 + shapes_in_files(item, formats_, inputs_).size();
     });
   }
   for (const MeshLevel& level : levels_) {
-    if (!level.is_whole_mesh()) bytes += level.face->vertices.size() * 2 * 3 * sizeof(double);
+    if (!level.is_whole_mesh()) bytes += level.face_level->vertices.size() * 2 * 3 * sizeof(double);
   }
-  return bytes + (own_ ? own_->encode_bytes() : 0);
+  return bytes + (own_textures_ ? own_textures_->encoding_memory_bytes() : 0);
 }
 
 }  // namespace crowdface

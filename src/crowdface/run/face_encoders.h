@@ -44,21 +44,21 @@ struct FinishedFace {
   /// The face's own textures, encoded as image files; empty if no output file uses them. With
   /// `neck.body_texture`, the last texture belongs to the body.
   std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
-  std::optional<BlendedPicture> body;    ///< texture of the body; empty if nothing shows it
-  std::optional<FacePictures> pictures;  ///< empty if the face is not rendered
+  std::optional<BlendedPicture> body_texture;  ///< texture of the body; empty if nothing shows it
+  std::optional<FacePictures> pictures;        ///< empty if the face is not rendered
 
   const FaceEncoders* encoders = nullptr;  ///< null if no mesh files are written
   /// Data for the files; FaceEncoders::prepare computes it.
   Positions normals, points, joints;
   std::vector<std::string_view> images;
   std::vector<std::string> image_names;
-  struct Reduced {
+  struct ReducedMesh {
     Positions positions, normals;
     ColourRows colours;
     std::vector<Displacements> moves;
     std::vector<PlacedAttachment> placed_attachments;
   };
-  std::deque<Reduced> reduced;  ///< one per level of detail
+  std::deque<ReducedMesh> reduced_meshes;  ///< one per level of detail
   /// the whole mesh, then one mesh per level of detail; these meshes refer to the members above
   std::vector<FaceMesh> meshes;
 };
@@ -78,11 +78,11 @@ class FaceEncoders {
   FaceEncoders(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
                std::span<const FacePlan> crowd, const std::string& shared = {});
 
-  /// `holds_shapes`: whether any file contains shapes. `holds_textures`: whether the faces' own
-  /// textures are written, in mesh files or next to them.
+  /// Whether any file contains shapes. `holds_textures`: whether the faces' own textures are
+  /// written, in mesh files or next to them.
   bool holds_shapes() const;
-  bool holds_textures() const { return own_ && !formats_.empty(); }
-  const OwnTextures& textures() const { return *own_; }
+  bool holds_textures() const { return own_textures_ && !formats_.empty(); }
+  const OwnTextures& textures() const { return *own_textures_; }
 
   /// Whether GLB and USD files contain the body, as an attachment of each face.
   bool holds_body() const { return config_.neck.write_body; }
@@ -90,8 +90,8 @@ class FaceEncoders {
   PlacedAttachment placed_body(const FinishedFace& face) const;
 
   /// Computes the data that several files of a face need, such as the mesh at each level of detail,
-  /// and stores these data in `face`. They refer to other members of `face`, so `face` must not
-  /// move in memory afterwards.
+  /// and stores these data in `face`. The stored data refer to other members of `face`, so `face`
+  /// must not move in memory afterwards.
   void prepare(FinishedFace& face) const;
 
   // The following functions require a prepared face.
@@ -105,7 +105,7 @@ class FaceEncoders {
 
   /// In bytes: the memory of this object, and the maximum memory of one face's encoded files.
   std::size_t memory_bytes() const;
-  std::size_t encode_bytes() const;
+  std::size_t encoding_memory_bytes() const;
 
  private:
   /// Whether files of this format have vertex normals at this level of detail.
@@ -113,7 +113,7 @@ class FaceEncoders {
   /// Vertex normals of a face. At the ring of vertices at the neck, returns the normals that are
   /// equal in the whole crowd.
   Positions normals_of(const Positions& positions) const;
-  FaceMesh mesh_on(std::size_t level, FinishedFace& face) const;
+  FaceMesh mesh_at_level(std::size_t level, FinishedFace& face) const;
 
   const Config& config_;
   const Inputs& inputs_;
@@ -122,7 +122,7 @@ class FaceEncoders {
   std::map<MeshFormat, MeshEncoders> encoders_;
   /// one per level of detail; empty if attachments are not written to separate files
   std::vector<AttachmentForms<MeshEncoder>> attachments_;
-  std::optional<OwnTextures> own_;               ///< empty if faces have no textures of their own
+  std::optional<OwnTextures> own_textures_;      ///< empty if faces have no textures of their own
   std::optional<PointCarrier> points_, joints_;  ///< empty if there are no such points or joints
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals
   std::optional<NormalFans> fans_;

@@ -119,7 +119,7 @@ class MeshFileList {
     for (const OwnTextureFile& file : own_texture_files(config_, inputs_, face_.id)) {
       files_.push_back({options_.folder / file.name, {}, {}, [=](const FinishedFace& face) {
                           EncodedFile bytes;
-                          bytes.refer_to((*face.textures)[file.picture][file.format]);
+                          bytes.refer_to((*face.textures)[file.picture_index][file.format_index]);
                           return bytes;
                         }});
     }
@@ -162,11 +162,11 @@ std::vector<FaceFile> FaceFileLists::shown_files(const FacePlan& face) const {
   std::vector<FaceFile> files;
   if (!config_.output.contact_sheet) return files;
   files.push_back({directory_.render(face.id), {}, {}, [](const FinishedFace& shown) {
-                     return EncodedFile(shown.pictures->picture);
+                     return EncodedFile(shown.pictures->png);
                    }});
   if (has_gallery_) {
     files.push_back({directory_.gallery_face(face.id), {}, {}, [](const FinishedFace& shown) {
-                       return EncodedFile(*shown.pictures->preview);
+                       return EncodedFile(*shown.pictures->gallery_script);
                      }});
   }
   return files;

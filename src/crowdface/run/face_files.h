@@ -27,7 +27,7 @@ struct FaceFile {
   std::filesystem::path path;
   /// Where report.json stores the file's hash: for example section "lods" and key "LOD1.obj", or no
   /// section and key "mesh". If the key is empty, the report omits the hash.
-  std::string section, key;
+  std::string report_section, report_key;
   /// Encodes the file. The result refers to the face and to the face's encoders.
   std::function<EncodedFile(const FinishedFace& face)> make;
 };
@@ -37,8 +37,8 @@ struct MeshFileOptions {
   const std::vector<MeshFormat>& formats;
   std::filesystem::path folder;  ///< folder of the meshes
   std::string stem;              ///< first part of the file names
-  bool all_variants =
-      true;  ///< false: only the whole mesh at rest; no levels of detail, shapes or points
+  /// false: only the whole mesh at rest; no levels of detail, shapes or points
+  bool all_variants = true;
 };
 /// All mesh files of a face, including its attachments, textures and material file.
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
@@ -70,8 +70,9 @@ class FaceFileLists {
 
 /// The results for a face whose files have been written.
 struct FaceResult {
-  std::vector<FileDigest> files;    ///< one per file of FaceFileLists::all_files
-  std::optional<SkinDefects> skin;  ///< defects compared with the target head; empty if not checked
+  std::vector<FileDigest> file_digests;  ///< one per file of FaceFileLists::all_files
+  /// defects of the skin compared with the target head; empty if not checked
+  std::optional<SkinDefects> skin_defects;
   /// one per shape: number of intersecting skin triangles, see FaceShapes::shapes_of_face; empty if
   /// there are no shapes
   std::vector<Index> skin_intersections;

@@ -49,21 +49,21 @@ std::string item_of(const FacePlan& face) {
 }
 
 Json to_json(const SkinDefects& skin) {
-  return {{"compared", skin.local.compared}, {"flipped", skin.local.flipped},
-          {"stretch", skin.local.stretch},   {"intersecting", skin.intersecting},
-          {"wider_mm", skin.gap_excess_mm},  {"exposed_mm2", skin.exposed_mm2}};
+  return {{"compared", skin.local.compared_count}, {"flipped", skin.local.flipped_count},
+          {"stretch", skin.local.stretch_factor},  {"intersecting", skin.intersecting_count},
+          {"wider_mm", skin.gap_excess_mm},        {"exposed_mm2", skin.exposed_back_mm2}};
 }
 
 /// Parses the output of `to_json`. The caller has verified the checksum of the ledger line, so this
 /// function throws only if another version of the program wrote the line.
 SkinDefects noted_skin(const Json& json) {
   SkinDefects skin;
-  skin.local.compared = json.at("compared").get<Index>();
-  skin.local.flipped = json.at("flipped").get<Index>();
-  skin.local.stretch = json.at("stretch").get<double>();
-  skin.intersecting = json.at("intersecting").get<Index>();
+  skin.local.compared_count = json.at("compared").get<Index>();
+  skin.local.flipped_count = json.at("flipped").get<Index>();
+  skin.local.stretch_factor = json.at("stretch").get<double>();
+  skin.intersecting_count = json.at("intersecting").get<Index>();
   skin.gap_excess_mm = json.at("wider_mm").get<double>();
-  skin.exposed_mm2 = json.at("exposed_mm2").get<double>();
+  skin.exposed_back_mm2 = json.at("exposed_mm2").get<double>();
   return skin;
 }
 
@@ -101,12 +101,12 @@ LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result)
   const std::vector<FaceFile> files = lists_.all_files(face);
   for (std::size_t f = 0; f < files.size(); ++f) {
     entry.files.push_back({lists_.directory().relative(files[f].path),
-                           f < result.files.size() ? result.files[f] : FileDigest{}});
+                           f < result.file_digests.size() ? result.file_digests[f] : FileDigest{}});
     key.add(entry.files.back().name);
   }
   entry.key = key.digest();
   Json note;
-  if (result.skin) note = to_json(*result.skin);
+  if (result.skin_defects) note = to_json(*result.skin_defects);
   if (!result.skin_intersections.empty()) note["crossing"] = result.skin_intersections;
   if (!note.is_null()) entry.note = note.dump();
   return entry;
@@ -117,11 +117,11 @@ std::optional<FaceResult> FaceLedger::recorded_result(const FacePlan& face) cons
   const auto entry = ledger_.find_proven(wanted.item, wanted.key);
   if (!entry || entry->files.size() != wanted.files.size()) return std::nullopt;
   FaceResult result;
-  for (const LedgerEntry::File& file : entry->files) result.files.push_back(file.content);
+  for (const LedgerEntry::File& file : entry->files) result.file_digests.push_back(file.content);
   try {
     if (judges_skin_ || shape_count_ > 0) {
       const Json note = Json::parse(entry->note);
-      if (judges_skin_) result.skin = noted_skin(note);
+      if (judges_skin_) result.skin_defects = noted_skin(note);
       if (shape_count_ > 0)
         result.skin_intersections = note.at("crossing").get<std::vector<Index>>();
       if (result.skin_intersections.size() != shape_count_) return std::nullopt;

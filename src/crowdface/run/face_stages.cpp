@@ -36,11 +36,11 @@ constexpr std::uint64_t kRenderBytesPerVertex = 300;
 constexpr std::uint64_t kMeshBytesPerVertex = 300;
 
 std::uint64_t vertex_count(const Inputs& inputs) {
-  return static_cast<std::uint64_t>(inputs.faces.topology.vertex_count);
+  return static_cast<std::uint64_t>(inputs.head_set.topology.vertex_count);
 }
 
 std::uint64_t input_bytes(const Inputs& inputs) {
-  return inputs.faces.heads.size() * vertex_count(inputs) * 3 * sizeof(double) +
+  return inputs.head_set.heads.size() * vertex_count(inputs) * 3 * sizeof(double) +
          static_cast<std::uint64_t>(inputs.regions.alpha.size()) * sizeof(double) +
          kMeshBytesPerVertex * vertex_count(inputs) + texture_bytes(inputs) +
          displacement_bytes(inputs.shapes) + own_shape_bytes(inputs.shapes);
@@ -57,11 +57,11 @@ std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
 std::uint64_t level_bytes(const Prepared& prepared) {
   std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
-    if (!levels.mapped_file) bytes += levels.fields.numbers.size_bytes();
+    if (!levels.mapped_file) bytes += levels.fields.quantized_values.size_bytes();
   }
   const PatchLists& patches = prepared.patches.patches.lists();
   if (!prepared.patches.mapped_file) {
-    bytes += patches.weights.size_bytes() + patches.numbers.size_bytes();
+    bytes += patches.weights.size_bytes() + patches.quantized_values.size_bytes();
   }
   return bytes;
 }
@@ -84,24 +84,25 @@ std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
   return bytes + attachment_texture_bytes(items, max_rendered_texels(*config.output.contact_sheet));
 }
 
-[[noreturn]] void refuse_memory(std::string_view least, std::uint64_t memory) {
-  throw UsageError(concat("this job needs ", least, " of memory, ", format_bytes(memory),
+[[noreturn]] void refuse_memory(std::string_view least, std::uint64_t memory_bytes) {
+  throw UsageError(concat("this job needs ", least, " of memory, ", format_bytes(memory_bytes),
                           " are allowed (--memory); fewer threads (--threads) need less"));
 }
 
 /// Maximum number of faces in memory: a group that is being blended, and one face of the previous
-/// group for each thread that is still finishing it.
+/// group for each thread, because each thread may still be finishing one such face.
 std::uint64_t faces_held(std::uint64_t at_once) {
   return at_once + std::min(at_once, static_cast<std::uint64_t>(thread_count()));
 }
 
-/// Returns how many faces can be blended in one group within the memory.
+/// Returns how many faces can be blended in one group within `memory_bytes`.
 /// \param fixed_bytes  memory that does not depend on the number of faces in a group
-std::size_t faces_at_once(std::uint64_t fixed_bytes, std::uint64_t one_face, std::uint64_t memory) {
+std::size_t faces_at_once(std::uint64_t fixed_bytes, std::uint64_t one_face,
+                          std::uint64_t memory_bytes) {
   const std::uint64_t least = fixed_bytes + faces_held(1) * one_face;
-  if (least > memory) refuse_memory(format_bytes(least), memory);
+  if (least > memory_bytes) refuse_memory(format_bytes(least), memory_bytes);
   std::size_t at_once = kMaxAtOnce;
-  while (fixed_bytes + faces_held(at_once) * one_face > memory) --at_once;
+  while (fixed_bytes + faces_held(at_once) * one_face > memory_bytes) --at_once;
   return at_once;
 }
 
@@ -168,17 +169,18 @@ class FaceGroup {
 
 }  // namespace
 
-void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::uint64_t memory) {
+void refuse_too_little_memory(const Config& config, const Inputs& inputs,
+                              std::uint64_t memory_bytes) {
   const std::uint64_t least = input_bytes(inputs) + render_bytes(config, inputs);
-  if (least > memory) refuse_memory(concat("more than ", format_bytes(least)), memory);
+  if (least > memory_bytes) refuse_memory(concat("more than ", format_bytes(least)), memory_bytes);
 }
 
 FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const FaceBuilder& builder, const FaceTextures& textures,
                        const FaceAttachments& attachments, const FaceShapes& shapes,
-                       const std::vector<FacePlan>& crowd, std::uint64_t memory)
+                       const std::vector<FacePlan>& crowd, std::uint64_t memory_bytes)
     : encoders_(config, inputs, config.output.meshes, crowd,
-                directory_of(config).path_from_mesh_to_shared()),
+                crowd_directory_of(config).path_from_mesh_to_shared()),
       builder_(builder),
       textures_(textures),
       attachments_(attachments),
@@ -187,7 +189,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                               level_bytes(prepared) + encoders_.memory_bytes() +
                               shapes.memory_bytes() + attachments.memory_bytes() +
                               placed_bytes(config, inputs, crowd);
-  std::uint64_t of_thread = encoders_.encode_bytes() + attachments.placed_bytes();
+  std::uint64_t of_thread = encoders_.encoding_memory_bytes() + attachments.placed_bytes();
   // Vertex colours: the face's own colours, and the colours for rendering.
   if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.has_textures()) {
@@ -211,9 +213,9 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   // have the same size.
   fixed_bytes += of_threads + 2 * waiting_bytes_;
   const std::uint64_t one_face = builder.memory_bytes(1);
-  faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory);
+  faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory_bytes);
   // If memory is left, enlarge the queue: a long queue keeps the disk busy while faces are blended.
-  const std::uint64_t room = memory - fixed_bytes - faces_held(faces_per_group_) * one_face;
+  const std::uint64_t room = memory_bytes - fixed_bytes - faces_held(faces_per_group_) * one_face;
   waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
                               std::max(waiting_bytes_, FaceWriter::kMaxWaitingBytes));
 }
@@ -237,18 +239,18 @@ class FaceStages::Output {
     FaceResult result;
     std::vector<ReadyFile> ready;
     {
-      const StageTimer timer(busy_.encode);
+      const StageTimer timer(busy_.encode_seconds);
       for (FaceFile& file : lists_.all_files(face)) {
         EncodedFile bytes = file.make(finished);
         bytes.keep(finished.textures);
-        result.files.push_back({bytes.size(), bytes.digest()});
-        ready.push_back({std::move(file.path), std::move(bytes), result.files.back()});
+        result.file_digests.push_back({bytes.size(), bytes.digest()});
+        ready.push_back({std::move(file.path), std::move(bytes), result.file_digests.back()});
       }
     }
     result.skin_intersections = std::move(finished.skin_intersections);
     if (stages_.check_) {
-      const StageTimer timer(busy_.check);
-      result.skin = stages_.builder_.defects(*stages_.check_, face.recipe, positions);
+      const StageTimer timer(busy_.check_seconds);
+      result.skin_defects = stages_.builder_.defects(*stages_.check_, face.recipe, positions);
     }
     writer_.add({&face, result}, std::move(ready));
     return result;
@@ -284,7 +286,7 @@ void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
       positions.push_back(memory.take());
     }
     {
-      const StageTimer timer(busy.blend);
+      const StageTimer timer(busy.blend_seconds);
       builder_.build(recipes, positions);
     }
     group.begin(
@@ -297,7 +299,7 @@ void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
   }
   for (FaceGroup& group : groups) group.wait();
   writer.finish();
-  busy.write += writer.busy_seconds();
+  busy.write_seconds += writer.busy_seconds();
 }
 
 }  // namespace crowdface

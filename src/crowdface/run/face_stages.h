@@ -23,29 +23,30 @@ namespace crowdface {
 
 /// Rejects a job that cannot fit into memory. For an early check, before heads are prepared and
 /// faces are cast.
-/// \throws UsageError if inputs and renders alone need more than `memory` bytes.
-void refuse_too_little_memory(const Config& config, const Inputs& inputs, std::uint64_t memory);
+/// \throws UsageError if inputs and renders alone need more than `memory_bytes` bytes.
+void refuse_too_little_memory(const Config& config, const Inputs& inputs,
+                              std::uint64_t memory_bytes);
 
 /// Makes faces: blends the faces, checks them for defects, renders them and writes their files.
 class FaceStages {
  public:
   /// The references must outlive this object, except `crowd`.
   /// \param crowd   all faces that may be made
-  /// \param memory  maximum memory of the whole process, in bytes; determines how many faces are
-  ///                blended in one batch
-  /// \throws UsageError if not even one face at a time fits.
+  /// \param memory_bytes  maximum memory of the whole process, in bytes; determines how many faces
+  ///                are blended in one batch
+  /// \throws UsageError if `memory_bytes` is too small for blending one face at a time.
   FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
              const FaceBuilder& builder, const FaceTextures& textures,
              const FaceAttachments& attachments, const FaceShapes& shapes,
-             const std::vector<FacePlan>& crowd, std::uint64_t memory);
+             const std::vector<FacePlan>& crowd, std::uint64_t memory_bytes);
 
   /// Makes faces. All threads cooperate to blend a group of faces; then each thread finishes and
   /// encodes one face at a time. The next group starts when threads have claimed all faces of the
   /// current group. A face is recorded in the ledger when all its files are written.
   /// \param renders  null: nothing is rendered
   /// \param results  one per face, output
-  /// \param busy     receives, added to its present values, the time that threads spend in each
-  ///                 stage
+  /// \param busy     time of each stage, to which this function adds the time that threads spend in
+  /// the stage
   void build(const FaceFileLists& lists, const CrowdRenders* renders, const FaceLedger& ledger,
              std::span<const FacePlan* const> faces, std::span<FaceResult* const> results,
              StageTimes& busy) const;

@@ -21,11 +21,11 @@ std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inpu
   const std::vector<std::uint64_t> levels = trajectory_levels(inputs.max_level);
   const std::vector<HeadLevels> fitted =
       prepared.filter ? std::vector<HeadLevels>() : head_levels(config, prepared);
-  std::vector<Trajectory> trajectories(inputs.faces.heads.size());
+  std::vector<Trajectory> trajectories(inputs.head_set.heads.size());
   for (std::size_t h = 0; h < trajectories.size(); ++h) {
     if (prepared.filter) {
       const NodeFields fields =
-          filter_nodes(*prepared.filter, *prepared.nodes, inputs.faces.heads[h].positions);
+          filter_nodes(*prepared.filter, *prepared.nodes, inputs.head_set.heads[h].positions);
       trajectories[h] = sample_trajectory(*prepared.filter, *prepared.nodes, fields, samples);
       continue;
     }
@@ -51,16 +51,17 @@ std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inpu
 
 SampledHeads heads_at(const Config& config, const Inputs& inputs, const Prepared& prepared,
                       const FaceSamples& samples) {
-  const FaceSamples traced =
-      inputs.mirror == nullptr ? samples : samples_and_mirror_corners(samples, *inputs.mirror);
+  const FaceSamples traced = inputs.mirror_map == nullptr
+                                 ? samples
+                                 : samples_and_mirror_corners(samples, *inputs.mirror_map);
   std::vector<Trajectory> trajectories = trajectories_at(config, inputs, prepared, traced);
-  SampledHeads heads = sample_heads(inputs.faces, inputs.regions, samples, trajectories,
+  SampledHeads heads = sample_heads(inputs.head_set, inputs.regions, samples, trajectories,
                                     inputs.max_level, mm_per(config.faces.units));
   heads.owned_trajectories = std::move(trajectories);
   heads.trajectories = heads.owned_trajectories;
-  if (inputs.mirror != nullptr) {
-    heads.mirror_images =
-        sample_mirror_images(inputs.faces, inputs.regions, *inputs.mirror, samples, traced, heads);
+  if (inputs.mirror_map != nullptr) {
+    heads.mirror_images = sample_mirror_images(inputs.head_set, inputs.regions, *inputs.mirror_map,
+                                               samples, traced, heads);
   }
   return heads;
 }
@@ -99,14 +100,14 @@ HeadLandmarks needed_landmarks(HeadLandmarks landmarks, const std::vector<std::s
 
 FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepared& prepared,
                        const HeadLandmarks& landmarks, std::vector<std::size_t> traits)
-    : traits_(std::move(traits)),
-      landmarks_(needed_landmarks(landmarks, traits_)),
+    : trait_indices_(std::move(traits)),
+      landmarks_(needed_landmarks(landmarks, trait_indices_)),
       builder_(config, inputs, prepared),
       mm_per_unit_(mm_per(config.faces.units)),
-      mirror_(inputs.mirror),
+      mirror_(inputs.mirror_map),
       neck_(inputs.neck),
-      vertex_count_(inputs.faces.topology.vertex_count) {
-  const std::set<std::uint32_t> corners = corners_of(landmarks_, traits_);
+      vertex_count_(inputs.head_set.topology.vertex_count) {
+  const std::set<std::uint32_t> corners = corners_of(landmarks_, trait_indices_);
   std::set<std::uint32_t> all = corners;
   if (neck_ != nullptr) all.insert(neck_->seam.rim.begin(), neck_->seam.rim.end());
   landmark_vertices_.assign(all.begin(), all.end());
@@ -123,7 +124,7 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
     if (!landmarks_.surface_points[l]) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       rows[l].samples[c] = row_of(few, landmarks_.surface_points[l]->corners[c]);
-      rows[l].shares[c] = landmarks_.surface_points[l]->shares[c];
+      rows[l].weights[c] = landmarks_.surface_points[l]->shares[c];
     }
   }
   measurer_.emplace(heads_at(config, inputs, prepared, few), std::move(rows),
@@ -148,7 +149,7 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
     for (const std::uint32_t v : samples_) face.row(v) = turn->apply(row3(face, v)).transpose();
   }
   if (recipe.mirrored) mirror_landmark_vertices(face);
-  if (neck_ != nullptr && neck == Neck::kBent) neck_->seam.fit(face);
+  if (neck_ != nullptr && neck == Neck::kBent) neck_->seam.bend_to_seam(face);
   return landmarks_.landmark_positions(face, mm_per_unit_);
 }
 
@@ -161,9 +162,9 @@ void FaceTraits::mirror_landmark_vertices(Positions& face) const {
       point += mirror_->shares[v][c] * row3(face, mirror_->corners[v][c]);
     }
     point = mirror_->plane.mirrored(point);
-    const auto kept = std::ranges::lower_bound(mirror_->unpaired, v);
-    if (kept != mirror_->unpaired.end() && *kept == v) {
-      point += row3(mirror_->unpaired_offsets, kept - mirror_->unpaired.begin());
+    const auto kept = std::ranges::lower_bound(mirror_->unpaired_vertices, v);
+    if (kept != mirror_->unpaired_vertices.end() && *kept == v) {
+      point += row3(mirror_->unpaired_offsets, kept - mirror_->unpaired_vertices.begin());
     }
     images.row(static_cast<Index>(i)) = point.transpose();
   }
@@ -175,7 +176,8 @@ void FaceTraits::mirror_landmark_vertices(Positions& face) const {
 std::vector<double> FaceTraits::values(const Recipe& recipe) const {
   const Positions points = exact_landmarks(recipe, Neck::kBent);
   std::vector<double> values;
-  for (const std::size_t trait : traits_) values.push_back(measure(measurements()[trait], points));
+  for (const std::size_t trait : trait_indices_)
+    values.push_back(measure(measurements()[trait], points));
   return values;
 }
 

@@ -25,7 +25,7 @@ class FaceTraits {
   FaceTraits& operator=(const FaceTraits&) = delete;
 
   const FaceMeasurer& measurer() const { return *measurer_; }
-  const std::vector<std::size_t>& traits() const { return traits_; }
+  const std::vector<std::size_t>& trait_indices() const { return trait_indices_; }
   /// The values of all traits, equal to the values on the mesh that is written for the recipe.
   std::vector<double> values(const Recipe& recipe) const;
 
@@ -38,7 +38,7 @@ class FaceTraits {
   /// face.
   void mirror_landmark_vertices(Positions& face) const;
 
-  std::vector<std::size_t> traits_;
+  std::vector<std::size_t> trait_indices_;
   HeadLandmarks landmarks_;
   FaceBuilder builder_;
   double mm_per_unit_;

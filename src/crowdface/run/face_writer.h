@@ -23,15 +23,15 @@ struct ReadyFile {
   FileDigest content;  ///< size and hash of `bytes`
 };
 
-/// Writes faces on a separate thread, so that computing threads need not wait for the disk. Faces
-/// that are finished while one batch of faces is written form the next batch. Each batch needs only
-/// one sync to disk and one write to the ledger. A file that already has the right content is not
-/// written again.
+/// Writes faces on a separate thread, so that computing threads need not wait for the disk. While
+/// one batch of faces is written, the faces that computing threads finish collect in the next
+/// batch. Each batch needs only one sync to disk and one write to the ledger. A file that already
+/// has the right content is not written again.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.
-  /// \param waiting_bytes  maximum size of the files that wait to be written; a single face may
-  ///                       exceed it
+  /// \param waiting_bytes  maximum size of the files that wait to be written; only a single face
+  /// may be larger
   /// \param on_recorded    called after each recorded face
   FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes,
              std::function<void()> on_recorded);

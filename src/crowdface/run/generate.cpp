@@ -112,7 +112,7 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
 /// Returns the warnings that depend only on the config and the plan.
 std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd_plan) {
   std::vector<std::string> warnings = near_head_warnings(crowd_plan, job.names.heads);
-  for (std::string& text : overridden_plan(job.config, crowd_plan.crowd)) {
+  for (std::string& text : overridden_plan_warnings(job.config, crowd_plan.crowd)) {
     warnings.push_back(std::move(text));
   }
   return warnings;
@@ -124,7 +124,7 @@ std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd
 /// cast the crowd.
 std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& options,
                                         StageSeconds& stages) {
-  const CrowdDirectory directory = directory_of(job.config);
+  const CrowdDirectory directory = crowd_directory_of(job.config);
   auto planned = read_planned_faces(job, directory, options.shard);
   if (!planned) {
     if (options.plan_source == PlanSource::kFolderOrCasting) return nullptr;
@@ -182,7 +182,7 @@ void log_dry_run(const Config& config, const Inputs* inputs) {
     return;
   }
   const std::uint64_t bytes = faces * estimate_mesh_bytes(*inputs, config.output.meshes);
-  log_info(concat("dry run: ", faces, " faces of ", inputs->faces.topology.vertex_count,
+  log_info(concat("dry run: ", faces, " faces of ", inputs->head_set.topology.vertex_count,
                   " vertices, about ", format_fixed(static_cast<double>(bytes) / 1e6, 1),
                   " MB of meshes, ", config.output.contact_sheet ? faces : 0, " renders into ",
                   config.output.directory.string(), "; nothing was written"));
@@ -196,7 +196,7 @@ enum class Purpose {
 
 /// Maximum memory of the process, in bytes.
 std::uint64_t memory_for(const GenerateOptions& options) {
-  return options.memory > 0 ? options.memory : usable_memory() / 4 * 3;
+  return options.memory_bytes > 0 ? options.memory_bytes : usable_memory_bytes() / 4 * 3;
 }
 
 /// Runs all stages after casting. The folder must already be prepared for this crowd. \return a
@@ -315,7 +315,7 @@ bool may_be_complete(const CrowdDirectory& directory, const Shard& shard) {
 /// Whether this run is certain to make faces. A resumed crowd may already be complete, and a new
 /// crowd can be rejected before anything is written.
 bool makes_faces(const Config& config, const GenerateOptions& options) {
-  const CrowdDirectory directory = directory_of(config);
+  const CrowdDirectory directory = crowd_directory_of(config);
   const bool is_new =
       options.replace == Replace::kForce || !may_be_complete(directory, options.shard);
   return is_new && face_count(config) > 0;
@@ -324,7 +324,7 @@ bool makes_faces(const Config& config, const GenerateOptions& options) {
 /// Casts the crowd and writes all files into its folder. Skips work that an earlier run finished.
 void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
              const LogBuffer& memory, StageSeconds& stages) {
-  const CrowdDirectory directory = directory_of(job.config);
+  const CrowdDirectory directory = crowd_directory_of(job.config);
   check_output(job, options.replace);
   const bool is_new = purpose == Purpose::kGenerate && makes_faces(job.config, options);
   if (is_new) refuse_too_little_memory(job.config, job.inputs, memory_for(options));
@@ -399,7 +399,7 @@ void plan_job(const Job& job, const GenerateOptions& options) {
   check_output(job, options.replace);
   if (options.dry_run) return log_dry_run(job.config, nullptr);
   retry_if_truncated([&] {
-    const CrowdDirectory directory = directory_of(job.config);
+    const CrowdDirectory directory = crowd_directory_of(job.config);
     StageSeconds stages;
     const auto crowd = cast_job(job, options, stages);
     const CrowdLock lock(directory, {});

@@ -23,7 +23,7 @@ struct GenerateOptions {
   bool dry_run = false;                ///< report what would be written, and write nothing
   /// Maximum memory of the process in bytes, which determines how many faces are processed at the
   /// same time. 0: three quarters of the memory of the machine or its control group.
-  std::uint64_t memory = 0;
+  std::uint64_t memory_bytes = 0;
   Shard shard = {};  ///< only this shard's faces are made; sheets and report are left to `gather`
   PlanSource plan_source = PlanSource::kFolderOrCasting;
 };

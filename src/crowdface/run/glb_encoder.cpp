@@ -76,9 +76,9 @@ GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage
   material.alpha = made_of.opacity < 1 ? Alpha::kBlend : Alpha::kOpaque;
   if (!has_colours && made_of.opacity_map.empty()) return material;
   std::optional<Image> colour, holes;
-  if (has_colours) colour = read_image(made_of.colour_map, {.jpeg = true});
+  if (has_colours) colour = read_image(made_of.colour_map, {.allows_jpeg = true});
   const bool own_holes = made_of.opacity_map.empty() || made_of.opacity_map == made_of.colour_map;
-  if (!own_holes) holes = read_image(made_of.opacity_map, {.jpeg = true});
+  if (!own_holes) holes = read_image(made_of.opacity_map, {.allows_jpeg = true});
   const bool has_holes = holes || (colour && colour->alpha_channel >= 0);
   std::optional<GlbImage> image;
   if (!holes) image = supported_image(made_of.colour_map);
@@ -100,7 +100,8 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
   if (inputs.rig.empty()) return influences;
   const Positions& points = item.file.positions;
   const bool is_body = inputs.neck && inputs.neck->is_body(item);
-  const PointGrid grid(is_body ? inputs.mean : inputs.attachments.fitted_to, skin_vertices(inputs));
+  const PointGrid grid(is_body ? inputs.mean_head : inputs.attachments.fitted_to,
+                       skin_vertices(inputs));
   const auto nearest = [&](const Eigen::Vector3d& point) {
     return inputs.rig.skin.influences.items_of(grid.nearest(point).vertex);
   };
@@ -159,7 +160,7 @@ GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& input
           level->topology,
           level->uvs,
           look.materials,
-          select_rows(look.of_face, level->faces),
+          select_rows(look.of_face, level->source_faces),
           look.images,
           select_rows(influences, level->vertices),
           std::move(targets),
@@ -171,7 +172,7 @@ GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& input
 MeshEncoders glb_encoders(const MeshSource& source) {
   const Inputs& inputs = source.inputs;
   std::map<const Attachment*, GlbLook> looks;
-  for (const Attachment* item : source.levels.front().items(inputs.attachments)) {
+  for (const Attachment* item : source.levels.front().attachments_in_files(inputs.attachments)) {
     looks.emplace(item, look_of(*item, has_own_texture(source, *item)));
   }
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {

@@ -26,7 +26,7 @@ namespace {
 /// eye.
 GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
                          const std::optional<Eigen::Array3f>& paint) {
-  const Light colour = paint ? from_srgb(*paint) : albedo_of(kind);
+  const LinearRgb colour = paint ? from_srgb(*paint) : albedo_of(kind);
   const float opacity = kind == SurfaceKind::kHidden ? 0.0F : 1.0F;
   return {name, {colour(0), colour(1), colour(2), opacity}};
 }
@@ -34,7 +34,7 @@ GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
 /// A PNG image of a whole eyeball, seen from the front.
 std::string iris_png() {
   constexpr int kSide = 64;
-  const PlacedEye eye{Eigen::Vector3f::Zero(), 1};
+  const EyeballSphere eye{Eigen::Vector3f::Zero(), 1};
   const Eigen::Vector3f gaze = Eigen::Vector3f::UnitZ();
   const auto at = [](int pixel) { return (2 * static_cast<float>(pixel) + 1) / kSide - 1; };
   Rgb8Image picture(kSide, kSide);
@@ -51,8 +51,8 @@ std::string iris_png() {
 /// eyes of the mean head, and all faces use these coordinates.
 std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& inputs,
                                        const Surfaces& surfaces) {
-  const auto eyes =
-      eye_coordinates(inputs.faces.topology, surfaces, mean_head(inputs.faces), config.faces.front);
+  const auto eyes = eye_coordinates(inputs.head_set.topology, surfaces, mean_head(inputs.head_set),
+                                    config.faces.front);
   if (!eyes) return std::nullopt;
   GlbOverlay overlay{iris_png(), {}};
   for (Index v = 0; v < eyes->rows(); ++v) {
@@ -61,7 +61,7 @@ std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& input
       const float share = std::clamp(((*eyes)(v, c) + 1) / 2, 0.0F, 1.0F);
       place[static_cast<std::size_t>(c)] = static_cast<std::uint16_t>(std::lround(65535 * share));
     }
-    overlay.places.push_back(place);
+    overlay.uvs.push_back(place);
   }
   return overlay;
 }
@@ -73,9 +73,9 @@ std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const 
   std::size_t first = 0;
   const auto of_textures = [&](const HeadTextures& textures) {
     std::vector<std::uint32_t> images;
-    for (const std::uint32_t picture : textures.blended.layout.of_face) {
+    for (const std::uint32_t picture : textures.blended.layout.picture_of_face) {
       const auto image = std::find_if(held.begin(), held.end(), [&](const GlbPicture& one) {
-        return picture != kNoIndex && one.picture == first + picture;
+        return picture != kNoIndex && one.picture_index == first + picture;
       });
       images.push_back(image == held.end() ? kNoIndex
                                            : static_cast<std::uint32_t>(image - held.begin()));
@@ -83,7 +83,8 @@ std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const 
     return images;
   };
   if (kind == TextureKind::kColour) {
-    return inputs.textures.blend() ? of_textures(inputs.textures) : std::vector<std::uint32_t>();
+    return inputs.textures.are_blended() ? of_textures(inputs.textures)
+                                         : std::vector<std::uint32_t>();
   }
   first = inputs.textures.names.size();
   for (const HeadTextures& maps : inputs.maps) {
@@ -117,16 +118,17 @@ void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
                       static_cast<std::uint32_t>(known.size()));
     options.face_materials[f] = row->second;
     if (!is_new) continue;
-    const auto paint = surfaces.paints.empty() ? std::nullopt : surfaces.paints[f];
+    const auto paint = surfaces.face_colours.empty() ? std::nullopt : surfaces.face_colours[f];
     GlbMaterial made = glb_material(inputs.materials.names[material], kind, paint);
-    made.overlay = options.overlay && kind == SurfaceKind::kEye && !paint && picture == kNoIndex;
-    if (picture != kNoIndex || options.colours) made.colour = {1, 1, 1, made.colour[3]};
+    made.uses_overlay =
+        options.overlay && kind == SurfaceKind::kEye && !paint && picture == kNoIndex;
+    if (picture != kNoIndex || options.has_colours) made.colour = {1, 1, 1, made.colour[3]};
     made.image = image(picture);
     made.normal_image = image(at(normals, f));
     made.roughness_image = image(at(roughness, f));
     options.materials.push_back(std::move(made));
   }
-  const auto is_overlaid = [](const GlbMaterial& material) { return material.overlay; };
+  const auto is_overlaid = [](const GlbMaterial& material) { return material.uses_overlay; };
   if (std::none_of(options.materials.begin(), options.materials.end(), is_overlaid)) {
     options.overlay.reset();
   }
@@ -141,7 +143,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   options.up = config.faces.up;
   options.front = config.faces.front;
   options.face_materials = inputs.materials.material_of_face;
-  options.points = inputs.points.names;
+  options.point_names = inputs.points.names;
   options.skin = inputs.rig.skin;
   for (const Shape& shape : inputs.shapes.shapes) {
     options.targets.push_back({shape.name, shape.moves.vertices});
@@ -154,8 +156,8 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
         {held[i].format == TextureFormat::kJpeg ? "image/jpeg" : "image/png", stem.substr(1)});
   }
   const Surfaces surfaces = surfaces_of(config, inputs);
-  options.colours = !inputs.colours.empty();
-  if (!options.colours) options.overlay = painted_eyes(config, inputs, surfaces);
+  options.has_colours = !inputs.colours.empty();
+  if (!options.has_colours) options.overlay = painted_eyes(config, inputs, surfaces);
   add_materials(inputs, held, surfaces, options);
   return options;
 }
@@ -164,16 +166,15 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
                        const MeshLevel& level) {
   GlbOptions options = glb_options(config, inputs, shared);
   if (level.is_whole_mesh()) return options;
-  const DetailLevel& detail = *level.face;
-  options.face_materials = select_rows(options.face_materials, detail.faces);
+  const DetailLevel& detail = *level.face_level;
+  options.face_materials = select_rows(options.face_materials, detail.source_faces);
   for (std::size_t t = 0; t < options.targets.size(); ++t) {
     options.targets[t].vertices = detail.restrict_rows(inputs.shapes.shapes[t].moves).vertices;
   }
-  if (options.overlay)
-    options.overlay->places = select_rows(options.overlay->places, detail.vertices);
+  if (options.overlay) options.overlay->uvs = select_rows(options.overlay->uvs, detail.vertices);
   options.skin.influences = select_rows(options.skin.influences, detail.vertices);
   options.vertex_ids = detail.vertices;
-  options.points.clear();  // only the whole mesh has points
+  options.point_names.clear();  // only the whole mesh has points
   return options;
 }
 

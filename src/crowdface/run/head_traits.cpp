@@ -58,10 +58,10 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
   const HeadAxes axes = head_axes(config);
   const bool has_parts = !inputs.parts.classes.empty();
   const PartList parts = has_parts ? inputs.parts
-                                   : find_parts(inputs.faces.topology, inputs.adjacency,
-                                                inputs.components, inputs.mean, {}, axes);
-  FaceLandmarks found =
-      find_face_landmarks(inputs.faces.topology, inputs.components, parts, inputs.mean, axes);
+                                   : find_parts(inputs.head_set.topology, inputs.adjacency,
+                                                inputs.components, inputs.mean_head, {}, axes);
+  FaceLandmarks found = find_face_landmarks(inputs.head_set.topology, inputs.components, parts,
+                                            inputs.mean_head, axes);
   HeadLandmarks landmarks;
   for (const TraitLandmark& landmark : trait_landmarks()) {
     const auto place = found.points.find(landmark.name);
@@ -73,7 +73,7 @@ HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs) {
                                             ? reason->second
                                             : "no face was found");
   }
-  if (!config.landmarks.empty()) take_from_file(config, inputs.mean, landmarks);
+  if (!config.landmarks.empty()) take_from_file(config, inputs.mean_head, landmarks);
   return landmarks;
 }
 
@@ -85,7 +85,7 @@ std::vector<std::vector<std::optional<double>>> measure_each(const Config& confi
                                                              const Inputs& inputs,
                                                              const HeadLandmarks& landmarks) {
   std::vector<std::vector<std::optional<double>>> heads;
-  for (const Head& head : inputs.faces.heads) {
+  for (const Head& head : inputs.head_set.heads) {
     heads.push_back(measure_mesh(landmarks, head.positions, mm_per(config.faces.units)));
   }
   return heads;
@@ -104,7 +104,7 @@ std::vector<std::vector<double>> named_head_traits(const Config& config, const I
   const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
   require_named_traits(config, landmarks);
   std::vector<std::vector<double>> values;
-  for (const Head& head : inputs.faces.heads) {
+  for (const Head& head : inputs.head_set.heads) {
     const Positions points =
         landmarks.landmark_positions(head.positions, mm_per(config.faces.units));
     std::vector<double>& own = values.emplace_back();

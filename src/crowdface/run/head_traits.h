@@ -16,8 +16,8 @@ namespace crowdface {
 /// The landmarks of a config's heads: points on the common mesh topology of all heads and faces.
 struct HeadLandmarks {
   std::vector<std::optional<SurfacePoint>> surface_points;  ///< #trait_landmarks
-  std::vector<std::string>
-      missing_reasons;  ///< #trait_landmarks: why the landmark has no point; or empty
+  /// #trait_landmarks: why the landmark has no point; empty text if it has one
+  std::vector<std::string> missing_reasons;
 
   /// Returns whether the positions of all landmarks of a measurement are known.
   bool can_measure(const Measurement& measurement) const;
@@ -34,8 +34,8 @@ struct HeadLandmarks {
 ///   landmark has.
 HeadLandmarks find_head_landmarks(const Config& config, const Inputs& inputs);
 
-/// The values of the measurements on a mesh: one for each measurement; empty if the measurement is
-/// unavailable.
+/// The values of all measurements on a mesh, in the order of the measurements; an unavailable value
+/// is empty.
 std::vector<std::optional<double>> measure_mesh(const HeadLandmarks& landmarks,
                                                 const Positions& mesh, double mm_per_unit);
 
@@ -47,7 +47,7 @@ TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
 std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs);
 
 /// Checks that all measurements that the config names are available on these heads. \throws
-/// UsageError if one is not.
+/// UsageError if one of these measurements is not available.
 void require_named_traits(const Config& config, const HeadLandmarks& landmarks);
 
 /// A text table of the measurements of all heads. The table also lists unavailable measurements.

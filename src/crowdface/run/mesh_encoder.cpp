@@ -14,18 +14,18 @@ namespace {
 
 /// The files with the mesh topology, shared by all faces, for formats that store only positions.
 std::optional<SharedFiles> topology_arrays(const Config&, const Inputs& inputs) {
-  const TextureCoordinates& uvs = inputs.faces.uvs;
+  const TextureCoordinates& uvs = inputs.head_set.uvs;
   Hasher key;
   key.add(inputs.topology_digest)
-      .add_array(std::span(inputs.faces.topology.corner_uvs))
+      .add_array(std::span(inputs.head_set.topology.corner_uvs))
       .add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
   std::vector<std::string> shapes;
   for (const Shape& shape : inputs.shapes.shapes) shapes.push_back(shape.name);
   for (const std::string& shape : shapes) key.add(shape);
   return SharedFiles{"topology", key.digest(), false,
                      [&inputs, shapes](const std::filesystem::path& folder) {
-                       return write_topology_arrays(inputs.faces.topology, inputs.faces.uvs, shapes,
-                                                    folder / "topology");
+                       return write_topology_arrays(inputs.head_set.topology, inputs.head_set.uvs,
+                                                    shapes, folder / "topology");
                      }};
 }
 
@@ -56,24 +56,28 @@ constexpr std::uint64_t kVector = 3 * sizeof(float);
 
 constexpr std::array<MeshEncoding, kMeshFormatCount> kEncodings = {{
     {MeshFormat::kObj, obj_encoders,
-     [](const MeshSize& size) { return size.obj_bytes * (1 + size.shapes); }},
+     [](const MeshSize& size) { return size.obj_bytes * (1 + size.shape_count); }},
     {MeshFormat::kPly, ply_encoders,
      [](const MeshSize& size) {
-       return kVector * size.vertices + size.faces + sizeof(std::uint32_t) * size.corners;
+       return kVector * size.vertex_count + size.polygon_count +
+              sizeof(std::uint32_t) * size.corner_count;
      }},
     {MeshFormat::kGlb, glb_encoders,  // positions, normals, texture coordinates, ids; triangles
      [](const MeshSize& size) {
-       return 3 * kVector * size.vertices + kVector * (size.corners - 2 * size.faces) +
-              (kVector + sizeof(std::uint32_t)) * size.displacements;
+       return 3 * kVector * size.vertex_count +
+              kVector * (size.corner_count - 2 * size.polygon_count) +
+              (kVector + sizeof(std::uint32_t)) * size.displacement_count;
      }},
     {MeshFormat::kPoints, npy_encoders,
      [](const MeshSize& size) {
-       return kVector * size.vertices + (kVector + 2 * sizeof(std::uint32_t)) * size.displacements;
+       return kVector * size.vertex_count +
+              (kVector + 2 * sizeof(std::uint32_t)) * size.displacement_count;
      },
      topology_arrays},
     {MeshFormat::kUsd, usd_encoders,  // about ten characters per number, six per index
      [](const MeshSize& size) {
-       return 10 * (6 * size.vertices + 2 * size.uvs) + 12 * size.corners + 36 * size.displacements;
+       return 10 * (6 * size.vertex_count + 2 * size.uv_count) + 12 * size.corner_count +
+              36 * size.displacement_count;
      },
      iris_file},
 }};
@@ -105,34 +109,35 @@ std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
 MeshEncoders ply_encoders(const MeshSource& source) {
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
-    encoders.push_back(
-        make_encoder(std::make_shared<const PlyTemplate>(level.topology(source.inputs)),
-                     [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
-                       const bool with_normals = has_normals(inputs, face.target);
-                       return ply.encode(*face.positions, with_normals ? *face.normals : kNoRows,
-                                         face.display_name, *face.colours);
-                     }));
+    encoders.push_back(make_encoder(
+        std::make_shared<const PlyTemplate>(level.topology(source.inputs)),
+        [&inputs = source.inputs](const PlyTemplate& ply, const FaceMesh& face) {
+          const bool with_normals = has_normals(inputs, face.target);
+          return ply.encode(*face.positions, with_normals ? *face.normals : kNoPositions,
+                            face.display_name, *face.colours);
+        }));
   }
   return encoders;
 }
 
 MeshEncoders npy_encoders(const MeshSource& source) {
   return {{[](const FaceMesh& face) { return encode_npy(*face.positions, face.display_name); }, 0,
-           npy_encode_bytes(source.inputs.faces.topology.vertex_count)}};
+           npy_encode_bytes(source.inputs.head_set.topology.vertex_count)}};
 }
 
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshFormat> formats) {
-  const Topology& topology = inputs.faces.topology;
-  MeshSize size{.vertices = static_cast<std::uint64_t>(topology.vertex_count),
-                .faces = static_cast<std::uint64_t>(topology.face_count()),
-                .corners = static_cast<std::uint64_t>(topology.corner_count()),
-                .uvs = static_cast<std::uint64_t>(inputs.faces.uvs.rows()),
-                .shapes = inputs.shapes.shapes.size()};
+  const Topology& topology = inputs.head_set.topology;
+  MeshSize size{.vertex_count = static_cast<std::uint64_t>(topology.vertex_count),
+                .polygon_count = static_cast<std::uint64_t>(topology.face_count()),
+                .corner_count = static_cast<std::uint64_t>(topology.corner_count()),
+                .uv_count = static_cast<std::uint64_t>(inputs.head_set.uvs.rows()),
+                .shape_count = inputs.shapes.shapes.size()};
   double levels = 1;
   for (const MeasuredLevel& level : inputs.levels) levels += level.level.share;
-  for (const Shape& shape : inputs.shapes.shapes) size.displacements += shape.moves.vertices.size();
-  for (const ObjFile& file : inputs.files) size.obj_bytes += file.file.bytes().size();
-  size.obj_bytes /= inputs.files.size();
+  for (const Shape& shape : inputs.shapes.shapes)
+    size.displacement_count += shape.moves.vertices.size();
+  for (const ObjFile& file : inputs.head_files) size.obj_bytes += file.file.bytes().size();
+  size.obj_bytes /= inputs.head_files.size();
   std::uint64_t bytes = 0;
   for (const MeshFormat format : formats) {
     bytes += kEncodings[static_cast<std::size_t>(format)].estimate(size);

@@ -23,7 +23,7 @@
 
 namespace crowdface {
 
-inline const Positions kNoRows;
+inline const Positions kNoPositions;
 inline const ColourRows kNoColours;
 
 /// The mesh of a face with all data that a file may contain. The mesh is at rest or in a blend
@@ -32,13 +32,14 @@ struct FaceMesh {
   std::string id;            ///< "market_0001", at a level of detail "market_0001_LOD1"
   std::string display_name;  ///< the name of the mesh in messages
   Index target = 0;
-  const Positions* positions = &kNoRows;      ///< #V by 3
-  const Positions* normals = &kNoRows;        ///< #V by 3; no rows if no encoder needs them
-  std::span<const Displacements> moves = {};  ///< one per shape, or none
+  const Positions* positions = &kNoPositions;  ///< #V by 3
+  const Positions* normals = &kNoPositions;    ///< #V by 3; no rows if no encoder needs them
+  std::span<const Displacements> moves = {};   ///< one per shape, or none
   std::span<const PlacedAttachment> placed_attachments = {};  ///< the face's attachments
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
-  const Positions* points = &kNoRows;  ///< points that follow the face; no rows at levels of detail
-  const Positions* joints = &kNoRows;  ///< positions of the rig's joints
+  /// points that follow the face; no rows at levels of detail
+  const Positions* points = &kNoPositions;
+  const Positions* joints = &kNoPositions;  ///< positions of the rig's joints
   /// the content of the image files of the face's own textures; may be empty
   std::span<const std::string_view> images = {};
   std::span<const std::string> image_names = {};  ///< paths of the images, relative to the mesh
@@ -47,7 +48,8 @@ struct FaceMesh {
   std::string colour = {};
 };
 
-/// The data from which encoders are made. They must outlive the encoders and the encoded files.
+/// The data from which encoders are made. These data must outlive the encoders and the encoded
+/// files.
 struct MeshSource {
   const Config& config;
   const Inputs& inputs;
@@ -59,7 +61,7 @@ struct MeshSource {
 };
 /// Whether the mesh file of a head has normals.
 inline bool has_normals(const Inputs& inputs, Index head) {
-  return !inputs.files[static_cast<std::size_t>(head)].corner_normals.empty();
+  return !inputs.head_files[static_cast<std::size_t>(head)].corner_normals.empty();
 }
 
 /// Whether each face gets a separate texture for this attachment. True only for the body, and only
@@ -72,7 +74,7 @@ struct MeshEncoder {
   /// data of `face`. \throws InvalidInput if positions are not finite.
   std::function<EncodedFile(const FaceMesh& face)> encode;
   /// In bytes: memory of the encoder, and maximum memory for encoding one face.
-  std::size_t memory_bytes = 0, encode_bytes = 0;
+  std::size_t memory_bytes = 0, encoding_memory_bytes = 0;
 };
 /// One encoder for each level of detail for which files of the format are written.
 using MeshEncoders = std::vector<MeshEncoder>;
@@ -82,7 +84,7 @@ using MeshEncoders = std::vector<MeshEncoder>;
 template <class Form, class Encode>
 MeshEncoder make_encoder(std::shared_ptr<const Form> form, const Encode& encode) {
   return {[=](const FaceMesh& face) { return encode(*form, face); }, form->memory_bytes(),
-          form->encode_bytes()};
+          form->encoding_memory_bytes()};
 }
 
 /// \throws InvalidInput if the format cannot store the mesh of the source.
@@ -90,9 +92,10 @@ MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source);
 
 /// Additional files of one format, shared by all faces of a crowd.
 struct SharedFiles {
-  std::string item;       ///< name of the ledger's item
-  Digest key;             ///< hash of everything that determines the files
-  bool is_named = false;  ///< whether the faces' mesh files refer to the shared files
+  std::string item;  ///< name of the ledger's item
+  Digest key;        ///< hash of everything that determines the files
+  /// whether the faces' mesh files refer to the shared files
+  bool is_referenced_by_meshes = false;
   /// Writes the shared files below the folder of meshes. \return the paths of the written files.
   std::function<std::vector<std::filesystem::path>(const std::filesystem::path& folder)> write;
 };
@@ -111,10 +114,10 @@ MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
 /// Numbers of elements (vertices, polygons and so on) in a face's files, for estimates of file
 /// sizes.
 struct MeshSize {
-  std::uint64_t vertices = 0, faces = 0, corners = 0, uvs = 0;
-  std::uint64_t displacements = 0;  ///< number of displacements in all shapes
-  std::uint64_t obj_bytes = 0;      ///< size of a head's OBJ file, in bytes
-  std::uint64_t shapes = 0;
+  std::uint64_t vertex_count = 0, polygon_count = 0, corner_count = 0, uv_count = 0;
+  std::uint64_t displacement_count = 0;  ///< number of displacements in all shapes
+  std::uint64_t obj_bytes = 0;           ///< size of a head's OBJ file, in bytes
+  std::uint64_t shape_count = 0;
 };
 /// Approximate total size, in bytes, of a face's files in these formats.
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshFormat> formats);

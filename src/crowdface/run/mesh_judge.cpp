@@ -34,11 +34,13 @@ bool skin_is_judged(const Config& config, const Inputs& inputs) {
   const BelievabilityOptions& believability = config.believability;
   using Meshes = BelievabilityOptions::Meshes;
   return believability.check && believability.meshes != Meshes::kNone &&
-         (believability.meshes != Meshes::kAuto || inputs.faces.topology.face_count() <= kMaxFaces);
+         (believability.meshes != Meshes::kAuto ||
+          inputs.head_set.topology.face_count() <= kMaxFaces);
 }
 
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets) {
-  return {inputs.faces.topology, inputs.skin, inputs.faces.heads, targets, viewing_of(config)};
+  return {inputs.head_set.topology, inputs.skin_components, inputs.head_set.heads, targets,
+          viewing_of(config)};
 }
 
 PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) {
@@ -46,8 +48,8 @@ PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) 
   std::set<std::uint32_t> seen;  // components with at least one polygon that renders show
   for (std::size_t f = 0; f < kinds.size(); ++f) {
     if (kinds[f] == SurfaceKind::kHidden) continue;
-    seen.insert(
-        inputs.skin.component_of_vertex[inputs.faces.topology.face(static_cast<Index>(f))[0]]);
+    seen.insert(inputs.skin_components
+                    .component_of_vertex[inputs.head_set.topology.face(static_cast<Index>(f))[0]]);
   }
   std::vector<std::uint32_t> components;
   for (const Part& part : inputs.parts.parts) {
@@ -55,7 +57,7 @@ PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) 
     std::ranges::copy_if(part.components, std::back_inserter(components),
                          [&](std::uint32_t of) { return kinds.empty() || seen.contains(of); });
   }
-  return {inputs.faces.topology, inputs.skin, components, mean_head(inputs.faces),
+  return {inputs.head_set.topology, inputs.skin_components, components, mean_head(inputs.head_set),
           viewing_of(config)};
 }
 
@@ -67,7 +69,8 @@ bool candidates_are_built(const Config& config) {
 FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
                              const FaceBuilder& builder) {
   std::set<Index> targets;
-  for (std::size_t h = 0; h < inputs.faces.heads.size(); ++h) targets.insert(static_cast<Index>(h));
+  for (std::size_t h = 0; h < inputs.head_set.heads.size(); ++h)
+    targets.insert(static_cast<Index>(h));
   const auto check = std::make_shared<SkinCheck>(skin_check(config, inputs, targets));
   return [&builder, check](const Recipe& recipe) {
     return builder.defects(*check, recipe, builder.build(recipe));
@@ -76,11 +79,11 @@ FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
 
 std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
                                        const std::vector<FacePlan>& crowd,
-                                       const std::vector<FaceResult>& files) {
+                                       const std::vector<FaceResult>& results) {
   std::vector<std::string> beyond;
   for (std::size_t i = 0; i < crowd.size(); ++i) {
-    if (!files[i].skin) continue;
-    if (exceeded_limit(limits, *files[i].skin)) beyond.push_back(crowd[i].id);
+    if (!results[i].skin_defects) continue;
+    if (exceeded_limit(limits, *results[i].skin_defects)) beyond.push_back(crowd[i].id);
   }
   if (beyond.empty()) return {};
   constexpr std::size_t kNamed = 8;

@@ -33,9 +33,9 @@ FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
                              const FaceBuilder& builder);
 
 /// Warns about faces whose whole mesh exceeds a limit of believability that the sampled vertices do
-/// not exceed. \return the warning.
+/// not exceed. \return one warning that names the faces; empty if there is no such face.
 std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
                                        const std::vector<FacePlan>& crowd,
-                                       const std::vector<FaceResult>& files);
+                                       const std::vector<FaceResult>& results);
 
 }  // namespace crowdface

@@ -28,7 +28,7 @@ std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const Measu
 
 }  // namespace
 
-std::vector<const Attachment*> MeshLevel::items(const AttachmentSet& set) const {
+std::vector<const Attachment*> MeshLevel::attachments_in_files(const AttachmentSet& set) const {
   std::vector<const Attachment*> items;
   for (const Attachment& item : set.items) {
     if (is_whole_mesh() || find(item) != nullptr) items.push_back(&item);
@@ -66,8 +66,8 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   for (MeshLevel& level : levels) level.body = body;
   if (inputs.levels.empty()) return levels;
   for (std::size_t l = 1; l < levels.size(); ++l) {
-    levels[l].number = l;
-    levels[l].face = &inputs.levels[l - 1].level;
+    levels[l].level_number = l;
+    levels[l].face_level = &inputs.levels[l - 1].level;
   }
   std::set<std::string> names;
   for (const FacePlan& face : crowd) names.insert(face.attachments.begin(), face.attachments.end());

@@ -22,23 +22,23 @@ namespace crowdface {
 /// one level of detail. A level of detail keeps the same fraction of triangles in attachments as in
 /// faces, but at least 300 triangles, so that small attachments stay whole.
 struct MeshLevel {
-  std::size_t number = 0;             ///< 0: the whole mesh
-  const DetailLevel* face = nullptr;  ///< null: the whole mesh
+  std::size_t level_number = 0;             ///< 0: the whole mesh
+  const DetailLevel* face_level = nullptr;  ///< null: the whole mesh
   /// the reduced form of each attachment that any face wears, and of the body; empty for the whole
   /// mesh
   std::map<const Attachment*, DetailLevel> attachments;
   const Attachment* body = nullptr;  ///< the body in the files; null: none
 
-  bool is_whole_mesh() const { return face == nullptr; }
+  bool is_whole_mesh() const { return face_level == nullptr; }
   const Topology& topology(const Inputs& inputs) const {
-    return is_whole_mesh() ? inputs.faces.topology : face->topology;
+    return is_whole_mesh() ? inputs.head_set.topology : face_level->topology;
   }
   const TextureCoordinates& uvs(const Inputs& inputs) const {
-    return is_whole_mesh() ? inputs.faces.uvs : face->uvs;
+    return is_whole_mesh() ? inputs.head_set.uvs : face_level->uvs;
   }
   /// Returns the attachments that files at this level may contain, and the body. Reduced levels
   /// contain only attachments that some face wears.
-  std::vector<const Attachment*> items(const AttachmentSet& set) const;
+  std::vector<const Attachment*> attachments_in_files(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
   /// A face's attachments, reduced to this level.
@@ -56,18 +56,18 @@ inline std::string level_suffix(std::size_t level, std::string_view before) {
 /// \param rows  index into `whole` for each polygon or vertex of the level
 template <class T>
 std::vector<T> select_rows(const std::vector<T>& whole, std::span<const std::uint32_t> rows) {
-  std::vector<T> some;
-  for (const std::uint32_t row : rows) some.push_back(whole[row]);
-  return some;
+  std::vector<T> selected;
+  for (const std::uint32_t row : rows) selected.push_back(whole[row]);
+  return selected;
 }
 /// Selects rows of `whole`; each row holds several values. Returns an empty result if `whole` is
 /// empty.
 template <class T>
 CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
-  CompressedRows<T> some;
-  if (whole.group_count() == 0) return some;
-  for (const std::uint32_t row : rows) some.add_group(whole.items_of(row));
-  return some;
+  CompressedRows<T> selected;
+  if (whole.group_count() == 0) return selected;
+  for (const std::uint32_t row : rows) selected.add_group(whole.items_of(row));
+  return selected;
 }
 
 /// Returns the whole mesh, then the mesh at each level of detail of the inputs.

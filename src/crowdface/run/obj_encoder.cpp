@@ -24,8 +24,8 @@ std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
                                            const DetailLevel& level) {
   const FaceMaterials materials = face_materials(file.materials, faces);
   std::vector<MaterialRange> ranges;
-  for (std::size_t t = 0; t < level.faces.size(); ++t) {
-    const std::string& name = materials.names[materials.material_of_face[level.faces[t]]];
+  for (std::size_t t = 0; t < level.source_faces.size(); ++t) {
+    const std::string& name = materials.names[materials.material_of_face[level.source_faces[t]]];
     if (name.empty() || (!ranges.empty() && ranges.back().name == name)) continue;
     ranges.push_back({name, static_cast<Index>(t)});
   }
@@ -55,17 +55,17 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   std::size_t memory = 0, encode = 0;
   for (const auto& each : forms) {
     memory += form_of(each).memory_bytes();
-    encode = std::max(encode, form_of(each).encode_bytes());
+    encode = std::max(encode, form_of(each).encoding_memory_bytes());
   }
   return {memory, encode};
 }
 
 /// For each target head whose own `mtllib` line does not name the material files that this run
-/// writes: the line that replaces it.
+/// writes: a new `mtllib` line that does.
 std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.targets) {
-    const ObjFile& file = source.inputs.files[static_cast<std::size_t>(target)];
+    const ObjFile& file = source.inputs.head_files[static_cast<std::size_t>(target)];
     if (file.material_libraries.empty()) continue;
     const MaterialFiles found = find_material_files(file.material_path(), file.material_libraries);
     if (source.shared.empty() && !found.has_renamed_library) continue;
@@ -80,7 +80,7 @@ std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
 std::map<Index, std::string> material_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.targets) {
-    const ObjFile& file = source.inputs.files[static_cast<std::size_t>(target)];
+    const ObjFile& file = source.inputs.head_files[static_cast<std::size_t>(target)];
     if (file.material_libraries.empty()) continue;
     if (!file.materials.empty() && file.materials.front().first_face == 0) continue;
     const std::string material =
@@ -100,8 +100,8 @@ MeshEncoder whole_encoder(const MeshSource& source) {
     fixed = {source.inputs.neck->seam.rim, source.inputs.neck->seam.normals};
   }
   parallel_for_each(targets.size(), [&](std::size_t t) {
-    made[t].emplace(source.inputs.files[static_cast<std::size_t>(targets[t])],
-                    source.inputs.faces.topology, !source.inputs.colours.empty(), fixed);
+    made[t].emplace(source.inputs.head_files[static_cast<std::size_t>(targets[t])],
+                    source.inputs.head_set.topology, !source.inputs.colours.empty(), fixed);
   });
   const auto forms = std::make_shared<std::map<Index, ObjTemplate>>();
   for (std::size_t t = 0; t < targets.size(); ++t) forms->emplace(targets[t], std::move(*made[t]));
@@ -124,8 +124,9 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   const auto forms = std::make_shared<Forms>();
   std::vector<std::vector<MaterialRange>> known;
   for (const Index target : source.targets) {
-    const std::vector<MaterialRange> ranges = material_ranges(
-        inputs.files[static_cast<std::size_t>(target)], inputs.faces.topology.face_count(), level);
+    const std::vector<MaterialRange> ranges =
+        material_ranges(inputs.head_files[static_cast<std::size_t>(target)],
+                        inputs.head_set.topology.face_count(), level);
     const auto same = std::find_if(known.begin(), known.end(), [&](const auto& others) {
       return std::equal(others.begin(), others.end(), ranges.begin(), ranges.end(), is_same);
     });
@@ -139,7 +140,7 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   return {[forms, &inputs](const FaceMesh& face) {
             std::string head;
             for (const std::string& library :
-                 inputs.files[static_cast<std::size_t>(face.target)].material_libraries) {
+                 inputs.head_files[static_cast<std::size_t>(face.target)].material_libraries) {
               head += concat("mtllib ", library, '\n');
             }
             EncodedFile plain = forms->obj[forms->of_target.at(face.target)].encode(
@@ -159,7 +160,7 @@ MeshEncoders obj_encoders(const MeshSource& source) {
   const std::map<Index, std::string> materials = material_lines(source);
   for (const MeshLevel& level : source.levels) {
     MeshEncoder encoder =
-        level.is_whole_mesh() ? whole_encoder(source) : level_encoder(source, *level.face);
+        level.is_whole_mesh() ? whole_encoder(source) : level_encoder(source, *level.face_level);
     encoder.encode = [encode = std::move(encoder.encode), others, materials](const FaceMesh& face) {
       EncodedFile file = encode(face);
       const auto other = others.find(face.target);

@@ -78,7 +78,7 @@ void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) 
 }
 
 void check_output(const Job& job, Replace replace) {
-  const CrowdDirectory directory = directory_of(job.config);
+  const CrowdDirectory directory = crowd_directory_of(job.config);
   refuse_to_write_over_inputs(job.config, directory);
   refuse_to_write_over_config(job.config, directory);
   check_crowd_directory(directory, crowd_config(job.config, directory), replace);
@@ -86,7 +86,7 @@ void check_output(const Job& job, Replace replace) {
 }
 
 void open_output(const Job& job, Replace replace) {
-  const CrowdDirectory directory = directory_of(job.config);
+  const CrowdDirectory directory = crowd_directory_of(job.config);
   refuse_other_heads(job.settings, directory, replace);
   open_crowd_directory(directory, crowd_config(job.config, directory), replace);
 }

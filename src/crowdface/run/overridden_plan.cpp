@@ -132,7 +132,7 @@ class OverriddenPlan {
     const HairColour colour = *hair_colour_named(name);
     const auto has_it = [&](const FacePlan* face) { return is_shade_of(*face->hair, colour); };
     const auto is_grey = [&](const FacePlan* face) {
-      return has_it(face) && face->hair->grey > 0.5 && colour.grey == 0;
+      return has_it(face) && face->hair->grey_fraction > 0.5 && colour.grey_fraction == 0;
     };
     constexpr double kRounding = 1e-9;
     const double asked = std::floor(share * static_cast<double>(faces.size()) + kRounding);
@@ -199,7 +199,8 @@ class OverriddenPlan {
 
 }  // namespace
 
-std::vector<std::string> overridden_plan(const Config& config, const std::vector<FacePlan>& crowd) {
+std::vector<std::string> overridden_plan_warnings(const Config& config,
+                                                  const std::vector<FacePlan>& crowd) {
   return OverriddenPlan(config, crowd).find();
 }
 

@@ -12,6 +12,7 @@ namespace crowdface {
 /// Returns warnings about config keys that a cast crowd does not follow because other keys take
 /// precedence: quotas of attachments, tags of attachments, groups, and `changes`. Each warning
 /// gives the number of faces to which it applies.
-std::vector<std::string> overridden_plan(const Config& config, const std::vector<FacePlan>& crowd);
+std::vector<std::string> overridden_plan_warnings(const Config& config,
+                                                  const std::vector<FacePlan>& crowd);
 
 }  // namespace crowdface

@@ -36,7 +36,7 @@ std::string file_name(const std::string& id, const PictureName& picture, Texture
 std::string encode_exr_of(const BlendedPicture& picture) {
   std::vector<float> pixels;
   if (picture.values16.empty()) {
-    const std::array<float, 256>& light = light_of_srgb8();
+    const std::array<float, 256>& light = linear_of_srgb8();
     for (const std::uint8_t value : picture.srgb) pixels.push_back(light[value]);
   } else {
     for (const std::uint16_t word : picture.values16) {
@@ -79,12 +79,13 @@ std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) 
 /// Maps each material name of a head to the index of the material's image in a texture layout.
 std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
                                                          const TextureLayout& layout, Index head) {
-  const FaceMaterials materials = face_materials(
-      inputs.files[static_cast<std::size_t>(head)].materials, inputs.faces.topology.face_count());
+  const FaceMaterials materials =
+      face_materials(inputs.head_files[static_cast<std::size_t>(head)].materials,
+                     inputs.head_set.topology.face_count());
   std::map<std::string, std::size_t> pictures;
-  for (std::size_t f = 0; f < layout.of_face.size(); ++f) {
-    if (layout.of_face[f] == kNoIndex) continue;
-    pictures.try_emplace(materials.names[materials.material_of_face[f]], layout.of_face[f]);
+  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
+    if (layout.picture_of_face[f] == kNoIndex) continue;
+    pictures.try_emplace(materials.names[materials.material_of_face[f]], layout.picture_of_face[f]);
   }
   return pictures;
 }
@@ -96,7 +97,7 @@ std::vector<TextureFormat> formats_of(const Config& config, const PictureName& p
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =
       picture.kind == TextureKind::kDisplacement || picture.kind == TextureKind::kBump;
-  if (is_height && picture.holds_floats) return {TextureFormat::kExr};
+  if (is_height && picture.has_floats) return {TextureFormat::kExr};
   std::vector<TextureFormat> formats;
   for (TextureFormat format : config.textures.formats) {
     if (format == TextureFormat::kJpeg) format = TextureFormat::kPng;
@@ -147,7 +148,7 @@ std::vector<std::string> own_texture_names(const Config& config, const Inputs& i
   std::vector<std::string> names;
   const std::vector<PictureName> pictures = face_picture_names(inputs);
   for (const GlbPicture& held : glb_pictures(config, inputs)) {
-    const PictureName& picture = pictures[held.picture];
+    const PictureName& picture = pictures[held.picture_index];
     names.push_back("./" + file_name(id, picture, formats_of(config, picture).front()));
   }
   return names;
@@ -159,14 +160,14 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
   for (const FacePlan& face : crowd) {
     const Index target = face.recipe.target;
     if (materials_of_target_.contains(target)) continue;
-    const ObjFile& file = inputs.files[static_cast<std::size_t>(target)];
+    const ObjFile& file = inputs.head_files[static_cast<std::size_t>(target)];
     Materials materials{MergedMaterials(file.material_path(), file.material_libraries, shared), {}};
     std::size_t first = 0;
     const auto add = [&](const HeadTextures& textures) {
-      if (!textures.blend()) return;
-      auto& of_kind = materials.pictures[textures.names.front().kind];
+      if (!textures.are_blended()) return;
+      auto& of_kind = materials.picture_indices[textures.names.front().kind];
       of_kind = pictures_of_materials(inputs, textures.blended.layout, target);
-      for (auto& [material, picture] : of_kind) picture += first;
+      for (auto& [material, picture_index] : of_kind) picture_index += first;
       first += textures.names.size();
     };
     add(inputs.textures);
@@ -175,21 +176,21 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
   }
 }
 
-std::vector<std::string> OwnTextures::encode(std::size_t number,
+std::vector<std::string> OwnTextures::encode(std::size_t picture_index,
                                              const BlendedPicture& picture) const {
   std::vector<std::string> encoded;
-  for (const TextureFormat format : formats_of(config_, pictures_[number])) {
-    encoded.push_back(encode_picture(picture, pictures_[number], format));
+  for (const TextureFormat format : formats_of(config_, pictures_[picture_index])) {
+    encoded.push_back(encode_picture(picture, pictures_[picture_index], format));
   }
   return encoded;
 }
 
 std::vector<std::string_view> OwnTextures::glb_images(const Encoded& encoded) const {
   std::vector<std::string_view> held;
-  for (const auto& [picture, format] : glb_pictures(config_, inputs_)) {
-    const std::vector<TextureFormat> formats = formats_of(config_, pictures_[picture]);
+  for (const auto& [picture_index, format] : glb_pictures(config_, inputs_)) {
+    const std::vector<TextureFormat> formats = formats_of(config_, pictures_[picture_index]);
     const auto at = std::find(formats.begin(), formats.end(), format) - formats.begin();
-    held.emplace_back(encoded[picture][static_cast<std::size_t>(at)]);
+    held.emplace_back(encoded[picture_index][static_cast<std::size_t>(at)]);
   }
   return held;
 }
@@ -197,8 +198,8 @@ std::vector<std::string_view> OwnTextures::glb_images(const Encoded& encoded) co
 EncodedFile OwnTextures::material_file(const FacePlan& face) const {
   const Materials& materials = materials_of_target_.at(face.recipe.target);
   MergedMaterials::Replacements textures;
-  for (const auto& [kind, pictures] : materials.pictures) {
-    for (const auto& [material, index] : pictures) {
+  for (const auto& [kind, picture_indices] : materials.picture_indices) {
+    for (const auto& [material, index] : picture_indices) {
       const PictureName& picture = pictures_[index];
       textures[kind][material] = file_name(face.id, picture, picture.tile == 0 ? "" : kTileWord,
                                            formats_of(config_, picture).front());
@@ -207,7 +208,7 @@ EncodedFile OwnTextures::material_file(const FacePlan& face) const {
   return {materials.file.text(textures)};
 }
 
-std::uint64_t OwnTextures::encode_bytes() const {
+std::uint64_t OwnTextures::encoding_memory_bytes() const {
   std::uint64_t bytes = 0, largest = 0;
   std::size_t picture = 0;
   const auto add = [&](const HeadTextures& textures) {

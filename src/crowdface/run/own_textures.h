@@ -19,8 +19,8 @@ namespace crowdface {
 
 /// A texture file of one face.
 struct OwnTextureFile {
-  std::string name;                     ///< path relative to the folder of the face's meshes
-  std::size_t picture = 0, format = 0;  ///< indices into OwnTextures::Encoded
+  std::string name;  ///< path relative to the folder of the face's meshes
+  std::size_t picture_index = 0, format_index = 0;  ///< indices into OwnTextures::Encoded
 };
 /// The texture files that belong to the face with this id alone; empty if faces have no textures of
 /// their own.
@@ -29,7 +29,7 @@ std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs
 
 /// An image in a GLB file. GLB supports no EXR, and only colour, normal and roughness maps.
 struct GlbPicture {
-  std::size_t picture = 0;  ///< index into face_picture_names
+  std::size_t picture_index = 0;  ///< index into face_picture_names
   TextureFormat format = TextureFormat::kPng;
 };
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
@@ -56,9 +56,9 @@ class OwnTextures {
   /// encoded file.
   using Encoded = std::vector<std::vector<std::string>>;
 
-  /// Encodes an image in each of its formats. Thread-safe. \param number  index into
+  /// Encodes an image in each of its formats. Thread-safe. \param picture_index  index into
   /// face_picture_names
-  std::vector<std::string> encode(std::size_t number, const BlendedPicture& picture) const;
+  std::vector<std::string> encode(std::size_t picture_index, const BlendedPicture& picture) const;
   /// The images that a GLB file contains (see glb_pictures).
   std::vector<std::string_view> glb_images(const Encoded& encoded) const;
   /// The material file of the target head, with the face's textures in place of the head's
@@ -67,14 +67,14 @@ class OwnTextures {
 
   /// In bytes, approximately: the memory of all encoded images of one face plus the memory for
   /// encoding the largest image.
-  std::uint64_t encode_bytes() const;
+  std::uint64_t encoding_memory_bytes() const;
 
  private:
   /// The materials of a target head. Also, for each texture kind and material name, the image
   /// (index into face_picture_names).
   struct Materials {
     MergedMaterials file;
-    std::map<TextureKind, std::map<std::string, std::size_t>> pictures;
+    std::map<TextureKind, std::map<std::string, std::size_t>> picture_indices;
   };
 
   const Config& config_;

@@ -24,9 +24,9 @@ double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScal
     case SmoothnessDistribution::Unit::kFraction:
       return static_cast<double>(iterations_of(value, scale));
     case SmoothnessDistribution::Unit::kSize:
-      return value > 0
-                 ? static_cast<double>(iterations_of_size(scale.kind, value, scale.edge_length_mm))
-                 : 0;
+      return value > 0 ? static_cast<double>(iterations_for_wavelength(scale.operator_kind, value,
+                                                                       scale.edge_length_mm))
+                       : 0;
     case SmoothnessDistribution::Unit::kIterations:
       break;
   }
@@ -86,7 +86,7 @@ std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Conf
                                      const Inputs& inputs) {
   std::vector<std::string> warnings;
   const LevelScale scale = level_scale(config, inputs);
-  const double finest = size_of_iterations(scale.kind, 1, scale.edge_length_mm);
+  const double finest = wavelength_of_iterations(scale.operator_kind, 1, scale.edge_length_mm);
   for (std::size_t b = 1; b < sampling.bands.size(); ++b) {
     double most = 0;
     for (std::size_t k = 0; k < sampling.regions.size(); ++k) {
@@ -155,7 +155,7 @@ void continue_crowd(Config& config, bool replaced) {
       config_differences(before, effective_config(continued, directory.root)).empty();
   if (is_same) {
     config = std::move(continued);
-    if (!replaced) config.crowd.existing_count = number_in_config(before, "crowd.count");
+    if (!replaced) config.crowd.existing_face_count = number_in_config(before, "crowd.count");
   }
   if (config.output.faces_per_folder) return;
   if (is_same) {
@@ -221,7 +221,7 @@ void check_reviews(const Config& config, Problems& problems) {
   const Config::Reviews& reviews = config.review;
   const auto kept = CrowdDirectory{config.output.directory}.kept_reviews();
   for (std::size_t i = kept.size(); i < reviews.reviews.size(); ++i) {
-    const std::uint64_t after = reviews.reviews[i].seen_reviews.value_or(0);
+    const std::uint64_t after = reviews.reviews[i].seen_review_count.value_or(0);
     if (after <= i) continue;
     problems.add(ExitCode::kUsage, concat(reviews.files[i].string(), ": after: expected at most ",
                                           i, ", the number of earlier reviews, found ", after));
@@ -289,13 +289,13 @@ Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& ov
 std::uint64_t face_count(const Config& config) {
   std::uint64_t faces = config.crowd.count + config.recipes.size();
   for (const FamilyOptions& family : config.families) {
-    faces += static_cast<std::uint64_t>(family.members);
+    faces += static_cast<std::uint64_t>(family.member_count);
     for (const Parent& parent : family.parents) faces += parent.is_new ? 1U : 0U;
   }
   return faces;
 }
 
-CrowdDirectory directory_of(const Config& config) {
+CrowdDirectory crowd_directory_of(const Config& config) {
   return {config.output.directory, config.output.faces_per_folder.value_or(0)};
 }
 

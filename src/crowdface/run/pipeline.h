@@ -42,7 +42,7 @@ Job load_job(const Config& config, const CacheFolder& cache = {},
 std::uint64_t face_count(const Config& config);
 
 /// The paths in the output folder of the config.
-CrowdDirectory directory_of(const Config& config);
+CrowdDirectory crowd_directory_of(const Config& config);
 
 /// The text of config.yaml in the crowd's folder. This config names the copies of the reviews in
 /// the folder.

@@ -74,7 +74,8 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPiec
 
 TableFacts table_facts(const Config& config) {
   TableFacts facts{config.faces.tags, {}};
-  for (const Config::Attachment& item : config.attachments.items) facts.kinds.push_back(item.kind);
+  for (const Config::Attachment& item : config.attachments.items)
+    facts.attachment_kinds.push_back(item.kind);
   return facts;
 }
 
@@ -134,7 +135,7 @@ std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& direct
 CrowdPlan restore_crowd_plan(const Job& job, const CrowdDirectory& directory,
                              const Prepared& prepared, std::vector<FacePlan> crowd,
                              const std::filesystem::path& cache) {
-  const FaceSpace space = casting_space(job.config, job.inputs, prepared, cache).space;
+  const FaceSpace space = casting_space(job.config, job.inputs, prepared, cache).face_space;
   const CastingOptions casting = casting_options(job.config, job.inputs, space.head_distances());
   CrowdPlan crowd_plan;
   crowd_plan.anchors = casting.anchors;

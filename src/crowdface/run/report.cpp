@@ -48,8 +48,8 @@ Json heads_to_json(const Job& job, const CrowdPlan& crowd_plan) {
 
 Json topology_to_json(const Inputs& inputs) {
   const auto& boundary = inputs.adjacency.boundary;
-  return {{"vertices", inputs.faces.topology.vertex_count},
-          {"faces", inputs.faces.topology.face_count()},
+  return {{"vertices", inputs.head_set.topology.vertex_count},
+          {"faces", inputs.head_set.topology.face_count()},
           {"components", inputs.components.count()},
           {"boundary_vertices", std::count(boundary.begin(), boundary.end(), true)},
           {"digest", inputs.topology_digest.hex()}};
@@ -75,7 +75,8 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
 /// faces.
 Json bands_to_json(const Job& job, const std::vector<FacePlan>& crowd) {
   const auto size = [&](std::uint64_t level) {
-    return rounded(size_of_iterations(job.smoothing.kind(), level, job.inputs.edge_length_mm));
+    return rounded(
+        wavelength_of_iterations(job.smoothing.kind(), level, job.inputs.edge_length_mm));
   };
   Json bands = Json::array();
   for (std::size_t b = 0; b < job.names.bands.size(); ++b) {
@@ -111,10 +112,10 @@ Json smoothing_to_json(const Job& job, const Prepared& prepared, const CrowdPlan
   const Inputs& inputs = job.inputs;
   Json smoothing = {
       {"max_iterations", inputs.max_level},
-      {"max_size_mm",
-       rounded(size_of_iterations(job.smoothing.kind(), inputs.max_level, inputs.edge_length_mm))},
+      {"max_size_mm", rounded(wavelength_of_iterations(job.smoothing.kind(), inputs.max_level,
+                                                       inputs.edge_length_mm))},
       {"edge_length_mm", inputs.edge_length_mm}};
-  if (job.config.smoothing.levels == Levels::kBasis) {
+  if (job.config.smoothing.levels == LevelRepresentation::kBasis) {
     smoothing["basis"] = levels_to_json(job, prepared);
   }
   if (!job.names.bands.empty() && !crowd_plan.crowd.empty()) {
@@ -137,15 +138,18 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   Json face = {{"id", id}};
   for (std::size_t f = 0; f < files.size(); ++f) {
     const FaceFile& file = files[f];
-    if (file.key.empty()) continue;
-    (file.section.empty() ? face : face[file.section])[file.key] = result.files[f].digest.hex();
+    if (file.report_key.empty()) continue;
+    (file.report_section.empty() ? face : face[file.report_section])[file.report_key] =
+        result.file_digests[f].digest.hex();
   }
-  if (result.skin) {
-    const SkinDefects& skin = *result.skin;
-    face["skin"] = {
-        {"triangles", skin.local.compared},        {"flipped", skin.local.flipped},
-        {"stretch", rounded(skin.local.stretch)},  {"intersecting", skin.intersecting},
-        {"wider_mm", rounded(skin.gap_excess_mm)}, {"exposed_mm2", rounded(skin.exposed_mm2)}};
+  if (result.skin_defects) {
+    const SkinDefects& skin = *result.skin_defects;
+    face["skin"] = {{"triangles", skin.local.compared_count},
+                    {"flipped", skin.local.flipped_count},
+                    {"stretch", rounded(skin.local.stretch_factor)},
+                    {"intersecting", skin.intersecting_count},
+                    {"wider_mm", rounded(skin.gap_excess_mm)},
+                    {"exposed_mm2", rounded(skin.exposed_back_mm2)}};
   }
   if (neck_colour != nullptr) {
     const Eigen::Array3d& light = *neck_colour;
@@ -195,7 +199,7 @@ Json neck_to_json(const Job& job) {
                      {"bent_mm", rounded(head.max_bend_mm)}});
   }
   return {{"ring_vertices", neck.seam.rim.size()},
-          {"bent_vertices", neck.seam.neck.vertices().size()},
+          {"bent_vertices", neck.seam.neck_bend.vertices().size()},
           {"heads", std::move(heads)}};
 }
 
@@ -218,7 +222,7 @@ Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_pl
   report["heads"] = heads_to_json(job, crowd_plan);
   if (job.inputs.neck) report["neck"] = neck_to_json(job);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
-                     {"uncovered_vertices", job.inputs.regions.uncovered_vertices}};
+                     {"uncovered_vertices", job.inputs.regions.uncovered_vertex_count}};
   for (const auto& [name, digest] : other_input_digests(job.inputs)) {
     report["inputs"][name] = digest.hex();
   }
@@ -293,11 +297,11 @@ std::string format_timings(const StageSeconds& stages, const StageTimes& busy, s
     total += seconds;
   }
   timings["seconds"]["total"] = rounded(total);
-  const std::pair<const char*, double> parts[] = {{"blend", busy.blend},
-                                                  {"encode", busy.encode},
-                                                  {"write", busy.write},
-                                                  {"render", busy.render},
-                                                  {"check", busy.check}};
+  const std::pair<const char*, double> parts[] = {{"blend", busy.blend_seconds},
+                                                  {"encode", busy.encode_seconds},
+                                                  {"write", busy.write_seconds},
+                                                  {"render", busy.render_seconds},
+                                                  {"check", busy.check_seconds}};
   const auto* slowest = std::max_element(std::begin(parts), std::end(parts),
                                          [](auto& a, auto& b) { return a.second < b.second; });
   for (const auto& [part, seconds] : parts) timings["busy_seconds"][part] = rounded(seconds);

@@ -44,22 +44,23 @@ using StageSeconds = std::vector<std::pair<std::string, double>>;
 /// Time that threads spent on each stage of making faces, in seconds. The sum exceeds the elapsed
 /// time, because stages overlap and several threads work.
 struct StageTimes {
-  std::atomic<double> blend = 0, encode = 0, write = 0, render = 0, check = 0;
+  std::atomic<double> blend_seconds = 0, encode_seconds = 0, write_seconds = 0, render_seconds = 0,
+                      check_seconds = 0;
 };
 
 /// Measures its own lifetime and adds this duration to the time of a stage.
 class StageTimer {
  public:
-  explicit StageTimer(std::atomic<double>& stage) : stage_(stage) {}
+  explicit StageTimer(std::atomic<double>& stage_seconds) : stage_seconds_(stage_seconds) {}
   ~StageTimer() {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
-    stage_ += took.count();
+    stage_seconds_ += took.count();
   }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
-  std::atomic<double>& stage_;
+  std::atomic<double>& stage_seconds_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -78,7 +78,7 @@ std::vector<fs::path> relevant_ledgers(const CrowdDirectory& directory, const Sh
 }
 
 void remove_shard_files(const CrowdDirectory& directory) {
-  for (const fs::path& path : directory.all_progress()) remove_if_exists(path);
+  for (const fs::path& path : directory.progress_files()) remove_if_exists(path);
   remove_if_exists(directory.plan_marker());
 }
 

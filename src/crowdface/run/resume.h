@@ -38,8 +38,8 @@ void write_shared_files(const Config& config, const Inputs& inputs, const CrowdD
 std::vector<std::filesystem::path> relevant_ledgers(const CrowdDirectory& directory,
                                                     const Shard& shard);
 
-/// Removes the files that shards write for each other and for `crowdface status`. Call this once
-/// the crowd is complete.
+/// Removes the files that shards write for other shards and for `crowdface status`. Call this only
+/// when the crowd is complete.
 void remove_shard_files(const CrowdDirectory& directory);
 
 /// Appends the logs of the shards to the crowd's log.

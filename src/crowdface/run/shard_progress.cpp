@@ -20,10 +20,11 @@ std::string machine_name() {
 
 }  // namespace
 
-ShardProgress::ShardProgress(std::filesystem::path file, std::size_t faces, std::size_t done)
+ShardProgress::ShardProgress(std::filesystem::path file, std::size_t face_count,
+                             std::size_t finished_face_count)
     : file_(std::move(file)) {
-  notes_.faces = faces;
-  notes_.finished_faces = done;
+  notes_.face_count = face_count;
+  notes_.finished_face_count = finished_face_count;
   notes_.machine = machine_name();
   write();
 }
@@ -31,9 +32,9 @@ ShardProgress::ShardProgress(std::filesystem::path file, std::size_t faces, std:
 void ShardProgress::step() {
   constexpr std::chrono::seconds kBetween(5);
   const std::lock_guard lock(mutex_);
-  ++notes_.finished_faces;
-  ++notes_.faces_made;
-  if (Clock::now() - written_ >= kBetween) write();
+  ++notes_.finished_face_count;
+  ++notes_.made_face_count;
+  if (Clock::now() - last_write_ >= kBetween) write();
 }
 
 void ShardProgress::end(ShardState state, std::string_view reason) {
@@ -44,8 +45,8 @@ void ShardProgress::end(ShardState state, std::string_view reason) {
 }
 
 void ShardProgress::write() noexcept {
-  written_ = Clock::now();
-  notes_.seconds = std::chrono::duration<double>(written_ - start_).count();
+  last_write_ = Clock::now();
+  notes_.seconds = std::chrono::duration<double>(last_write_ - start_).count();
   try {
     write_file(file_, format_shard_notes(notes_));
   } catch (const std::exception& error) {

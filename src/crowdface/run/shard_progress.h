@@ -14,11 +14,12 @@ namespace crowdface {
 
 /// Writes a shard's progress into the crowd's folder for `crowdface status`: at the start, at most
 /// every five seconds while faces are made, and at the end. A failed write does not stop the run;
-/// an observer only sees that the file no longer changes. Thread-safe.
+/// the file then only keeps its old content. Thread-safe.
 class ShardProgress {
  public:
-  /// \param done  how many of the shard's `faces` are already finished when the run starts
-  ShardProgress(std::filesystem::path file, std::size_t faces, std::size_t done);
+  /// \param finished_face_count  number of the shard's faces that earlier runs finished
+  ShardProgress(std::filesystem::path file, std::size_t face_count,
+                std::size_t finished_face_count);
 
   /// Increases the count of finished faces by one.
   void step();
@@ -31,7 +32,7 @@ class ShardProgress {
 
   std::filesystem::path file_;
   ShardNotes notes_;
-  Clock::time_point start_ = Clock::now(), written_ = start_;
+  Clock::time_point start_ = Clock::now(), last_write_ = start_;
   std::mutex mutex_;
 };
 

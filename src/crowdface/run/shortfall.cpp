@@ -26,7 +26,7 @@ std::string asked_of(const Config& config, Reason reason) {
 std::vector<std::string> advice_for_existing(const Config& config, const Remedy& remedy,
                                              const Shortfall& shortfall) {
   std::vector<std::string> advice;
-  const bool grows = config.crowd.count > *config.crowd.existing_count;
+  const bool grows = config.crowd.count > *config.crowd.existing_face_count;
   const bool is_first_fit = config.diversity.mode == DiversityOptions::Mode::kFirstFit;
   if (remedy.binding_constraint == Reason::kMinDistance && is_first_fit) {
     const std::string smaller =
@@ -36,7 +36,7 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
             : std::string("a smaller diversity.min_distance");
     advice.push_back(
         concat(smaller, shortfall.changed_face.empty() ? "" : ", and the change in a review",
-               "; the ", *config.crowd.existing_count, " faces that exist stay as they are, ",
+               "; the ", *config.crowd.existing_face_count, " faces that exist stay as they are, ",
                "only new, redrawn and changed faces come nearer"));
   } else if (remedy.binding_constraint == Reason::kRejected) {
     advice.emplace_back(
@@ -44,8 +44,8 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
         "not keep this distance");
   }
   if (grows) {
-    advice.push_back(
-        concat("a crowd.count of ", std::max(shortfall.reached, *config.crowd.existing_count)));
+    advice.push_back(concat("a crowd.count of ",
+                            std::max(shortfall.cast_count, *config.crowd.existing_face_count)));
   }
   advice.emplace_back(
       "other keys decide who the existing faces are; to change these keys, cast another crowd with "
@@ -56,7 +56,7 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
 /// Changes of the config that may make the crowd possible, most promising first.
 std::vector<std::string> advice(const Config& config, const Remedy& remedy,
                                 const Shortfall& shortfall) {
-  if (config.crowd.existing_count) return advice_for_existing(config, remedy, shortfall);
+  if (config.crowd.existing_face_count) return advice_for_existing(config, remedy, shortfall);
   std::vector<std::string> advice;
   if (remedy.largest_distance_mm) {
     const bool all = remedy.trial_faces == config.crowd.count;
@@ -97,12 +97,12 @@ std::string few_heads(const Config& config, const Group& group) {
 
 }  // namespace
 
-void ScarcityWarning::face_joined(const Rejections& rejected) {
-  ++cast_;
+void ScarcityWarning::on_face_accepted(const Rejections& rejected) {
+  ++cast_face_count_;
   if (has_warned_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
   forecast_.add(rejected.of(Reason::kMinDistance),
-                static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_)));
-  const auto faces = forecast_.estimated_faces();
+                static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_face_count_)));
+  const auto faces = forecast_.estimated_face_count();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
   if (faces && *faces < static_cast<double>(casting_.count)) {
     has_warned_ = true;
@@ -111,10 +111,10 @@ void ScarcityWarning::face_joined(const Rejections& rejected) {
                        " mm (estimate, to a factor of three), but ", casting_.count,
                        " were requested: choose a smaller min_distance (crowdface plan --estimate "
                        "shows how many faces fit)"));
-  } else if (!has_told_scarcity_ && rejected.total() >= attempts / 5) {
-    has_told_scarcity_ = true;
-    log_info(concat("candidates are getting scarce: face ", cast_, " of ", casting_.count, " took ",
-                    rejected.total(),
+  } else if (!has_logged_scarcity_ && rejected.total() >= attempts / 5) {
+    has_logged_scarcity_ = true;
+    log_info(concat("candidates are getting scarce: face ", cast_face_count_, " of ",
+                    casting_.count, " took ", rejected.total(),
                     " candidates; the crowd may need a smaller diversity.min_distance"));
   }
 }
@@ -143,15 +143,15 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
   } else {
     message += concat(
         config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding_constraint),
-        ", cannot be met; reached ", shortfall.reached, " of ", config.crowd.count, " faces");
+        ", cannot be met; reached ", shortfall.cast_count, " of ", config.crowd.count, " faces");
   }
   if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
       shortfall.recipe.empty()) {
     message += concat(" (for the next face ", by_main, " of ", rejected,
                       " candidates were rejected for this reason)");
   }
-  if (shortfall.kind >= 0) {
-    const Group& group = config.groups[static_cast<std::size_t>(shortfall.kind)];
+  if (shortfall.group_index >= 0) {
+    const Group& group = config.groups[static_cast<std::size_t>(shortfall.group_index)];
     message += concat("; the next face belongs to the group ", group.name);
     message += few_heads(config, group);
   }

@@ -19,14 +19,14 @@ class ScarcityWarning {
   /// \param casting  must outlive this object.
   explicit ScarcityWarning(const CastingOptions& casting) : casting_(casting) {}
   /// \param rejected  numbers of candidates that were rejected before this face was accepted
-  void face_joined(const Rejections& rejected);
+  void on_face_accepted(const Rejections& rejected);
 
  private:
   const CastingOptions& casting_;
   CapacityForecast forecast_;
-  std::uint64_t cast_ = 0;
+  std::uint64_t cast_face_count_ = 0;
   bool has_warned_ = false;
-  bool has_told_scarcity_ = false;
+  bool has_logged_scarcity_ = false;
 };
 
 /// \throws Unsatisfiable; the message names the constraint that prevented more faces, the number of

@@ -42,7 +42,7 @@ std::string assign(std::string_view name, std::string_view value) {
 double face_seconds(const Config& config, const Inputs& inputs) {
   constexpr double kByte = 3.3e-9, kBlendVertex = 5e-8, kJudgeVertex = 3.6e-6;
   constexpr double kPixel = 6.5e-7, kPictureVertex = 6e-8;
-  const auto vertices = static_cast<double>(inputs.faces.topology.vertex_count);
+  const auto vertices = static_cast<double>(inputs.head_set.topology.vertex_count);
   double seconds = kByte * static_cast<double>(estimate_mesh_bytes(inputs, config.output.meshes)) +
                    kBlendVertex * vertices;
   if (skin_is_judged(config, inputs)) seconds += kJudgeVertex * vertices;
@@ -187,15 +187,15 @@ std::string task_script(const TaskJob& job) {
   script += assign("folder", job.directory.task_folder().string());
   script += assign("directory", job.directory.root.string());
   script += assign("program", job.program.string());
-  script += concat("config=(", shell_words(job.config), ")\n");
-  script += concat("limits=(", shell_words(job.limits), ")\n");
+  script += concat("config=(", shell_words(job.config_arguments), ")\n");
+  script += concat("limits=(", shell_words(job.limit_arguments), ")\n");
   script += assign("cache", job.cache.string());
-  script += assign("scratch", job.scratch);
-  script += concat("prepares=", job.prepares, " shards=", job.shards,
-                   " processors=", job.processors, "\n");
+  script += assign("scratch", job.scratch_folder);
+  script += concat("prepares=", job.prepare_task_count, " shards=", job.shard_count,
+                   " processors=", job.processor_count, "\n");
   // Give crowdface seven eighths of the task's memory, and leave the rest to other processes.
   const std::string memory =
-      job.memory == 0 ? "" : concat("--memory '", job.memory / 8 * 7 / 1024, " KiB'");
+      job.memory_bytes == 0 ? "" : concat("--memory '", job.memory_bytes / 8 * 7 / 1024, " KiB'");
   script += concat("memory=(", memory, ")\n");
   return script + std::string(kTask);
 }
@@ -203,16 +203,17 @@ std::string task_script(const TaskJob& job) {
 std::string slurm_script(const TaskJob& job, const EngineOptions& options) {
   std::vector<std::string> common = {"--parsable", "--requeue", "--open-mode=append",
                                      concat("--signal=B:TERM@", options.grace_seconds),
-                                     concat("--cpus-per-task=", job.processors)};
+                                     concat("--cpus-per-task=", job.processor_count)};
   if (!options.partition.empty()) common.push_back("--partition=" + options.partition);
-  if (!options.time.empty()) common.push_back("--time=" + options.time);
-  if (job.memory > 0)
-    common.push_back(concat("--mem=", (job.memory + (1U << 20U) - 1) >> 20U, "M"));
+  if (!options.time_limit.empty()) common.push_back("--time=" + options.time_limit);
+  if (job.memory_bytes > 0)
+    common.push_back(concat("--mem=", (job.memory_bytes + (1U << 20U) - 1) >> 20U, "M"));
   common.insert(common.end(), options.extra_arguments.begin(), options.extra_arguments.end());
   std::string script(kHead);
   script += "set -euo pipefail\n";
-  script += assign("folder", job.directory.task_folder().string()) + assign("crowd", job.crowd);
-  script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
+  script +=
+      assign("folder", job.directory.task_folder().string()) + assign("crowd", job.crowd_name);
+  script += concat("prepares=", job.prepare_task_count, " shards=", job.shard_count, "\n");
   script += concat("common=(", shell_words(common), ")\n");
   return script + std::string(kSlurm);
 }
@@ -223,7 +224,7 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
   script += assign("folder", job.directory.task_folder().string());
   // The command that runs a task in a shell on any machine.
   script += assign("task", "bash " + shell_word(script_of(job).string()));
-  script += concat("prepares=", job.prepares, " shards=", job.shards, "\n");
+  script += concat("prepares=", job.prepare_task_count, " shards=", job.shard_count, "\n");
   script += concat(
       "hosts=(", options.hosts.empty() ? "" : "--sshlogin " + shell_word(join(options.hosts, ",")),
       ")\nmore=(", shell_words(options.extra_arguments), ")\n");
@@ -233,19 +234,19 @@ std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
 }  // namespace
 
 std::uint64_t suitable_shard_count(const Config& config, const Inputs& inputs, std::uint64_t faces,
-                                   std::uint64_t processors) {
+                                   std::uint64_t processor_count) {
   constexpr double kSeconds = 600;
   constexpr std::uint64_t kMax = 1000;  // default limit of Slurm's job arrays
   const double all = face_seconds(config, inputs) * static_cast<double>(faces);
-  return tasks_for(all / static_cast<double>(processors), kSeconds, std::min(kMax, faces));
+  return tasks_for(all / static_cast<double>(processor_count), kSeconds, std::min(kMax, faces));
 }
 
-std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processors) {
+std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processor_count) {
   constexpr double kSeconds = 60, kVertex = 1.1e-5;
-  const std::uint64_t heads = inputs.faces.heads.size();
-  const double all = kVertex * static_cast<double>(inputs.faces.topology.vertex_count) *
+  const std::uint64_t heads = inputs.head_set.heads.size();
+  const double all = kVertex * static_cast<double>(inputs.head_set.topology.vertex_count) *
                      static_cast<double>(heads);
-  return tasks_for(all / static_cast<double>(processors), kSeconds, heads);
+  return tasks_for(all / static_cast<double>(processor_count), kSeconds, heads);
 }
 
 std::string_view name_of(Engine engine) {
@@ -260,9 +261,9 @@ std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
   make_directories(folder / "log");
   write_file(script_of(job), task_script(job));
   const nlohmann::ordered_json notes = {{"engine", name_of(engine)},
-                                        {"prepares", job.prepares},
-                                        {"shards", job.shards},
-                                        {"processors", job.processors}};
+                                        {"prepares", job.prepare_task_count},
+                                        {"shards", job.shard_count},
+                                        {"processors", job.processor_count}};
   write_file(folder / "job.json", notes.dump() + "\n");
   write_file(folder / "submit.sh",
              engine == Engine::kSlurm ? slurm_script(job, options) : parallel_script(job, options));

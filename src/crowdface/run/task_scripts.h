@@ -19,16 +19,17 @@ namespace crowdface {
 /// machines.
 struct TaskJob {
   std::filesystem::path program;
-  std::vector<std::string> config;  ///< arguments: the config file and its overrides
-  std::vector<std::string> limits;  ///< arguments for every task: maximum sizes of inputs
-  std::string crowd;                ///< name of the crowd
+  std::vector<std::string> config_arguments;  ///< the config file and its overrides
+  std::vector<std::string> limit_arguments;   ///< for every task: maximum sizes of inputs
+  std::string crowd_name;                     ///< name of the crowd
   CrowdDirectory directory;
   std::filesystem::path cache;  ///< folder of prepared heads, shared by all machines
-  std::string scratch;  ///< a local folder on each machine, expanded by its shell; empty: none
-  std::uint64_t prepares = 1;    ///< number of tasks that prepare heads
-  std::uint64_t shards = 1;      ///< number of tasks that make faces
-  std::uint64_t processors = 1;  ///< number of processors per task
-  std::uint64_t memory = 0;      ///< bytes per task; 0: the engine's default
+  /// a local folder on each machine; the machine's shell expands the path; empty: none
+  std::string scratch_folder;
+  std::uint64_t prepare_task_count = 1;  ///< number of tasks that prepare heads
+  std::uint64_t shard_count = 1;         ///< number of tasks that make faces
+  std::uint64_t processor_count = 1;     ///< number of processors per task
+  std::uint64_t memory_bytes = 0;        ///< bytes per task; 0: the engine's default
 };
 
 enum class Engine { kSlurm, kParallel };
@@ -36,24 +37,24 @@ std::string_view name_of(Engine engine);
 
 /// Options that only some job engines use.
 struct EngineOptions {
-  std::string partition, time;       ///< only for Slurm; empty: the site's default
-  std::uint64_t grace_seconds = 60;  ///< time between the termination signal and the time limit
-  std::vector<std::string> hosts;    ///< only for GNU parallel: ssh hosts; empty: this machine
+  std::string partition, time_limit;  ///< only for Slurm; empty: the site's default
+  std::uint64_t grace_seconds = 60;   ///< time between the termination signal and the time limit
+  std::vector<std::string> hosts;     ///< only for GNU parallel: ssh hosts; empty: this machine
   std::vector<std::string> extra_arguments;  ///< further arguments for the engine, passed unchanged
 };
 
-/// These functions return a suitable number of tasks, estimated from measured times (docs/farm.md).
-/// A task that makes faces (shard) should take about ten minutes; a task that prepares heads should
-/// take about one minute.
+/// Return a suitable number of tasks, estimated from measured times (docs/farm.md). A task that
+/// makes faces (shard) should take about ten minutes; a task that prepares heads should take about
+/// one minute.
 /// \param faces  number of faces in the crowd
 std::uint64_t suitable_shard_count(const Config& config, const Inputs& inputs, std::uint64_t faces,
-                                   std::uint64_t processors);
-std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processors);
+                                   std::uint64_t processor_count);
+std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processor_count);
 
 /// Writes `submit/` in the crowd's folder: `task.sh STAGE NUMBER` runs one task on the machine that
 /// starts the script; `submit.sh` submits all tasks to the job engine.
-/// \return `submit.sh`, a bash script. With Slurm it only submits the tasks; with GNU parallel it
-/// runs all tasks to completion.
+/// \return `submit.sh`, a bash script. With Slurm the script only submits the tasks; with GNU
+/// parallel the script runs all tasks to completion.
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
                                          const EngineOptions& options);
 

@@ -42,10 +42,10 @@ FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& sho
   const auto family = std::ranges::find(casting.families, shortfall.family, &FamilyOptions::name);
   const bool of_family = !shortfall.family.empty() && family != casting.families.end();
   std::optional<std::size_t> group;
-  if (shortfall.kind >= 0) group = static_cast<std::size_t>(shortfall.kind);
+  if (shortfall.group_index >= 0) group = static_cast<std::size_t>(shortfall.group_index);
   if (of_family) group = family->group;
   FacePlan face =
-      random_face(casting, shortfall.reached + 1, attempt, kind_of_group(casting, group));
+      random_face(casting, shortfall.cast_count + 1, attempt, kind_of_group(casting, group));
   if (of_family) face.family = family->name;
   return face;
 }
@@ -75,23 +75,24 @@ std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs
       const double value = measure(measurement, points);
       low = std::min(low, value);
       high = std::max(high, value);
-      if (measurer.spread().meets(limit, value)) continue;
-      const bool is_low =
-          limit.at_least && value < measurer.spread().bound_value(limit.trait, *limit.at_least);
+      if (measurer.head_distributions().meets(limit, value)) continue;
+      const bool is_low = limit.at_least && value < measurer.head_distributions().bound_value(
+                                                        limit.trait, *limit.at_least);
       ++(is_low ? below : above);
     }
     std::string ends;
     if (limit.at_least) {
-      ends += concat(" at least ", format_trait(measurement, measurer.spread().bound_value(
-                                                                 limit.trait, *limit.at_least)));
+      ends +=
+          concat(" at least ", format_trait(measurement, measurer.head_distributions().bound_value(
+                                                             limit.trait, *limit.at_least)));
     }
     if (limit.at_most) {
-      ends += concat(
-          ends.empty() ? "" : ",", " at most ",
-          format_trait(measurement, measurer.spread().bound_value(limit.trait, *limit.at_most)));
+      ends += concat(ends.empty() ? "" : ",", " at most ",
+                     format_trait(measurement, measurer.head_distributions().bound_value(
+                                                   limit.trait, *limit.at_most)));
     }
     std::vector<double> of_heads;
-    for (const Head& head : inputs.faces.heads) {
+    for (const Head& head : inputs.head_set.heads) {
       of_heads.push_back(measure(
           measurement, landmarks.landmark_positions(head.positions, mm_per(config.faces.units))));
     }

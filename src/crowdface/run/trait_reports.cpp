@@ -33,15 +33,16 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
   std::vector<TraitReport> reports;
   std::vector<Positions> drawn;
   if (!casting.population.empty()) drawn = sampled_landmarks(casting, traits.measurer());
-  for (std::size_t t = 0; t < traits.traits().size(); ++t) {
-    const std::size_t trait = traits.traits()[t];
-    TraitReport report{trait, quartiles(traits.measurer().spread().sorted_values(trait)), {}, {}};
+  for (std::size_t t = 0; t < traits.trait_indices().size(); ++t) {
+    const std::size_t trait = traits.trait_indices()[t];
+    TraitReport report{
+        trait, quartiles(traits.measurer().head_distributions().sorted_values(trait)), {}, {}};
     std::vector<double> all, sampled;
     for (const FacePlan& face : crowd) {
       all.push_back(face.traits[t]);
       if (face.index) sampled.push_back(face.traits[t]);
     }
-    report.crowd = quartiles(std::move(all));
+    report.crowd_values = quartiles(std::move(all));
     const auto target = std::ranges::find(casting.population, trait, &TraitTarget::trait);
     if (target != casting.population.end() && !sampled.empty()) {
       double low = HUGE_VAL, high = -HUGE_VAL, mean = 0, squares = 0;
@@ -69,18 +70,18 @@ std::vector<std::string> population_warnings(const std::vector<TraitReport>& rep
   constexpr double kTooFar = 0.08, kPercent = 100;
   std::vector<std::string> warnings;
   for (const TraitReport& report : reports) {
-    if (!report.comparison || report.comparison->difference <= kTooFar) continue;
-    const TraitReport::Comparison& comparison = *report.comparison;
-    const Measurement& of = measurements()[report.trait];
-    warnings.push_back(concat("population: ", of.name, " has the mean ",
-                              format_trait(of, comparison.mean), " and the standard deviation ",
-                              format_trait(of, comparison.deviation), ", ",
-                              format_trait(of, comparison.target.mean), " and ",
-                              format_trait(of, comparison.target.deviation),
-                              " were asked for; of the asked distribution, ",
-                              format_fixed(kPercent * comparison.below, 0), " % lie below and ",
-                              format_fixed(kPercent * comparison.above, 0),
-                              " % above all faces that can be drawn from these heads"));
+    if (!report.comparison || report.comparison->max_difference <= kTooFar) continue;
+    const TraitReport::TargetComparison& comparison = *report.comparison;
+    const Measurement& of = measurements()[report.trait_index];
+    warnings.push_back(
+        concat("population: ", of.name, " has the mean ", format_trait(of, comparison.mean),
+               " and the standard deviation ", format_trait(of, comparison.standard_deviation),
+               ", ", format_trait(of, comparison.target.mean), " and ",
+               format_trait(of, comparison.target.deviation),
+               " were asked for; of the asked distribution, ",
+               format_fixed(kPercent * comparison.fraction_below, 0), " % lie below and ",
+               format_fixed(kPercent * comparison.fraction_above, 0),
+               " % above all faces that can be drawn from these heads"));
   }
   return warnings;
 }
@@ -96,9 +97,9 @@ std::string format_trait_ranges(const Config& config, const Inputs& inputs,
   };
   std::string table = concat("measurement                 heads: least  greatest",
                              "   faces: least      1 %     50 %     99 %  greatest\n");
-  for (const std::size_t trait : traits->traits()) {
+  for (const std::size_t trait : traits->trait_indices()) {
     const Measurement& of = measurements()[trait];
-    const std::vector<double>& heads = traits->measurer().spread().sorted_values(trait);
+    const std::vector<double>& heads = traits->measurer().head_distributions().sorted_values(trait);
     std::vector<double> faces;
     for (const Positions& points : drawn) faces.push_back(measure(of, points));
     std::ranges::sort(faces);

@@ -14,18 +14,18 @@ namespace crowdface {
 
 /// The statistics of one measurement over the faces of a crowd, for reports.
 struct TraitReport {
-  std::size_t trait = 0;
-  Quartiles heads, crowd;
-  /// Only for a measurement with a requested distribution. `difference`: the largest difference
+  std::size_t trait_index = 0;
+  Quartiles head_values, crowd_values;
+  /// Only for a measurement with a requested distribution. `max_difference`: the largest difference
   /// between the requested cumulative distribution and the cumulative distribution of the sampled
-  /// faces (Kolmogorov and Smirnov). `below`, `above`: the fractions of the requested distribution
-  /// that lie below and above the values of all random faces.
-  struct Comparison {
+  /// faces (Kolmogorov and Smirnov). `fraction_below`, `fraction_above`: the fractions of the
+  /// requested distribution that lie below and above the values of all random faces.
+  struct TargetComparison {
     TraitTarget target;
-    double mean = 0, deviation = 0;  ///< mean and standard deviation of the sampled faces
-    double difference = 0, below = 0, above = 0;
+    double mean = 0, standard_deviation = 0;  ///< mean and standard deviation of the sampled faces
+    double max_difference = 0, fraction_below = 0, fraction_above = 0;
   };
-  std::optional<Comparison> comparison;
+  std::optional<TargetComparison> comparison;
 };
 /// \param crowd  measured faces, see measure_faces
 std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,

@@ -31,12 +31,13 @@ UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   const fs::path& colours = material.colour_map;
   const fs::path& holes = material.opacity_map.empty() ? colours : material.opacity_map;
   if (!colours.empty()) {
-    read_image_size(colours, {.jpeg = true});
-    surface.picture = file_of(colours);
+    read_image_size(colours, {.allows_jpeg = true});
+    surface.colour_map = file_of(colours);
   }
   if (holes.empty()) return surface;
-  surface.holes_in_alpha = read_image(holes, {.jpeg = true}).alpha_channel >= 0;
-  if (surface.holes_in_alpha || !material.opacity_map.empty()) surface.holes = file_of(holes);
+  surface.is_opacity_in_alpha = read_image(holes, {.allows_jpeg = true}).alpha_channel >= 0;
+  if (surface.is_opacity_in_alpha || !material.opacity_map.empty())
+    surface.opacity_map = file_of(holes);
   return surface;
 }
 
@@ -53,7 +54,7 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource
     PrimLook look{std::move(prim), {}, std::move(named.material_of_face)};
     for (const std::string& name : named.names) {
       look.materials.push_back({name, {}});
-      look.materials.back().surface.picture =
+      look.materials.back().surface.colour_map =
           concat("./", kBlendedFolder, '/', UsdaPart::kLookName, ".body.png");
     }
     return look;
@@ -83,7 +84,8 @@ std::map<const Attachment*, PrimLook> prim_looks(const MeshSource& source) {
     names.add(taken);
   }
   std::map<const Attachment*, PrimLook> looks;
-  for (const Attachment* item : source.levels.front().items(source.inputs.attachments)) {
+  for (const Attachment* item :
+       source.levels.front().attachments_in_files(source.inputs.attachments)) {
     looks.emplace(item, prim_look_of(*item, names.add(item->name), source));
   }
   return looks;
@@ -103,8 +105,8 @@ MeshEncoders usd_encoders(const MeshSource& source) {
       return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets,
                       std::move(fixed));
     }
-    return UsdaPart(prim, here->topology, here->uvs, materials, select_rows(of_face, here->faces),
-                    targets, std::move(fixed));
+    return UsdaPart(prim, here->topology, here->uvs, materials,
+                    select_rows(of_face, here->source_faces), targets, std::move(fixed));
   };
   using Form = MeshWithAttachments<UsdaTemplate, UsdaPart>;
   MeshEncoders encoders;

@@ -44,7 +44,8 @@ LengthUnit guess_unit(const Positions& positions) {
                       kTypicalDiagonalMm, kMetricUnits);
 }
 
-/// Reads the heads of `--model`, computes the shape model, and sets `positions` to its mean, in mm.
+/// Reads the heads of `--model`, computes the shape model, and sets `positions` to the model's
+/// mean, in mm.
 void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& positions,
                 Hasher& digest) {
   const std::vector<fs::path> files = list_heads(options.model);
@@ -69,7 +70,7 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
   }
   problems.throw_if_any();
   inputs.model = make_shape_model(heads);
-  inputs.model_heads = heads.size();
+  inputs.model_head_count = heads.size();
   positions = inputs.model->mean;
 }
 

@@ -42,9 +42,9 @@ struct WrapInputs {
   HeadFrame frame;
   std::optional<PoseHint> hint;
   WrapTemplate shape;
-  SkinRegions regions;              ///< regions of the template's skin
-  std::optional<ShapeModel> model;  ///< statistical shape model in the template's topology
-  std::size_t model_heads = 0;      ///< number of heads of the shape model
+  SkinRegions regions;               ///< regions of the template's skin
+  std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology
+  std::size_t model_head_count = 0;  ///< number of heads of the shape model
   LandmarkFile landmarks;
   std::map<std::string, std::uint32_t> detected_landmarks;  ///< by name: template vertex
   std::vector<FaceFeature> features;                        ///< features of the template's face

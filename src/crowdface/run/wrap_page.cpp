@@ -78,10 +78,10 @@ std::string address(std::string_view name) {
 
 ScanRow row_of(const WrappedScan& scan) {
   ScanRow row;
-  row.name = scan.scan.filename().string();
-  if (path_exists(scan.picture)) row.picture = scan.picture.filename().string();
-  if (!path_exists(scan.report)) return row;
-  const auto report = parse_shallow_json(read_file(scan.report));
+  row.name = scan.scan_file.filename().string();
+  if (path_exists(scan.picture_file)) row.picture = scan.picture_file.filename().string();
+  if (!path_exists(scan.report_file)) return row;
+  const auto report = parse_shallow_json(read_file(scan.report_file));
   if (!report.is_object()) return row;
   try {
     row.has_head = !report.at("mesh").get<std::string>().empty();

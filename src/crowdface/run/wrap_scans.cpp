@@ -94,7 +94,7 @@ void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<T
   for (const Task& task : tasks) {
     inputs.insert(inputs.end(), {task.scan, task.own_landmarks});
     outputs.insert(outputs.end(), {task.head, task.report, task.picture});
-    const std::vector<fs::path> textures = task.textures.all();
+    const std::vector<fs::path> textures = task.textures.all_paths();
     outputs.insert(outputs.end(), textures.begin(), textures.end());
   }
   refuse_to_write_over(inputs, outputs);
@@ -112,7 +112,7 @@ Digest inputs_of(const WrapInputs& shared, const Task& task) {
 /// and whether the textures exist.
 bool is_done(const Task& task, const Digest& inputs) {
   if (!path_exists(task.report) || !path_exists(task.head)) return false;
-  if (!std::ranges::all_of(task.textures.all(), path_exists)) return false;
+  if (!std::ranges::all_of(task.textures.all_paths(), path_exists)) return false;
   const std::string report = read_file(task.report);
   return report.find(concat("\"inputs\": \"", inputs.hex(), '"')) != std::string::npos &&
          report.find(concat("\"mesh\": \"", hash_file(task.head).digest.hex(), '"')) !=
@@ -130,8 +130,9 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 
 /// Returns the landmarks from the files. If the files have too few landmarks and the pose of the
 /// scan is known, adds landmarks that are detected from the scan's shape.
-/// \param hint  pose of the scan. Receives the human face that is found in the relief of the scan
-///              and, if `hint` was empty, the axes of this face.
+/// \param hint  pose of the scan; may be empty. If the files have too few landmarks, receives the
+/// human face that is found in the relief of the scan; an empty hint also receives the axes of this
+/// face.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -150,7 +151,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   } else {
     if (!face) return landmarks;
     hint = PoseHint{face->axes.up, face->axes.front, face};
-    const Orientation orientation = all_orientations()[face->axes_index];
+    const Orientation orientation = all_orientations()[face->requested_axes_index];
     log_info(concat(task.scan.string(), ": found a face that looks along ",
                     name_of(orientation.front), " with ", name_of(orientation.up), " up"));
   }
@@ -198,7 +199,7 @@ std::map<std::string, double> leave_one_out_distances(const WrapInputs& shared,
   std::map<std::string, double> result;
   std::vector<PickedLandmark> picked;
   for (const WrapLandmark& one : landmarks) {
-    picked.push_back({one.name, one.vertex, one.place, std::nullopt});
+    picked.push_back({one.name, one.vertex, one.scan_position, std::nullopt});
   }
   if (picked.size() < kMin) return result;
   const auto pose = fit_pose_to_picked(picked, shared.shape.positions);
@@ -223,7 +224,7 @@ std::string likely_causes(const WrapInputs& shared, const Scan& scan,
   if (!shared.hint) return part;
   const auto face = find_scan_face(scan, std::nullopt);
   if (!face) return part;
-  const Orientation found = all_orientations()[face->axes_index];
+  const Orientation found = all_orientations()[face->requested_axes_index];
   if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
     return part;
   return concat(part, part.empty() ? "; the scan seems to look" : "; or it looks", " along ",
@@ -253,7 +254,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   // Write head, image and report.
   const double scale = output_scale(options, result.pose);
   const std::vector<std::string> warnings =
-      wrap_warnings(shared.shape, result, shared.regions, shared.model_heads);
+      wrap_warnings(shared.shape, result, shared.regions, shared.model_head_count);
   WrapFacts facts{options.template_file,
                   task.scan.string(),
                   inputs.hex(),
@@ -284,7 +285,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
     head = textures->head_file(std::move(head), task.textures);
   }
   head.write(task.head);
-  facts.mesh = head.digest().hex();
+  facts.mesh_digest = head.digest().hex();
   if (options.estimate) {
     facts.leave_out_wrap_mm = leave_out_distances(
         shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
@@ -296,8 +297,8 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   }
   const WrapDistances distances = measure_distances(shared.shape, result);
   log_info(concat(task.scan.string(), ": ", task.head.string(), ", ",
-                  format_fixed(distances.median, 2),
-                  " mm from the scan (95 %: ", format_fixed(distances.percentile_95, 2), "), ",
+                  format_fixed(distances.median_mm, 2),
+                  " mm from the scan (95 %: ", format_fixed(distances.percentile_95_mm, 2), "), ",
                   result.landmarks.size(), " landmarks",
                   result.dropped_landmarks.empty()
                       ? ""

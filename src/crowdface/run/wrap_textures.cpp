@@ -33,11 +33,11 @@ std::string map_name(const std::string& head, std::string_view kind, const Pictu
 
 }  // namespace
 
-std::vector<fs::path> TextureFiles::all() const {
-  if (maps.empty()) return {};
-  std::vector<fs::path> files = {materials};
-  files.insert(files.end(), maps.begin(), maps.end());
-  files.insert(files.end(), masks.begin(), masks.end());
+std::vector<fs::path> TextureFiles::all_paths() const {
+  if (map_files.empty()) return {};
+  std::vector<fs::path> files = {material_file};
+  files.insert(files.end(), map_files.begin(), map_files.end());
+  files.insert(files.end(), mask_files.begin(), mask_files.end());
   return files;
 }
 
@@ -53,14 +53,14 @@ TextureFiles WrapTextures::files_of(const fs::path& head, const fs::path& report
   TextureFiles files{head.parent_path() / (name + ".mtl"), {}, {}};
   for (const PictureName& picture : target_.picture_names()) {
     const std::string tile = std::to_string(picture.tile);
-    files.maps.push_back(head.parent_path() / map_name(name, "colour", picture, tile));
-    files.masks.push_back(reports / map_name(name, "filled", picture, tile));
+    files.map_files.push_back(head.parent_path() / map_name(name, "colour", picture, tile));
+    files.mask_files.push_back(reports / map_name(name, "filled", picture, tile));
   }
   return files;
 }
 
 std::string WrapTextures::materials_text(const TextureFiles& files) const {
-  const std::string name = files.materials.stem().string();
+  const std::string name = files.material_file.stem().string();
   MergedMaterials::Replacements textures;
   for (const auto& [material, picture] : target_.pictures_by_material()) {
     textures[TextureKind::kColour][material.empty() ? kSkinMaterial : material] =
@@ -97,22 +97,23 @@ double WrapTextures::write(const WrapResult& result, const Scan& scan, const Sca
                            const TextureFiles& files) const {
   const Scan skin = keep_skin(scan);
   const ScanSurface surface(
-      {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.sources});
+      {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.file_triangles});
   const ScanBake bake(target_, result.positions, surface, colours, options_);
   double filled = 0;
-  for (std::size_t p = 0; p < files.maps.size(); ++p) {
+  for (std::size_t p = 0; p < files.map_files.size(); ++p) {
     const BakedPicture picture = bake.bake_picture(p);
-    write_file(files.maps[p], encode_png(picture.width, picture.height, 3, picture.srgb));
-    write_file(files.masks[p], encode_png(picture.width, picture.height, 1, picture.filled_mask));
-    filled += picture.filled_share / static_cast<double>(files.maps.size());
+    write_file(files.map_files[p], encode_png(picture.width, picture.height, 3, picture.srgb));
+    write_file(files.mask_files[p],
+               encode_png(picture.width, picture.height, 1, picture.filled_mask));
+    filled += picture.filled_share / static_cast<double>(files.map_files.size());
   }
-  copy_other_textures(files.materials.parent_path());
-  write_file(files.materials, materials_text(files));
+  copy_other_textures(files.material_file.parent_path());
+  write_file(files.material_file, materials_text(files));
   return filled;
 }
 
 EncodedFile WrapTextures::head_file(EncodedFile plain, const TextureFiles& files) const {
-  std::string first = concat("mtllib ", files.materials.filename().string());
+  std::string first = concat("mtllib ", files.material_file.filename().string());
   if (target_.pictures_by_material().contains("")) first += concat("\nusemtl ", kSkinMaterial);
   if (plain.replace_line("mtllib", first)) return plain;
   EncodedFile with_materials(first + '\n');
@@ -130,7 +131,7 @@ void add_texture_files(const fs::path& scan, Hasher& hasher) {
   for (std::size_t at = text.find(kWord); at != text.npos; at = text.find(kWord, at + 1)) {
     if (at > 0 && text[at - 1] != '\n') continue;
     const std::string_view line = text.substr(at, text.find_first_of("\r\n", at) - at);
-    libraries.emplace_back(material_statement(line).rest);
+    libraries.emplace_back(material_statement(line).arguments);
   }
   for (const MaterialFile& used : find_material_files(scan, libraries).files) {
     hasher.add(hash_file(used.source).digest);

@@ -16,12 +16,13 @@ namespace crowdface {
 
 /// The texture and material files of one wrapped head.
 struct TextureFiles {
-  std::filesystem::path materials;           ///< the material file, beside the head's OBJ file
-  std::vector<std::filesystem::path> maps;   ///< one colour texture per image
-  std::vector<std::filesystem::path> masks;  ///< masks of filled texels, in the report's folder
+  std::filesystem::path material_file;           ///< the material file, beside the head's OBJ file
+  std::vector<std::filesystem::path> map_files;  ///< one colour texture per image
+  /// masks of filled texels, in the report's folder
+  std::vector<std::filesystem::path> mask_files;
 
   /// The paths of all these files; empty if the template has no images.
-  std::vector<std::filesystem::path> all() const;
+  std::vector<std::filesystem::path> all_paths() const;
 };
 
 /// Bakes and writes the textures of wrapped heads (`wrap --texture`).

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// Copies the material files that the face's attachments refer to.
 void write_attachment_materials(const Job& job, const FacePlan& face, const fs::path& folder) {
-  for (const AttachmentLook& look : job.inputs.attachments.looks(face)) {
+  for (const AttachmentLook& look : job.inputs.attachments.looks_of(face)) {
     for (const AttachmentFile& file : files_of(look)) {
       const fs::path to =
           folder / attachment_folder(look.item->name, look.label()) / file.file.destination;
@@ -49,7 +49,7 @@ void write_face(const Job& job, const FaceTextures& textures, const FacePlan& fa
   const fs::path folder = file.parent_path();
   if (names_attachment_textures(traits_of(format))) write_attachment_materials(job, face, folder);
   const auto shared = shared_files(format, job.config, job.inputs);
-  if (shared && shared->is_named) shared->write(folder);
+  if (shared && shared->is_referenced_by_meshes) shared->write(folder);
   const std::vector<FaceFile> files = mesh_files(
       job.config, job.inputs, face,
       {.formats = formats, .folder = folder, .stem = file.stem().string(), .all_variants = false});

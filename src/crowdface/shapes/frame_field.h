@@ -45,8 +45,8 @@ class FrameField {
     Eigen::Vector3d centre;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// 3 by 3 factor of the whole skin's rotation and scale in the node's map; determines the map
-    /// in directions in which the samples do not extend
+    /// The part of the node's map that comes from the whole skin: the skin's rotation and scale,
+    /// times this matrix. Determines the map in directions in which the samples do not extend.
     Eigen::Matrix3d motion_factor;
   };
   struct NodeWeight {

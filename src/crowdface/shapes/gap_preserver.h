@@ -18,8 +18,8 @@ class GapPreserver {
   GapPreserver(const HeadSet& head_set, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
-  /// Returns whether a shape that moves these vertices (ascending) moves skin that nearly touches
-  /// other skin.
+  /// Returns whether any of these vertices (ascending) belongs to skin that nearly touches other
+  /// skin.
   bool is_affected_by(std::span<const std::uint32_t> vertices) const;
   /// Returns one vertex beside each gap, in the order of the gaps.
   std::vector<std::uint32_t> contact_vertices() const;

@@ -47,7 +47,7 @@ Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool uppe
   double nearest = std::numeric_limits<double>::max();
   Eigen::Vector3d found = eye.ball.centre();
   for (std::size_t r = 0; r < eye.lids.rim.size(); ++r) {
-    if (eye.lids.upper[r] != upper) continue;
+    if (eye.lids.is_upper[r] != upper) continue;
     const Eigen::Vector3d point = row3(shape, eye.lids.vertices[eye.lids.rim[r]]);
     const double distance = std::abs(point.dot(along) - at);
     if (distance >= nearest) continue;
@@ -68,7 +68,7 @@ void mark_lid_sides(const TemplateEye& eye, const Positions& neutral,
       const double distance = (row3(neutral, v) - row3(neutral, rim)).norm();
       if (distance >= nearest) continue;
       nearest = distance;
-      side[v] = eye.lids.upper[r] ? 1 : -1;
+      side[v] = eye.lids.is_upper[r] ? 1 : -1;
     }
   }
 }
@@ -78,8 +78,8 @@ BallMap::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
   return {motion.scale * found.gap, motion.apply_to_direction(found.normal) / motion.scale};
 }
 
-FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
-                 const Positions& mesh) {
+FaceEye make_face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
+                      const Positions& mesh) {
   FaceEye there{&ball, motion};
   for (const std::uint32_t v : eye.skin_vertices)
     there.rest_gaps.push_back(there.gap_at(row3(mesh, v)).gap);
@@ -112,7 +112,7 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
     const std::size_t first = gain_effects_.size();
     double sum = 0;
     for (const LidSection& section : sections_) {
-      const double x = (at - section.along) / (kBlur * radius_);
+      const double x = (at - section.along_opening) / (kBlur * radius_);
       gain_effects_.push_back(1 / ((x * x + 1) * (x * x + 1)));
       sum += gain_effects_.back();
     }
@@ -203,12 +203,12 @@ LidClosure::Goals LidClosure::measure_goals(const Positions& mesh, const FaceEye
 }
 
 LidClosure::Goals LidClosure::mean_goals(std::span<const Goals> goals,
-                                         std::span<const SetShare> shares) {
+                                         std::span<const ShapeSetShare> shares) {
   Goals mean;
   mean.gaps.assign(goals.front().gaps.size(), {0, 0});
   mean.ball_distances.assign(goals.front().ball_distances.size(), 0);
   mean.distance_changes = mean.ball_distances;
-  for (const SetShare& of_set : shares) {
+  for (const ShapeSetShare& of_set : shares) {
     const Goals& one = goals[of_set.set];
     for (std::size_t p = 0; p < mean.gaps.size(); ++p) {
       mean.gaps[p].paired_gap += of_set.share * one.gaps[p].paired_gap;
@@ -234,7 +234,7 @@ LidClosure::RimPoint LidClosure::rim_point(const std::vector<ProfilePoint>& poin
     const double height = sign * at.dot(axes.up);
     if (height > rim.height) rim = {at.dot(axes.along), height};
   }
-  return {rim.along, sign * rim.height};
+  return {rim.along_opening, sign * rim.height};
 }
 
 std::vector<LidClosure::Gap> LidClosure::measure_gaps(const EyeAxes& axes, const Positions& face,
@@ -244,17 +244,18 @@ std::vector<LidClosure::Gap> LidClosure::measure_gaps(const EyeAxes& axes, const
     low.push_back(rim_point(section.lower_profile, 1, axes, face, moves));
   std::vector<RimPoint> sorted = low;
   std::sort(sorted.begin(), sorted.end(),
-            [](const RimPoint& a, const RimPoint& b) { return a.along < b.along; });
+            [](const RimPoint& a, const RimPoint& b) { return a.along_opening < b.along_opening; });
   std::vector<Gap> gaps;
   for (std::size_t p = 0; p < sections_.size(); ++p) {
     const RimPoint high = rim_point(sections_[p].upper_profile, -1, axes, face, moves);
     const auto next =
-        std::lower_bound(sorted.begin(), sorted.end(), high.along,
-                         [](const RimPoint& rim, double at) { return rim.along < at; });
+        std::lower_bound(sorted.begin(), sorted.end(), high.along_opening,
+                         [](const RimPoint& rim, double at) { return rim.along_opening < at; });
     double below = next == sorted.end() ? sorted.back().height : next->height;
     if (next != sorted.begin() && next != sorted.end()) {
       const RimPoint& before = *std::prev(next);
-      const double t = (high.along - before.along) / (next->along - before.along);
+      const double t = (high.along_opening - before.along_opening) /
+                       (next->along_opening - before.along_opening);
       below = (1 - t) * before.height + t * next->height;
     }
     gaps.push_back({high.height - low[p].height, high.height - below});

@@ -27,14 +27,15 @@ struct TemplateEye {
 struct FaceEye {
   const BallMap* ball;
   RigidMotion motion;
-  std::vector<double> rest_gaps = {};  ///< #skin of the TemplateEye
+  std::vector<double> rest_gaps =
+      {};  ///< #skin_vertices of the TemplateEye: distance from the eyeball
 
   BallMap::Gap gap_at(const Eigen::Vector3d& point) const;
 };
 /// Makes the FaceEye of one eye of a face.
 /// \param mesh  The face at rest, #V by 3.
-FaceEye face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
-                 const Positions& mesh);
+FaceEye make_face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
+                      const Positions& mesh);
 
 /// Assigns each skin vertex around an eye to the lid with the nearest rim vertex: writes 1 for the
 /// upper lid and −1 for the lower lid. Leaves the entries of all other vertices unchanged.
@@ -79,17 +80,18 @@ class LidClosure {
   Goals measure_goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& face_motion,
                       const Positions& moves) const;
   /// Returns the weighted mean of the goals of several sets of shapes.
-  static Goals mean_goals(std::span<const Goals> goals, std::span<const SetShare> shares);
+  static Goals mean_goals(std::span<const Goals> goals, std::span<const ShapeSetShare> shares);
   /// Returns whether the shape closes the lids.
   bool closes_lids() const { return !sections_.empty(); }
   /// Returns the indices of the rows in the shape's displacements that `fit_lids` may change.
   std::vector<std::uint32_t> adjustable_rows() const;
 
-  /// For a shape that closes the lids, returns the largest amount by which a gap exceeds both its
-  /// goal and the gap that counts as closed, in radii of the eyeball; 0 if no gap exceeds both.
+  /// Returns the largest excess of a gap over its limit, in radii of the eyeball; 0 if no gap
+  /// exceeds its limit. The limit is the larger of two gaps: the goal, and the gap that counts as
+  /// closed. Only for shapes that close the lids.
   double largest_open_gap(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
                           const Positions& moves) const;
-  /// Closes lids that other corrections have opened again. Scales the lids' vertical movement.
+  /// Scales the lids' vertical movement to close lids again that other corrections have opened.
   void close_again(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
                    Positions& moves) const;
 
@@ -116,7 +118,7 @@ class LidClosure {
   };
   struct LidSection {
     std::vector<ProfilePoint> lower_profile, upper_profile;
-    double along;             ///< position along the lid opening
+    double along_opening;     ///< position along the lid opening
     double template_closing;  ///< length by which the shape narrows the gap on the template
   };
   /// Unit vectors on a face: `along` the lid opening, and `up` from the lower lid to the upper lid.
@@ -125,7 +127,7 @@ class LidClosure {
   };
   /// A point of a lid's rim, in the plane of EyeAxes.
   struct RimPoint {
-    double along, height;
+    double along_opening, height;
   };
   struct LidVertex {
     std::uint32_t row, vertex;

@@ -21,8 +21,8 @@ namespace {
 constexpr std::size_t kMaxFitted = 500;
 /// Skin belongs to an eye if its distance from the eyeball's centre is at most this many radii.
 constexpr double kEyeSkin = 3;
-/// A shape is corrective (see companions_of) if its lips overlap by more than this length, as a
-/// fraction of the skin's extent; about 5 mm.
+/// A shape is corrective (see find_prerequisites) if its lips overlap by more than this length, as
+/// a fraction of the skin's extent; about 5 mm.
 constexpr double kFarThrough = 0.012;
 
 std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& shape_set) {
@@ -49,8 +49,9 @@ Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& sh
 
 }  // namespace
 
-std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
-                                                      const GapPreserver& contacts, double extent) {
+std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape_set,
+                                                           const GapPreserver& contacts,
+                                                           double extent) {
   const auto through_in = [&](std::initializer_list<std::size_t> shapes) {
     Positions mesh = shape_set.neutral;
     for (const std::size_t s : shapes) shape_set.shapes[s].moves.add_to(mesh);
@@ -59,7 +60,7 @@ std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
   const std::size_t count = shape_set.shapes.size();
   std::vector<double> through(count);
   parallel_for_each(count, [&](std::size_t s) { through[s] = through_in({s}); });
-  std::vector<std::optional<std::size_t>> companions(count);
+  std::vector<std::optional<std::size_t>> prerequisites(count);
   for (std::size_t s = 0; s < count; ++s) {
     if (through[s] <= kFarThrough * extent) continue;
     double least = through[s] / 2;
@@ -68,10 +69,10 @@ std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
       const double both = through_in({s, other});
       if (both >= least) continue;
       least = both;
-      companions[s] = other;
+      prerequisites[s] = other;
     }
   }
-  return companions;
+  return prerequisites;
 }
 
 PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjacency,
@@ -96,14 +97,14 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
   frame_field = FrameField(shape_set.neutral, skin, extent, moved_vertices);
   if (!shape_set.head_shapes.empty()) look_up_regions(regions);
   shapes.resize(shape_set.shapes.size());
-  const auto companions = companions_of(shape_set, contacts, extent);
+  const auto prerequisites = find_prerequisites(shape_set, contacts, extent);
   parallel_for_each(shapes.size(), [&](std::size_t s) {
-    shapes[s].companion = companions[s];
+    shapes[s].prerequisite = prerequisites[s];
     prepare_shape(shape_set.shapes[s].moves, adjacency, shapes[s]);
   });
   std::vector<const CrossingSearch*> searches;
-  for (const PreparedShape& shape : shapes) searches.push_back(&shape.watched.search);
-  rest_search = crossings.watch_all(shape_set.neutral, searches);
+  for (const PreparedShape& shape : shapes) searches.push_back(&shape.searched_skin.search);
+  rest_search = crossings.merge_searches(shape_set.neutral, searches);
   add_sets();
 }
 
@@ -129,7 +130,7 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
     return BallMap(faces.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
                    motion.scale * ball.radius, axes);
   };
-  ActingEye eye{rigid_parts.size() - 1, {map_in(shape_set.neutral), {}, {}}, {}};
+  PreparedEye eye{rigid_parts.size() - 1, {map_in(shape_set.neutral), {}, {}}, {}};
   eye.balls.resize(faces.heads.size());
   parallel_for_each(faces.heads.size(),
                     [&](std::size_t h) { eye.balls[h] = map_in(faces.heads[h].positions); });
@@ -148,7 +149,7 @@ void PreparedShapes::find_inner_vertices(const PartList& parts) {
   for (const Part& part : parts.parts) {
     if (part.is_eyeball) continue;
     std::ranges::copy_if(part.vertices, std::back_inserter(inner_vertices), [&](std::uint32_t v) {
-      return std::ranges::none_of(eyes, [&](const ActingEye& eye) {
+      return std::ranges::none_of(eyes, [&](const PreparedEye& eye) {
         const BallMap& ball = eye.template_eye.ball;
         return (row3(shape_set.neutral, v) - ball.centre()).norm() < kEyeSkin * ball.radius();
       });
@@ -198,26 +199,27 @@ void PreparedShapes::prepare_shape(const Displacements& moves, const Adjacency& 
   }
   prepare_lids(moves, adjacency, state);
   state.moves_contacts = contacts.is_affected_by(moves.vertices);
-  state.watched = watch(moves, state);
+  state.searched_skin = find_searched_skin(moves, state);
   Positions shaped = shape_set.neutral;
-  if (state.companion) shape_set.shapes[*state.companion].moves.add_to(shaped);
+  if (state.prerequisite) shape_set.shapes[*state.prerequisite].moves.add_to(shaped);
   moves.add_to(shaped);
   state.skin_over_parts =
       SkinOverParts(shaped, crossings.mesh(), inner_vertices, moves.vertices, axes, extent);
 }
 
-SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
-                                             const PreparedShape& state) const {
+SkinCrossings::SearchedSkin PreparedShapes::find_searched_skin(const Displacements& moves,
+                                                               const PreparedShape& state) const {
   std::vector<signed char> side;
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     if (!state.lids[e].lids.closes_lids()) continue;
     side.resize(static_cast<std::size_t>(shape_set.neutral.rows()), 0);
     mark_lid_sides(eyes[e].template_eye, shape_set.neutral, side);
   }
-  if (!state.companion) return crossings.watch(shape_set.neutral, moves, std::move(side));
+  if (!state.prerequisite)
+    return crossings.find_searched_skin(shape_set.neutral, moves, std::move(side));
   Positions rest = shape_set.neutral;
-  shape_set.shapes[*state.companion].moves.add_to(rest);
-  SkinCrossings::Watched found = crossings.watch(rest, moves, std::move(side));
+  shape_set.shapes[*state.prerequisite].moves.add_to(rest);
+  SkinCrossings::SearchedSkin found = crossings.find_searched_skin(rest, moves, std::move(side));
   found.joins_distant_skin = true;
   return found;
 }
@@ -225,7 +227,7 @@ SkinCrossings::Watched PreparedShapes::watch(const Displacements& moves,
 void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& adjacency,
                                   PreparedShape& state) const {
   std::vector<bool> fitted(moves.vertices.size(), false);
-  for (const ActingEye& eye : eyes) {
+  for (const PreparedEye& eye : eyes) {
     LidClosure lids(eye.template_eye, adjacency, shape_set.neutral, moves, axes);
     for (const std::uint32_t row : lids.adjustable_rows()) fitted[row] = true;
     state.lids.push_back({std::move(lids), {}});
@@ -236,7 +238,7 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
     for (const std::uint32_t v : part.vertices) is_free[v] = false;
   }
   std::vector<std::uint32_t> lid_skin;
-  for (const ActingEye& eye : eyes) {
+  for (const PreparedEye& eye : eyes) {
     lid_skin.insert(lid_skin.end(), eye.template_eye.skin_vertices.begin(),
                     eye.template_eye.skin_vertices.end());
   }
@@ -285,16 +287,18 @@ void PreparedShapes::add_sets() {
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
     const FaceFrames face_frames =
         make_face_frames(heads > 0 ? faces.heads[h].positions : shape_set.neutral);
-    std::vector<FaceEye> at_eyes;
+    std::vector<FaceEye> face_eyes;
     for (const auto& [part, eye, balls] : eyes) {
-      at_eyes.push_back(face_eye(eye, heads > 0 ? balls[h] : eye.ball, {}, face_frames.mesh));
+      face_eyes.push_back(
+          make_face_eye(eye, heads > 0 ? balls[h] : eye.ball, {}, face_frames.mesh));
     }
     parallel_for_each(shapes.size(), [&](std::size_t s) {
       const Displacements own = shape_of_set(h, s);
       Positions rest = face_frames.mesh;
-      if (const auto& other = shapes[s].companion) shape_of_set(h, *other).add_to(rest);
-      add_set(face_frames, rest, own, at_eyes, shapes[s]);
-      if (heads > 0) shapes[s].head_moves.push_back(normalised(face_frames, shapes[s], own.moves));
+      if (const auto& other = shapes[s].prerequisite) shape_of_set(h, *other).add_to(rest);
+      add_set(face_frames, rest, own, face_eyes, shapes[s]);
+      if (heads > 0)
+        shapes[s].head_moves.push_back(normalised_moves(face_frames, shapes[s], own.moves));
     });
   }
 }
@@ -306,7 +310,7 @@ Displacements PreparedShapes::shape_of_set(std::size_t number, std::size_t shape
 }
 
 void PreparedShapes::add_set(const FaceFrames& face_frames, const Positions& rest,
-                             const Displacements& shape, std::span<const FaceEye> at_eyes,
+                             const Displacements& shape, std::span<const FaceEye> face_eyes,
                              PreparedShape& state) const {
   const Positions& moves = shape.moves;
   const RigidMotion& face_motion = face_frames.frames.face_motion;
@@ -319,12 +323,13 @@ void PreparedShapes::add_set(const FaceFrames& face_frames, const Positions& res
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     LidMove& move = state.lids[e];
     if (move.lids.empty()) continue;
-    move.goals.push_back(move.lids.measure_goals(face_frames.mesh, at_eyes[e], face_motion, moves));
+    move.goals.push_back(
+        move.lids.measure_goals(face_frames.mesh, face_eyes[e], face_motion, moves));
   }
   Positions moved = rest;
   shape.add_to(moved);
-  if (!shape_set.head_shapes.empty() && !state.watched.search.triangles().empty()) {
-    crossings.mark_excused(moved, state.watched);
+  if (!shape_set.head_shapes.empty() && !state.searched_skin.search.triangles().empty()) {
+    crossings.mark_excused(moved, state.searched_skin);
   }
   if (!state.moves_contacts) return;
   std::vector<double>& gap_changes = state.gap_changes.emplace_back(contacts.measure_gaps(moved));
@@ -333,8 +338,9 @@ void PreparedShapes::add_set(const FaceFrames& face_frames, const Positions& res
   }
 }
 
-SingleRows PreparedShapes::normalised(const FaceFrames& face_frames, const PreparedShape& state,
-                                      const Positions& moves) const {
+SingleRows PreparedShapes::normalised_moves(const FaceFrames& face_frames,
+                                            const PreparedShape& state,
+                                            const Positions& moves) const {
   SingleRows rows(moves.rows(), 3);
   for (Index i = 0; i < moves.rows(); ++i) {
     const Eigen::Matrix3d& map =

@@ -23,7 +23,7 @@
 namespace crowdface {
 
 /// An eye of the template, and the same eyeball in each head.
-struct ActingEye {
+struct PreparedEye {
   std::size_t part;  ///< index into the rigid parts
   TemplateEye template_eye;
   std::vector<BallMap> balls;  ///< #heads
@@ -42,8 +42,8 @@ struct LidMove {
   std::vector<LidClosure::Goals> goals;  ///< #sets
 };
 
-/// A vertex of a part that is bound to the skin, such as a lash. The vertex follows the corrections
-/// of a lid.
+/// A vertex of a lash or of another part that is bound to the skin. The vertex moves with the
+/// corrections of a lid.
 struct LidFollower {
   std::uint32_t row;
   /// The vertex is bound to a skin triangle. These are the rows of the triangle's corners in the
@@ -54,21 +54,22 @@ struct LidFollower {
 
 /// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's
 /// `mouthClose` closes the lips while `jawOpen` opens the jaw. A shape is corrective if, applied
-/// alone, it makes the lips overlap by several millimetres. The companion of a corrective shape is
-/// the other shape with which the lips overlap least; this shape must reduce the overlap to less
+/// alone, it makes the lips overlap by several millimetres. The prerequisite of a corrective shape
+/// is the other shape with which the lips overlap least; this shape must reduce the overlap to less
 /// than half.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
-/// \return        #shapes: the index of each corrective shape's companion; nothing for other
-///                shapes, or if no companion is found.
-std::vector<std::optional<std::size_t>> companions_of(const ShapeSet& shape_set,
-                                                      const GapPreserver& contacts, double extent);
+/// \return        #shapes: the index of each corrective shape's prerequisite; nothing for other
+///                shapes, or if no prerequisite is found.
+std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape_set,
+                                                           const GapPreserver& contacts,
+                                                           double extent);
 
 /// One shape: the vertices and parts that it moves, and the data for its corrections on a face.
 struct PreparedShape {
   /// only for a corrective shape: the shape with which it is always applied. Lips and intersections
   /// are repaired after both shapes have been added.
-  std::optional<std::size_t> companion;
+  std::optional<std::size_t> prerequisite;
   std::vector<std::uint32_t>
       vertex_indices;  ///< #rows: indices into PreparedShapes::moved_vertices
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
@@ -78,7 +79,7 @@ struct PreparedShape {
   std::vector<LidMove> lids;  ///< #eyes
   std::vector<LidFollower> lid_followers;
   SkinOverParts skin_over_parts;
-  SkinCrossings::Watched watched;
+  SkinCrossings::SearchedSkin searched_skin;
   bool moves_contacts = false;
   /// #sets by #gaps: change of each gap between lips; empty if no gap changes
   std::vector<std::vector<double>> gap_changes;
@@ -100,7 +101,7 @@ struct PreparedShapes {
   std::vector<RigidPart> rigid_parts;
   /// #rigid_parts by #regions: mean region weights of the skin near each part
   std::vector<std::vector<double>> rigid_part_weights;
-  std::vector<ActingEye> eyes;
+  std::vector<PreparedEye> eyes;
   std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
   /// #moved_vertices by #regions: region weights of the skin nearest to each vertex
   RegionWeights::Alpha alpha;
@@ -139,16 +140,17 @@ struct PreparedShapes {
                      PreparedShape& state) const;
   void prepare_lids(const Displacements& moves, const Adjacency& adjacency,
                     PreparedShape& state) const;
-  SkinCrossings::Watched watch(const Displacements& moves, const PreparedShape& state) const;
+  SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
+                                                 const PreparedShape& state) const;
   void add_sets();
   Displacements shape_of_set(std::size_t number, std::size_t shape) const;
   /// Adds to `state` the data of one set's shape: motions of parts, lids and lips, and
   /// intersections to ignore.
   /// \param rest  The mesh to which the shape is added.
   void add_set(const FaceFrames& face_frames, const Positions& rest, const Displacements& shape,
-               std::span<const FaceEye> at_eyes, PreparedShape& state) const;
-  SingleRows normalised(const FaceFrames& face_frames, const PreparedShape& state,
-                        const Positions& moves) const;
+               std::span<const FaceEye> face_eyes, PreparedShape& state) const;
+  SingleRows normalised_moves(const FaceFrames& face_frames, const PreparedShape& state,
+                              const Positions& moves) const;
 };
 
 }  // namespace crowdface

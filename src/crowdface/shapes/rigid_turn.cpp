@@ -96,10 +96,10 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
   return turn;
 }
 
-RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares) {
+RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetShare> shares) {
   RigidTurn mean{{0, 0, 0, 0}, {0, 0, 0}, {}};
   mean.residuals.assign(turns.front().residuals.size(), Vector3d::Zero());
-  for (const SetShare& of_set : shares) {
+  for (const ShapeSetShare& of_set : shares) {
     const RigidTurn& turn = turns[of_set.set];
     for (std::size_t c = 0; c < 4; ++c) mean.quaternion[c] += of_set.share * turn.quaternion[c];
     mean.translation += of_set.share * turn.translation;

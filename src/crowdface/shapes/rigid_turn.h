@@ -53,7 +53,7 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
                     const Positions& moves);
 
 /// Returns the weighted mean of the part's motions in several sets of shapes.
-RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const SetShare> shares);
+RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetShare> shares);
 
 /// Transfers the motion of a rigid part to a face: writes the part's displacements to `rows` of
 /// `moves`.

@@ -54,24 +54,25 @@ Displacements mean_displacements(const std::vector<std::vector<OwnShape>>& head_
                                  std::size_t shape);
 
 /// The weight of one set of shapes in a blend of several sets.
-struct SetShare {
+struct ShapeSetShare {
   std::uint32_t set;
   double share;
 };
-using SetShares = std::vector<SetShare>;
+using ShapeSetShares = std::vector<ShapeSetShare>;
 
 /// #regions: for each region, the weights of the sets of shapes that are blended there. The weights
 /// of a region sum to one.
-using RegionShares = std::vector<SetShares>;
+using RegionShares = std::vector<ShapeSetShares>;
 
 /// Returns the weights of the sets at a position that belongs to several regions.
 ///
 /// \param alpha  #regions: weights of the regions, with sum one.
-inline SetShares set_weights_at(std::span<const double> alpha, const RegionShares& region_shares) {
-  SetShares shares;
+inline ShapeSetShares shape_set_weights_at(std::span<const double> alpha,
+                                           const RegionShares& region_shares) {
+  ShapeSetShares shares;
   for (std::size_t k = 0; k < region_shares.size(); ++k) {
     if (alpha[k] == 0) continue;
-    for (const SetShare& of_set : region_shares[k]) {
+    for (const ShapeSetShare& of_set : region_shares[k]) {
       shares.push_back({of_set.set, alpha[k] * of_set.share});
     }
   }

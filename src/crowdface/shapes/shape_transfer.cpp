@@ -30,7 +30,7 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
     const RigidPart& part = prepared.rigid_parts[number];
     const RigidMotion motion = fit_rigid_motion(prepared.faces.heads[target].positions, face,
                                                 part.fitted_vertices, part.unit_weights);
-    there.push_back(face_eye(eye, balls[target], motion, face));
+    there.push_back(make_face_eye(eye, balls[target], motion, face));
   }
   return there;
 }
@@ -39,14 +39,14 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
 class CarriedShape {
  public:
   /// \param rest  The mesh to which the shape is added: the face at rest, or the face in the
-  ///              companion shape.
+  ///              prerequisite shape.
   /// \param mesh  Equal to `rest`; modified during the call and restored.
-  CarriedShape(const PreparedShapes& prepared, std::size_t number, std::span<const FaceEye> at_eyes,
-               const FaceFrames& face_frames, const RegionShares& shares, const Positions& rest,
-               Positions& mesh)
+  CarriedShape(const PreparedShapes& prepared, std::size_t number,
+               std::span<const FaceEye> face_eyes, const FaceFrames& face_frames,
+               const RegionShares& shares, const Positions& rest, Positions& mesh)
       : prepared_(prepared),
         shape_(prepared.shapes[number]),
-        at_eyes_(at_eyes),
+        face_eyes_(face_eyes),
         face_frames_(face_frames),
         shares_(shares),
         rest_(rest),
@@ -63,7 +63,7 @@ class CarriedShape {
     fit_lids();
     if (shape_.moves_contacts) keep_contacts();
     shape_.skin_over_parts.keep_in_front(rest_, face_frames_.frames.face_motion,
-                                         shape_.watched.rows, mesh_, result_);
+                                         shape_.searched_skin.rows, mesh_, result_);
     remove_crossings();
     follow_lids(carried);
   }
@@ -74,9 +74,9 @@ class CarriedShape {
 
  private:
   bool has_own_sets() const { return !shape_.head_moves.empty(); }
-  SetShares shares_of_part(std::size_t part) const {
-    return has_own_sets() ? set_weights_at(prepared_.rigid_part_weights[part], shares_)
-                          : SetShares{{0, 1}};
+  ShapeSetShares shares_of_part(std::size_t part) const {
+    return has_own_sets() ? shape_set_weights_at(prepared_.rigid_part_weights[part], shares_)
+                          : ShapeSetShares{{0, 1}};
   }
   Positions mixed_moves() const;
   void move_skin(const Positions& moves);
@@ -93,7 +93,7 @@ class CarriedShape {
 
   const PreparedShapes& prepared_;
   const PreparedShape& shape_;
-  std::span<const FaceEye> at_eyes_;
+  std::span<const FaceEye> face_eyes_;
   const FaceFrames& face_frames_;
   const RegionShares& shares_;
   const Positions& rest_;
@@ -108,7 +108,7 @@ class CarriedShape {
 Positions CarriedShape::mixed_moves() const {
   Positions moves = Positions::Zero(result_.moves.rows(), 3);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
-    for (const SetShare& of_set : shares_[k]) {
+    for (const ShapeSetShare& of_set : shares_[k]) {
       const SingleRows& own = shape_.head_moves[of_set.set];
       for (Index i = 0; i < moves.rows(); ++i) {
         const double part = prepared_.alpha(shape_.vertex_indices[static_cast<std::size_t>(i)],
@@ -160,33 +160,33 @@ void CarriedShape::fit_lids() {
     const LidMove& move = shape_.lids[e];
     if (move.lids.empty()) continue;
     goals_[e] = LidClosure::mean_goals(move.goals, shares_of_part(prepared_.eyes[e].part));
-    move.lids.fit_lids(face_frames_.mesh, at_eyes_[e], face_frames_.frames.face_motion, goals_[e],
+    move.lids.fit_lids(face_frames_.mesh, face_eyes_[e], face_frames_.frames.face_motion, goals_[e],
                        result_.moves);
   }
 }
 
 /// Corrects the gaps between lips. If the shape hardly changes a gap on the template, the gap
-/// changes equally little on the face. If the shape closes lips that its companion opens, all gaps
-/// change as on the template.
+/// changes equally little on the face. If the shape closes lips that its prerequisite opens, all
+/// gaps change as on the template.
 void CarriedShape::keep_contacts() {
   // Compute the wanted change of each gap: the weighted mean of the changes in the sets of shapes.
   std::vector<double> gap_changes(shape_.gap_changes.front().size(), 0.0);
   for (std::size_t p = 0; p < gap_changes.size(); ++p) {
-    SetShares here = {{0, 1}};
+    ShapeSetShares here = {{0, 1}};
     if (has_own_sets()) {
       const auto& alpha = prepared_.contact_alpha;
-      here = set_weights_at(
+      here = shape_set_weights_at(
           {&alpha(static_cast<Index>(p), 0), static_cast<std::size_t>(alpha.cols())}, shares_);
     }
-    for (const SetShare& of_set : here) {
+    for (const ShapeSetShare& of_set : here) {
       gap_changes[p] +=
           of_set.share * face_frames_.frames.face_motion.scale * shape_.gap_changes[of_set.set][p];
     }
   }
   // Adjust the mesh in the shape, and convert the result back to displacements.
   result_.add_to(mesh_);
-  const auto how =
-      shape_.companion ? GapPreserver::GapSelection::kAll : GapPreserver::GapSelection::kNearlySame;
+  const auto how = shape_.prerequisite ? GapPreserver::GapSelection::kAll
+                                       : GapPreserver::GapSelection::kNearlySame;
   prepared_.contacts.adjust(face_frames_.gaps, gap_changes, how, mesh_);
   for (std::size_t i = 0; i < result_.vertices.size(); ++i) {
     const std::uint32_t v = result_.vertices[i];
@@ -210,10 +210,11 @@ void CarriedShape::remove_crossings() {
   Positions kept;
   for (int round = 0; round < kMaxRepairs; ++round) {
     if (round > 0) close_lids();
-    Index crossing = prepared_.crossings.repair(face, shape_.watched, mesh_, result_, extra_cost);
+    Index crossing =
+        prepared_.crossings.repair(face, shape_.searched_skin, mesh_, result_, extra_cost);
     const bool are_out = keep_lids_out();
     if (extra_cost)
-      crossing = prepared_.crossings.count_intersecting(face, shape_.watched, result_, mesh_);
+      crossing = prepared_.crossings.count_intersecting(face, shape_.searched_skin, result_, mesh_);
     const double open = extra_cost ? extra_cost(result_.moves) : 0;
     const double bad = static_cast<double>(crossing) + open;
     if (bad < best) {
@@ -257,8 +258,9 @@ bool CarriedShape::keep_lids_out() {
   for (std::size_t e = 0; e < goals_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (lids.empty()) continue;
-    const bool is_out = lids.move_out_of_eyeball(
-        face_frames_.mesh, at_eyes_[e], face_frames_.frames.face_motion, goals_[e], result_.moves);
+    const bool is_out =
+        lids.move_out_of_eyeball(face_frames_.mesh, face_eyes_[e], face_frames_.frames.face_motion,
+                                 goals_[e], result_.moves);
     are_out = are_out && is_out;
   }
   return are_out;
@@ -292,23 +294,23 @@ std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& f
                                                 std::span<const RegionShares> shares,
                                                 std::vector<Index>* crossing) const {
   const FaceFrames face_frames = prepared_->make_face_frames(face);
-  const auto at_eyes = placed_eyes(*prepared_, static_cast<std::size_t>(target), face);
+  const auto face_eyes = placed_eyes(*prepared_, static_cast<std::size_t>(target), face);
   const RegionShares none;
   std::vector<Displacements> shapes(prepared_->shapes.size());
   if (crossing != nullptr) crossing->assign(shapes.size(), 0);
   const auto carry_one = [&](std::size_t s, const Positions& rest, Positions& mesh) {
-    CarriedShape shape(*prepared_, s, at_eyes, face_frames, s < shares.size() ? shares[s] : none,
+    CarriedShape shape(*prepared_, s, face_eyes, face_frames, s < shares.size() ? shares[s] : none,
                        rest, mesh);
     if (crossing != nullptr) (*crossing)[s] = shape.crossing();
     shapes[s] = std::move(shape).moves();
   };
   Positions mesh = face;
   for (std::size_t s = 0; s < shapes.size(); ++s) {
-    if (!companion(s)) carry_one(s, face, mesh);
+    if (!prerequisite_of(s)) carry_one(s, face, mesh);
   }
   for (std::size_t s = 0; s < shapes.size(); ++s) {
-    if (!companion(s)) continue;
-    shapes[*companion(s)].add_to(mesh);
+    if (!prerequisite_of(s)) continue;
+    shapes[*prerequisite_of(s)].add_to(mesh);
     const Positions rest = mesh;
     carry_one(s, rest, mesh);
     mesh = face;
@@ -316,8 +318,8 @@ std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& f
   return shapes;
 }
 
-std::optional<std::size_t> ShapeTransfer::companion(std::size_t shape) const {
-  return prepared_->shapes[shape].companion;
+std::optional<std::size_t> ShapeTransfer::prerequisite_of(std::size_t shape) const {
+  return prepared_->shapes[shape].prerequisite;
 }
 
 std::size_t ShapeTransfer::memory_bytes() const {

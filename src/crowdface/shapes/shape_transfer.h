@@ -53,9 +53,9 @@ class ShapeTransfer {
                                    std::span<const RegionShares> shares = {},
                                    std::vector<Index>* crossing_counts = nullptr) const;
 
-  /// Returns the index of the shape with which this corrective shape is applied, see companions_of;
-  /// nothing for other shapes.
-  std::optional<std::size_t> companion(std::size_t shape) const;
+  /// Returns the index of the shape with which this corrective shape is applied, see
+  /// find_prerequisites; nothing for other shapes.
+  std::optional<std::size_t> prerequisite_of(std::size_t shape) const;
 
   /// Returns the memory, in bytes, of the heads' normalised shapes and region weights.
   std::size_t memory_bytes() const;

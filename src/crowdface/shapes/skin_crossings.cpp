@@ -65,16 +65,16 @@ Index crossing_triangles(const std::vector<Pair>& pairs) {
 /// Repairs one shape of a face.
 class SkinCrossings::Repair {
  public:
-  Repair(const SkinCrossings& skin, const Face& face, const Watched& watched, Positions& mesh,
-         Displacements& shape)
+  Repair(const SkinCrossings& skin, const Face& face, const SearchedSkin& searched_skin,
+         Positions& mesh, Displacements& shape)
       : skin_(skin),
         face_(face),
         axes_(moved_axes(skin.axes_, face.face_motion)),
-        watched_(watched),
+        searched_skin_(searched_skin),
         mesh_(mesh),
         shape_(shape) {
     shape_.add_to(mesh_);
-    boxes_ = watched_.search.make_boxes(mesh_);
+    boxes_ = searched_skin_.search.make_boxes(mesh_);
     look();
   }
   ~Repair() {
@@ -90,9 +90,9 @@ class SkinCrossings::Repair {
   void remove_crossings(const ExtraCost& extra_cost) {
     if (pairs_.empty()) return;
     const Positions start = shape_.moves;
-    remove_crossings(extra_cost, watched_.joins_distant_skin ? &Repair::arrange_as_template
-                                                             : &Repair::push_lids);
-    if (!watched_.lid_sides.empty() && best_ > 0) {
+    remove_crossings(extra_cost, searched_skin_.joins_distant_skin ? &Repair::arrange_as_template
+                                                                   : &Repair::push_lids);
+    if (!searched_skin_.lid_sides.empty() && best_ > 0) {
       shape_.moves = start;
       changed_.assign(changed_.size(), true);
       look_again({});
@@ -106,14 +106,14 @@ class SkinCrossings::Repair {
   using HandleLids = void (Repair::*)(const std::vector<Pair>& lids, double grown);
 
   void remove_crossings(const ExtraCost& extra_cost, HandleLids handle_lids) {
-    const int patience = watched_.lid_sides.empty() ? kRounds : kPatience;
+    const int patience = searched_skin_.lid_sides.empty() ? kRounds : kPatience;
     int since_best = 0;
     double grown = 1;
     for (int round = 0; round <= kRounds; ++round, grown += kGrowth) {
       since_best = is_best(extra_cost) ? 0 : since_best + 1;
       if (pairs_.empty() || since_best == patience || round == kRounds) return;
       const auto lids = std::stable_partition(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-        return !watched_.joins_distant_skin && side_of(pair[0]) * side_of(pair[1]) >= 0;
+        return !searched_skin_.joins_distant_skin && side_of(pair[0]) * side_of(pair[1]) >= 0;
       });
       const std::vector<Pair> before = pairs_, meeting(lids, pairs_.end());
       pairs_.erase(lids, pairs_.end());
@@ -137,26 +137,26 @@ class SkinCrossings::Repair {
   }
 
   bool is_excused(std::uint32_t triangle) const {
-    const auto& [a, b, c] = watched_.search.triangles()[triangle];
-    return watched_.is_excused[triangle] || face_.crosses_at_rest[a] || face_.crosses_at_rest[b] ||
-           face_.crosses_at_rest[c];
+    const auto& [a, b, c] = searched_skin_.search.triangles()[triangle];
+    return searched_skin_.is_excused[triangle] || face_.crosses_at_rest[a] ||
+           face_.crosses_at_rest[b] || face_.crosses_at_rest[c];
   }
   void look() {
-    pairs_ = watched_.search.intersecting_pairs(mesh_, boxes_,
-                                                [&](std::uint32_t t) { return is_excused(t); });
+    pairs_ = searched_skin_.search.intersecting_pairs(
+        mesh_, boxes_, [&](std::uint32_t t) { return is_excused(t); });
   }
   /// Searches for intersections again after vertices have moved.
   ///
   /// \param before  Pairs that intersected before the move. A pair still intersects if none of its
   ///                vertices moved.
   void look_again(const std::vector<Pair>& before) {
-    for (const ShapeRow& row : watched_.rows) {
+    for (const ShapeRow& row : searched_skin_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
     }
-    watched_.search.update(mesh_, changed_, boxes_);
+    searched_skin_.search.update(mesh_, changed_, boxes_);
     look();
     const auto has_changed = [&](std::uint32_t triangle) {
-      return std::ranges::any_of(watched_.search.triangles()[triangle],
+      return std::ranges::any_of(searched_skin_.search.triangles()[triangle],
                                  [&](std::uint32_t v) { return changed_[v]; });
     };
     for (const Pair& pair : before) {
@@ -170,10 +170,11 @@ class SkinCrossings::Repair {
     return row3(face_.rest, row.vertex) + row3(shape_.moves, row.row);
   }
   signed char side(std::uint32_t vertex) const {
-    return watched_.lid_sides.empty() ? static_cast<signed char>(0) : watched_.lid_sides[vertex];
+    return searched_skin_.lid_sides.empty() ? static_cast<signed char>(0)
+                                            : searched_skin_.lid_sides[vertex];
   }
   int side_of(std::uint32_t triangle) const {
-    for (const std::uint32_t v : watched_.search.triangles()[triangle]) {
+    for (const std::uint32_t v : searched_skin_.search.triangles()[triangle]) {
       if (side(v) != 0) return side(v);
     }
     return 0;
@@ -188,19 +189,19 @@ class SkinCrossings::Repair {
   void even_out(double grown) {
     const double unit = grown * skin_.extent_;
     std::vector<Eigen::Vector3d> around;
-    for (const std::uint32_t v : vertices_of(pairs_, watched_.search)) {
+    for (const std::uint32_t v : vertices_of(pairs_, searched_skin_.search)) {
       around.push_back(row3(face_.rest, v));
     }
     const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
     std::vector<SmoothedVectors::Sample> samples;
-    for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
-      const ShapeRow& row = watched_.rows[i];
+    for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
+      const ShapeRow& row = searched_skin_.rows[i];
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       if (field.affects(here)) samples.push_back({i, here, row3(shape_.moves, row.row)});
     }
     const Eigen::Vector3d& up = axes_.up;
     for (auto [number, by] : field.changes(samples)) {
-      const ShapeRow& row = watched_.rows[number];
+      const ShapeRow& row = searched_skin_.rows[number];
       if (side(row.vertex) != 0) by -= (1 - kClosing) * by.dot(up) * up;
       move(row, by);
     }
@@ -210,23 +211,23 @@ class SkinCrossings::Repair {
   /// between face and template over skin that is close together in the template's shape.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kSameLayoutFactor * grown * skin_.extent_;
-    const std::vector<std::uint32_t> crossing = vertices_of(meeting, watched_.search);
+    const std::vector<std::uint32_t> crossing = vertices_of(meeting, searched_skin_.search);
     std::vector<Eigen::Vector3d> around;
-    const auto shaped = [&](std::uint32_t i) { return row3(watched_.shaped_positions, i); };
-    for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
-      if (std::ranges::binary_search(crossing, watched_.rows[i].vertex)) {
+    const auto shaped = [&](std::uint32_t i) { return row3(searched_skin_.shaped_positions, i); };
+    for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
+      if (std::ranges::binary_search(crossing, searched_skin_.rows[i].vertex)) {
         around.push_back(shaped(i));
       }
     }
     const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
     std::vector<SmoothedVectors::Sample> samples;
-    for (std::uint32_t i = 0; i < watched_.rows.size(); ++i) {
-      const ShapeRow& row = watched_.rows[i];
-      if (!watched_.joins_distant_skin && side(row.vertex) == 0) continue;
+    for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
+      const ShapeRow& row = searched_skin_.rows[i];
+      if (!searched_skin_.joins_distant_skin && side(row.vertex) == 0) continue;
       if (!field.affects(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.face_motion.apply(shaped(i))});
     }
-    for (const auto& [number, by] : field.changes(samples)) move(watched_.rows[number], by);
+    for (const auto& [number, by] : field.changes(samples)) move(searched_skin_.rows[number], by);
   }
 
   /// Pushes the upper lid forward over the lower lid. Pushing the upper lid up would open the eye,
@@ -237,14 +238,14 @@ class SkinCrossings::Repair {
     for (const Pair& pair : lids) {
       std::array<Eigen::Vector3d, 2> middle;
       for (std::size_t k = 0; k < 2; ++k) {
-        const auto& [a, b, c] = watched_.search.triangles()[pair[k]];
+        const auto& [a, b, c] = searched_skin_.search.triangles()[pair[k]];
         middle[k] = row3(face_.rest, a) + row3(face_.rest, b) + row3(face_.rest, c);
       }
       const double side_of_first = side_of(pair[0]);
       Eigen::Vector3d over = (middle[0] - middle[1]).normalized() + side_of_first * front;
       over = (over - over.dot(up) * up).normalized();
       for (std::size_t k = 0; k < 2; ++k) {
-        for (const std::uint32_t v : watched_.search.triangles()[pair[k]]) {
+        for (const std::uint32_t v : searched_skin_.search.triangles()[pair[k]]) {
           if (side(v) < 0) continue;
           wanted.try_emplace(v, 0, 0, 0).first->second += k == 0 ? over : -over;
         }
@@ -252,7 +253,7 @@ class SkinCrossings::Repair {
     }
     for (auto& [v, push] : wanted) push = push.normalized();
     const double reach = kPushed * skin_.extent_, by = grown * kPush * skin_.extent_;
-    for (const ShapeRow& row : watched_.rows) {
+    for (const ShapeRow& row : searched_skin_.rows) {
       if (side(row.vertex) == 0) continue;
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -273,7 +274,7 @@ class SkinCrossings::Repair {
   const SkinCrossings& skin_;
   const Face& face_;
   HeadAxes axes_;  ///< axes of the face
-  const Watched& watched_;
+  const SearchedSkin& searched_skin_;
   Positions& mesh_;
   Displacements& shape_;
   CrossingSearch::Boxes boxes_;
@@ -299,17 +300,19 @@ SkinCrossings::SkinCrossings(const Topology& topology, std::span<const std::uint
   skin_.vertex_triangles = VertexFaces(topology_of(skin_.triangles, topology.vertex_count));
 }
 
-SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Displacements& shape,
-                                            std::vector<signed char> side) const {
+SkinCrossings::SearchedSkin SkinCrossings::find_searched_skin(const Positions& neutral,
+                                                              const Displacements& shape,
+                                                              std::vector<signed char> side) const {
   Positions shaped = neutral;
   shape.add_to(shaped);
-  Watched watched{{}, {}, std::move(side), {}, {}};
+  SearchedSkin searched_skin{{}, {}, std::move(side), {}, {}};
   for (std::uint32_t row = 0; row < shape.vertices.size(); ++row) {
-    if (is_skin_[shape.vertices[row]]) watched.rows.push_back({row, shape.vertices[row]});
+    if (is_skin_[shape.vertices[row]]) searched_skin.rows.push_back({row, shape.vertices[row]});
   }
-  watched.shaped_positions.resize(static_cast<Index>(watched.rows.size()), 3);
-  for (std::size_t i = 0; i < watched.rows.size(); ++i) {
-    watched.shaped_positions.row(static_cast<Index>(i)) = shaped.row(watched.rows[i].vertex);
+  searched_skin.shaped_positions.resize(static_cast<Index>(searched_skin.rows.size()), 3);
+  for (std::size_t i = 0; i < searched_skin.rows.size(); ++i) {
+    searched_skin.shaped_positions.row(static_cast<Index>(i)) =
+        shaped.row(searched_skin.rows[i].vertex);
   }
   // Search skin that may touch, and a few rings of triangles around this skin.
   std::vector<bool> meets = skin_that_may_touch(skin_, neutral, shaped, extent_);
@@ -325,32 +328,32 @@ SkinCrossings::Watched SkinCrossings::watch(const Positions& neutral, const Disp
   std::ranges::copy_if(skin_.triangles, std::back_inserter(triangles), [&](const Triangle& t) {
     return meets[t[0]] || meets[t[1]] || meets[t[2]];
   });
-  watched.is_excused.assign(triangles.size(), false);
-  watched.search = CrossingSearch(std::move(triangles), shaped, kMaxTemplateGap * extent_,
-                                  kMaxFacingTemplateGap * extent_);
+  searched_skin.is_excused.assign(triangles.size(), false);
+  searched_skin.search = CrossingSearch(std::move(triangles), shaped, kMaxTemplateGap * extent_,
+                                        kMaxFacingTemplateGap * extent_);
   // Ignore the intersections that the template already has in this shape.
-  mark_excused(shaped, watched);
-  return watched;
+  mark_excused(shaped, searched_skin);
+  return searched_skin;
 }
 
 /// Marks as excused every triangle that shares a vertex with an intersecting triangle, as
 /// NewIntersections does.
-void SkinCrossings::mark_excused(const Positions& mesh, Watched& watched) const {
-  const CrossingSearch& search = watched.search;
+void SkinCrossings::mark_excused(const Positions& mesh, SearchedSkin& searched_skin) const {
+  const CrossingSearch& search = searched_skin.search;
   std::vector<bool> there(is_skin_.size(), false);
-  const auto known = [&](std::uint32_t t) { return watched.is_excused[t]; };
+  const auto known = [&](std::uint32_t t) { return searched_skin.is_excused[t]; };
   for (const std::uint32_t v :
        vertices_of(search.intersecting_pairs(mesh, search.make_boxes(mesh), known), search)) {
     there[v] = true;
   }
-  for (std::size_t i = 0; i < watched.is_excused.size(); ++i) {
+  for (std::size_t i = 0; i < searched_skin.is_excused.size(); ++i) {
     const auto& [a, b, c] = search.triangles()[i];
-    if (there[a] || there[b] || there[c]) watched.is_excused[i] = true;
+    if (there[a] || there[b] || there[c]) searched_skin.is_excused[i] = true;
   }
 }
 
-CrossingSearch SkinCrossings::watch_all(const Positions& neutral,
-                                        std::span<const CrossingSearch* const> shapes) const {
+CrossingSearch SkinCrossings::merge_searches(const Positions& neutral,
+                                             std::span<const CrossingSearch* const> shapes) const {
   std::vector<Triangle> all;
   for (const CrossingSearch* shape : shapes) {
     all.insert(all.end(), shape->triangles().begin(), shape->triangles().end());
@@ -371,16 +374,16 @@ std::vector<bool> SkinCrossings::crossing_at_rest(const Positions& rest,
   return at;
 }
 
-Index SkinCrossings::count_intersecting(const Face& face, const Watched& watched,
+Index SkinCrossings::count_intersecting(const Face& face, const SearchedSkin& searched_skin,
                                         const Displacements& shape, Positions& mesh) const {
   Displacements same = shape;
-  return Repair(*this, face, watched, mesh, same).crossing();
+  return Repair(*this, face, searched_skin, mesh, same).crossing();
 }
 
-Index SkinCrossings::repair(const Face& face, const Watched& watched, Positions& mesh,
+Index SkinCrossings::repair(const Face& face, const SearchedSkin& searched_skin, Positions& mesh,
                             Displacements& shape, const ExtraCost& extra_cost) const {
-  if (watched.search.triangles().empty()) return 0;
-  Repair repair(*this, face, watched, mesh, shape);
+  if (searched_skin.search.triangles().empty()) return 0;
+  Repair repair(*this, face, searched_skin, mesh, shape);
   repair.remove_crossings(extra_cost);
   return repair.crossing();
 }

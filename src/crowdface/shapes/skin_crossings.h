@@ -29,7 +29,7 @@ class SkinCrossings {
   const SkinTriangles& mesh() const { return skin_; }
 
   /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
-  struct Watched {
+  struct SearchedSkin {
     CrossingSearch search;
     /// #triangles of `search`: whether the triangle takes part in an intersection on the template
     std::vector<bool> is_excused;
@@ -44,17 +44,17 @@ class SkinCrossings {
   };
   /// Finds the skin in which to search for intersections of a shape.
   /// \param neutral  The mesh to which the shape is added, #V by 3.
-  /// \param lid_sides     See Watched::lid_sides.
-  Watched watch(const Positions& neutral, const Displacements& shape,
-                std::vector<signed char> lid_sides) const;
+  /// \param lid_sides     See SearchedSkin::lid_sides.
+  SearchedSkin find_searched_skin(const Positions& neutral, const Displacements& shape,
+                                  std::vector<signed char> lid_sides) const;
   /// Marks the triangles that intersect on `mesh` as excused, so that they are ignored on faces.
-  void mark_excused(const Positions& mesh, Watched& watched) const;
+  void mark_excused(const Positions& mesh, SearchedSkin& searched_skin) const;
 
   /// Returns one search over all triangles of the given searches.
   ///
   /// \param neutral  Template at rest, #V by 3.
-  CrossingSearch watch_all(const Positions& neutral,
-                           std::span<const CrossingSearch* const> searches) const;
+  CrossingSearch merge_searches(const Positions& neutral,
+                                std::span<const CrossingSearch* const> searches) const;
   /// Returns one value for each vertex: whether the vertex belongs to an intersecting triangle of a
   /// face at rest.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& search) const;
@@ -69,8 +69,8 @@ class SkinCrossings {
   /// Returns the number of intersecting triangles in a shape of a face.
   ///
   /// \param mesh  The face at rest; modified during the call and restored.
-  Index count_intersecting(const Face& face, const Watched& watched, const Displacements& shape,
-                           Positions& mesh) const;
+  Index count_intersecting(const Face& face, const SearchedSkin& searched_skin,
+                           const Displacements& shape, Positions& mesh) const;
 
   using ExtraCost = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
@@ -82,8 +82,8 @@ class SkinCrossings {
   /// \param extra_cost  Cost of displacements in addition to intersections, in units of one
   ///                    intersecting triangle. The round with the lowest total cost is kept.
   /// \return       Number of triangles that still intersect other triangles.
-  Index repair(const Face& face, const Watched& watched, Positions& mesh, Displacements& shape,
-               const ExtraCost& extra_cost = {}) const;
+  Index repair(const Face& face, const SearchedSkin& searched_skin, Positions& mesh,
+               Displacements& shape, const ExtraCost& extra_cost = {}) const;
 
  private:
   class Repair;

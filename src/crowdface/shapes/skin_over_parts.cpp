@@ -26,7 +26,7 @@ constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on t
 // largest distance of a vertex behind the skin; vertices farther behind need no check
 constexpr double kNear = 0.008;
 constexpr double kPushedAround = 0.02;  // radius of the skin that a push moves
-// Of the vertices in a cell of this size, only one is checked.
+// Only one vertex in each cell of this size is checked.
 constexpr double kFrontCell = 0.0025;
 // skin is pushed only if its distance from the vertex is less than this fraction of the wanted
 // depth

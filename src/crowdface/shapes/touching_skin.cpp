@@ -23,7 +23,7 @@ constexpr double kOfMove = 4, kOfDifference = 10;
 // the skin folds at an edge if the displacements of the edge's ends differ by more than this
 // fraction of the edge's length
 constexpr double kFolds = 0.5;
-// Of the vertices in a cell of this size that have similar normals, only one is checked.
+// Size of a grid cell. If vertices in one cell have similar normals, only one of them is checked.
 constexpr double kMeetingCell = 0.003;
 
 /// Returns, for each vertex of the skin, one vertex that represents all vertices with similar

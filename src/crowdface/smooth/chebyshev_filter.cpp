@@ -24,7 +24,7 @@ using RowVector = std::vector<Row<T>>;
 /// Number of the tile's own rows whose vertices are fixed. These rows come first, because fixed
 /// vertices have valence 0 and rows are sorted by valence.
 std::uint32_t fixed_rows(const Tile& tile) {
-  return tile.run_counts[0] == 0 ? tile.count : tile.runs[0].first;
+  return tile.run_counts[0] == 0 ? tile.row_count : tile.runs[0].first_row;
 }
 
 double coefficient(const ChebyshevSeries& series, Index k) {
@@ -43,7 +43,8 @@ class Recurrence {
       sums_.emplace_back(input.values.size());
     }
     for (const Tile& tile : tiling.tiles) {  // fixed rows have the same value in every T_k
-      std::copy_n(now_.begin() + tile.first, fixed_rows(tile), previous_.begin() + tile.first);
+      std::copy_n(now_.begin() + tile.first_row, fixed_rows(tile),
+                  previous_.begin() + tile.first_row);
     }
     next_now_ = now_;
     next_previous_ = previous_;
@@ -55,7 +56,7 @@ class Recurrence {
   void begin(const Tile& tile) {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T a = static_cast<T>(input_.series[s][0]);
-      for (std::uint32_t r = tile.first; r < tile.first + tile.count; ++r) {
+      for (std::uint32_t r = tile.first_row; r < tile.first_row + tile.row_count; ++r) {
         for (int c = 0; c < 4; ++c) sums_[s][r].value[c] = a * input_.values[r].value[c];
       }
     }
@@ -73,15 +74,15 @@ class Recurrence {
     for (int step = 0; step < steps; ++step) {
       const T scale = k == 0 ? T(1) : T(2);  // T_1 = W T_0, T_{k+1} = 2 W T_k − T_{k−1}
       const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings that later steps need
-      recurrence_step<T>(tile.runs.data(), tile.run_counts[reach], tile.rings.data(), scale,
+      recurrence_step<T>(tile.runs.data(), tile.run_counts[reach], tile.neighbours.data(), scale,
                          now.data(), previous.data());
       now.swap(previous);
       ++k;
       add_term(tile, k, now.data());
       visit(k, now.data());
     }
-    std::copy_n(now.begin(), tile.count, next_now_.begin() + tile.first);
-    std::copy_n(previous.begin(), tile.count, next_previous_.begin() + tile.first);
+    std::copy_n(now.begin(), tile.row_count, next_now_.begin() + tile.first_row);
+    std::copy_n(previous.begin(), tile.row_count, next_previous_.begin() + tile.first_row);
   }
 
   void end_round() {
@@ -89,13 +90,13 @@ class Recurrence {
     previous_.swap(next_previous_);
   }
 
-  /// Returns the sums and leaves this object without them. Recomputes fixed rows as x times the sum
-  /// of the coefficients, which is exact.
+  /// Moves the sums out of this object. Recomputes fixed rows as x times the sum of the
+  /// coefficients, which is exact.
   std::vector<RowArray<T>> take_sums() {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T sum = static_cast<T>(coefficient_sum(input_.series[s]));
       for (const Tile& tile : tiling_.tiles) {
-        for (std::uint32_t r = tile.first; r < tile.first + fixed_rows(tile); ++r) {
+        for (std::uint32_t r = tile.first_row; r < tile.first_row + fixed_rows(tile); ++r) {
           for (int c = 0; c < 4; ++c) sums_[s][r].value[c] = sum * input_.values[r].value[c];
         }
       }
@@ -106,8 +107,8 @@ class Recurrence {
  private:
   static void load(const Tile& tile, const RowVector<T>& from, RowVector<T>& to) {
     to.resize(tile.local_count());
-    std::copy_n(from.begin() + tile.first, tile.count, to.begin());
-    for (std::size_t h = 0; h < tile.halo.size(); ++h) to[tile.count + h] = from[tile.halo[h]];
+    std::copy_n(from.begin() + tile.first_row, tile.row_count, to.begin());
+    for (std::size_t h = 0; h < tile.halo.size(); ++h) to[tile.row_count + h] = from[tile.halo[h]];
   }
 
   void add_term(const Tile& tile, Index k, const Row<T>* term) {
@@ -116,7 +117,7 @@ class Recurrence {
       // Skip zero coefficients. Every second coefficient of an umbrella series is zero, and so are
       // all coefficients beyond the end of a short series.
       if (a == 0) continue;
-      add_scaled<T>(static_cast<T>(a), term, tile.count, sums_[s].data() + tile.first);
+      add_scaled<T>(static_cast<T>(a), term, tile.row_count, sums_[s].data() + tile.first_row);
     }
   }
 
@@ -135,12 +136,12 @@ class ProbeRows {
     std::vector<std::size_t> tile_of_row(tiling.vertex_of_row.size());
     for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
       const Tile& tile = tiling.tiles[t];
-      std::fill_n(tile_of_row.begin() + tile.first, tile.count, t);
+      std::fill_n(tile_of_row.begin() + tile.first_row, tile.row_count, t);
     }
     for (std::size_t p = 0; p < probes.vertices.size(); ++p) {
       const std::uint32_t row = tiling.row_of_vertex[probes.vertices[p]];
       const std::size_t tile = tile_of_row[row];
-      of_tile_[tile].push_back({p, row - tiling.tiles[tile].first});
+      of_tile_[tile].push_back({p, row - tiling.tiles[tile].first_row});
     }
   }
 
@@ -148,7 +149,7 @@ class ProbeRows {
   void take(std::size_t tile, Index k, const Row<T>* rows) const {
     for (const Place& place : of_tile_[tile]) {
       for (Index c = 0; c < 3; ++c) {
-        probes_.values(k, 3 * static_cast<Index>(place.probe) + c) = rows[place.row].value[c];
+        probes_.terms(k, 3 * static_cast<Index>(place.probe) + c) = rows[place.row].value[c];
       }
     }
   }
@@ -221,10 +222,10 @@ std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const Filte
   std::optional<ProbeRows> probe_rows;
   if (probes != nullptr) {
     probe_rows.emplace(tiling_, *probes);
-    probes->values.resize(recurrences.front().terms(),
-                          3 * static_cast<Index>(probes->vertices.size()));
+    probes->terms.resize(recurrences.front().terms(),
+                         3 * static_cast<Index>(probes->vertices.size()));
     for (std::size_t t = 0; t < tiling_.tiles.size(); ++t) {
-      probe_rows->take(t, 0, inputs.front().values.data() + tiling_.tiles[t].first);
+      probe_rows->take(t, 0, inputs.front().values.data() + tiling_.tiles[t].first_row);
     }
   }
   for (Index k = 0; k == 0 || k + 1 < terms; k += kStepsPerTurn) {

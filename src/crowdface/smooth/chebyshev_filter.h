@@ -26,7 +26,7 @@ struct FilterInput {
 /// linear combination of the terms and needs no further filter pass.
 struct Probes {
   std::vector<std::uint32_t> vertices;
-  Columns values;  ///< #terms by 3·#vertices: T_k(W) x at the vertices; the filter writes them
+  Columns terms;  ///< #terms by 3·#vertices: T_k(W) x at the vertices; the filter writes them
 };
 
 /// Evaluates polynomials of the matrix W (the mean over a vertex's edge-neighbours) of one topology

@@ -15,7 +15,7 @@ struct TruncationError {
   std::size_t kept_fields = 0;  ///< number of leading fields
   float squared_error = 0;      ///< squared displacement error, maximum over all vertices and
                                 ///< levels
-  std::size_t level = 0;        ///< index of the level with the largest error
+  std::size_t level_index = 0;  ///< index of the level with the largest error
 };
 
 /// Finds the smallest number of leading fields that a tile must keep, such that omitting the

@@ -43,9 +43,9 @@ std::vector<double> error_weights(const HeadLevels& head, std::span<const std::u
 
 /// The lists of a sequence of patches while the patches are made; see PatchLists.
 struct MadePatches {
-  std::vector<std::uint32_t> skeletons, counts;
+  std::vector<std::uint32_t> skeleton_sizes, field_counts;
   std::vector<float> steps, weights;
-  std::vector<std::int16_t> numbers;
+  std::vector<std::int16_t> quantized_values;
 };
 
 /// Chooses the skeleton of each patch (the vertices from which all others are interpolated) and
@@ -61,10 +61,10 @@ class PatchMaker {
   void add(std::span<const std::uint32_t> vertices, MadePatches& made) {
     const std::size_t fields = count_fields(vertices);
     choose_skeleton(vertices, fields);
-    made.skeletons.push_back(static_cast<std::uint32_t>(skeleton_.size()));
-    made.counts.insert(made.counts.end(), counts_.begin(), counts_.end());
+    made.skeleton_sizes.push_back(static_cast<std::uint32_t>(skeleton_.size()));
+    made.field_counts.insert(made.field_counts.end(), counts_.begin(), counts_.end());
     if (skeleton_.size() < vertices.size()) add_weights(made.weights);
-    add_numbers(vertices, made);
+    add_quantized_values(vertices, made);
   }
 
  private:
@@ -75,7 +75,8 @@ class PatchMaker {
     std::size_t fields = 0;
     for (std::size_t h = 0; h < heads_.size(); ++h) {
       for (const std::uint32_t v : vertices) {
-        counts_[h] = std::max(counts_[h], static_cast<std::uint32_t>(heads_[h].fields.at(v).count));
+        counts_[h] =
+            std::max(counts_[h], static_cast<std::uint32_t>(heads_[h].fields.tile_fields(v).count));
       }
       fields += counts_[h];
     }
@@ -89,13 +90,13 @@ class PatchMaker {
     float* first = columns_.data();
     for (std::size_t h = 0; h < heads_.size(); ++h) {
       for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const TileFields tile = heads_[h].fields.at(vertices[i]);
-        const std::int16_t* numbers = tile.numbers + 3 * (vertices[i] % kTileVertices);
+        const TileFields tile = heads_[h].fields.tile_fields(vertices[i]);
+        const std::int16_t* quantized = tile.quantized_values + 3 * (vertices[i] % kTileVertices);
         float* to = first + i;
-        for (std::size_t p = 0; p < tile.count; ++p, numbers += kTileValues) {
+        for (std::size_t p = 0; p < tile.count; ++p, quantized += kTileValues) {
           const float heavy = tile.steps[p] * static_cast<float>(error_weights_[h][p]);
           for (std::size_t c = 0; c < 3; ++c, to += kPatchVertices) {
-            *to = heavy * static_cast<float>(numbers[c]);
+            *to = heavy * static_cast<float>(quantized[c]);
           }
         }
       }
@@ -110,8 +111,8 @@ class PatchMaker {
   void choose_skeleton(std::span<const std::uint32_t> vertices, std::size_t fields) {
     skeleton_.clear();
     factor_.clear();
-    // The largest useful skeleton. With more vertices s, it would take more memory than storing all
-    // vertices: s·#fields + s·kPatchVertices > kPatchVertices·#fields.
+    // The largest useful skeleton. A skeleton of s vertices needs s·#fields + s·kPatchVertices
+    // numbers; storing all vertices needs kPatchVertices·#fields numbers.
     const std::size_t most = kPatchVertices * fields / (fields + kPatchVertices);
     fill_columns(vertices, fields);
     PatchColumn left{};
@@ -170,25 +171,25 @@ class PatchMaker {
   }
 
   /// Quantizes the fields at the vertices of the skeleton, and appends them.
-  void add_numbers(std::span<const std::uint32_t> vertices, MadePatches& made) {
-    const std::size_t size = skeleton_.size(), values = FieldPatch::values_of(size);
+  void add_quantized_values(std::span<const std::uint32_t> vertices, MadePatches& made) {
+    const std::size_t size = skeleton_.size(), values = FieldPatch::values_per_field(size);
     for (std::size_t h = 0; h < heads_.size(); ++h) {
       values_.assign(counts_[h] * values, 0.0F);
       for (std::size_t j = 0; j < size; ++j) {
         const std::uint32_t vertex = vertices[skeleton_[j]];
-        const TileFields tile = heads_[h].fields.at(vertex);
-        const std::int16_t* numbers = tile.numbers + 3 * (vertex % kTileVertices);
-        for (std::size_t p = 0; p < tile.count; ++p, numbers += kTileValues) {
+        const TileFields tile = heads_[h].fields.tile_fields(vertex);
+        const std::int16_t* quantized = tile.quantized_values + 3 * (vertex % kTileVertices);
+        for (std::size_t p = 0; p < tile.count; ++p, quantized += kTileValues) {
           for (std::size_t c = 0; c < 3; ++c) {
-            values_[p * values + c * size + j] = tile.steps[p] * static_cast<float>(numbers[c]);
+            values_[p * values + c * size + j] = tile.steps[p] * static_cast<float>(quantized[c]);
           }
         }
       }
-      const std::size_t at = made.numbers.size();
-      made.numbers.resize(at + values_.size());
+      const std::size_t at = made.quantized_values.size();
+      made.quantized_values.resize(at + values_.size());
       for (std::size_t p = 0; p < counts_[h]; ++p) {
         made.steps.push_back(quantize(std::span(std::as_const(values_)).subspan(p * values, values),
-                                      made.numbers.data() + at + p * values));
+                                      made.quantized_values.data() + at + p * values));
       }
     }
   }
@@ -245,8 +246,8 @@ std::optional<FieldPatches> FieldPatches::from_lists(PatchLists lists, Index ver
                                                      std::span<const Index> ranks) {
   const auto vertices = static_cast<std::size_t>(vertex_count);
   const std::size_t patches = patch_count(vertices);
-  if (!are_patches(lists.vertices, vertices) || lists.skeletons.size() != patches ||
-      lists.counts.size() != patches * ranks.size()) {
+  if (!are_patches(lists.vertices, vertices) || lists.skeleton_sizes.size() != patches ||
+      lists.field_counts.size() != patches * ranks.size()) {
     return std::nullopt;
   }
   FieldPatches result;
@@ -255,20 +256,20 @@ std::optional<FieldPatches> FieldPatches::from_lists(PatchLists lists, Index ver
   Patch end{};
   for (std::size_t i = 0; i < patches; ++i) {
     const std::size_t here = std::min(kPatchVertices, vertices - i * kPatchVertices);
-    const std::size_t skeleton = lists.skeletons[i];
+    const std::size_t skeleton = lists.skeleton_sizes[i];
     if (skeleton > here) return std::nullopt;
     end.field_count = 0;
     for (std::size_t h = 0; h < ranks.size(); ++h) {
-      const std::uint32_t count = lists.counts[i * ranks.size() + h];
+      const std::uint32_t count = lists.field_counts[i * ranks.size() + h];
       if (count > static_cast<std::uint64_t>(ranks[h])) return std::nullopt;
       end.field_count += count;
     }
     result.patches_.push_back(end);
     end.first_field += end.field_count;
-    end.first_number += end.field_count * FieldPatch::values_of(skeleton);
+    end.first_value += end.field_count * FieldPatch::values_per_field(skeleton);
     if (skeleton < here) end.first_weight += skeleton * kPatchVertices;
   }
-  if (end.first_field != lists.steps.size() || end.first_number != lists.numbers.size() ||
+  if (end.first_field != lists.steps.size() || end.first_value != lists.quantized_values.size() ||
       end.first_weight != lists.weights.size() || !std::ranges::all_of(lists.steps, is_step) ||
       !std::ranges::all_of(lists.weights, [](float weight) { return std::isfinite(weight); })) {
     return std::nullopt;
@@ -283,11 +284,11 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
   FieldPatch result;
   result.vertices =
       lists_.vertices.subspan(first, std::min(kPatchVertices, lists_.vertices.size() - first));
-  result.counts = lists_.counts.subspan(patch * heads_, heads_);
-  result.fields = place.field_count;
-  result.skeleton = lists_.skeletons[patch];
+  result.field_counts = lists_.field_counts.subspan(patch * heads_, heads_);
+  result.field_count = place.field_count;
+  result.skeleton_size = lists_.skeleton_sizes[patch];
   result.steps = lists_.steps.data() + place.first_field;
-  result.numbers = lists_.numbers.data() + place.first_number;
+  result.quantized_values = lists_.quantized_values.data() + place.first_value;
   if (!result.is_whole()) result.weights = lists_.weights.data() + place.first_weight;
   return result;
 }
@@ -325,10 +326,11 @@ FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
     const LevelFields& fields = head.fields;
     const std::size_t tiles = LevelFields::tile_count(order.size());
     require(static_cast<std::size_t>(fields.vertex_count) == order.size() &&
-                fields.first.size() == tiles + 1 && fields.steps.size() == fields.first.back() &&
-                fields.numbers.size() == fields.steps.size() * kTileValues,
-            "patches: ", fields.numbers.size(), " numbers of ", fields.steps.size(), " fields of ",
-            tiles, " tiles of ", order.size(), " vertices");
+                fields.first_field_of_tile.size() == tiles + 1 &&
+                fields.steps.size() == fields.first_field_of_tile.back() &&
+                fields.quantized_values.size() == fields.steps.size() * kTileValues,
+            "patches: ", fields.quantized_values.size(), " numbers of ", fields.steps.size(),
+            " fields of ", tiles, " tiles of ", order.size(), " vertices");
     ranks.push_back(fields.rank);
   }
   std::vector<std::vector<double>> weights(heads.size());
@@ -350,12 +352,12 @@ FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
     progress(end - begin);
   });
   const MadePatches& made =
-      all->made = {join(parts, &MadePatches::skeletons), join(parts, &MadePatches::counts),
-                   join(parts, &MadePatches::steps), join(parts, &MadePatches::weights),
-                   join(parts, &MadePatches::numbers)};
-  auto result = FieldPatches::from_lists(
-      {all->vertices, made.skeletons, made.counts, made.steps, made.weights, made.numbers, all},
-      static_cast<Index>(order.size()), ranks);
+      all->made = {join(parts, &MadePatches::skeleton_sizes),
+                   join(parts, &MadePatches::field_counts), join(parts, &MadePatches::steps),
+                   join(parts, &MadePatches::weights), join(parts, &MadePatches::quantized_values)};
+  auto result = FieldPatches::from_lists({all->vertices, made.skeleton_sizes, made.field_counts,
+                                          made.steps, made.weights, made.quantized_values, all},
+                                         static_cast<Index>(order.size()), ranks);
   require(result.has_value(), "patches: not each vertex once, or numbers that are none");
   return *std::move(result);
 }

@@ -26,46 +26,47 @@ struct FieldPatch {
   std::span<const std::uint32_t> vertices;  ///< the vertices of the patch, as ascending vertex
                                             ///< numbers of the mesh
   /// #heads: for each head, how many of its leading fields the patch stores.
-  std::span<const std::uint32_t> counts;
-  std::size_t fields = 0;        ///< number of stored fields of all heads together, the sum of
-                                 ///< `counts`
-  std::size_t skeleton = 0;      ///< number of skeleton vertices, at which fields are stored
-  const float* steps = nullptr;  ///< #fields quantization steps: powers of two, or zero
-  /// #fields by values(), in multiples of the quantization step. For each field: x of all skeleton
-  /// vertices, then all y, then all z, then zeros as padding.
-  const std::int16_t* numbers = nullptr;
+  std::span<const std::uint32_t> field_counts;
+  std::size_t field_count = 0;    ///< number of stored fields of all heads together, the sum of
+                                  ///< `field_counts`
+  std::size_t skeleton_size = 0;  ///< number of skeleton vertices, at which fields are stored
+  const float* steps = nullptr;   ///< #fields quantization steps: powers of two, or zero
+  /// #fields by values_per_field(), in multiples of the quantization step. For each field: x of all
+  /// skeleton vertices, then all y, then all z, then zeros as padding.
+  const std::int16_t* quantized_values = nullptr;
   /// #skeleton by kPatchVertices: the value of a field at vertex v is Σ_s weights[s][v]·(value at
   /// skeleton vertex s). Null if the skeleton consists of all vertices of the patch, in the order
   /// of `vertices`.
   const float* weights = nullptr;
 
   /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
-  bool is_whole() const { return skeleton == vertices.size(); }
+  bool is_whole() const { return skeleton_size == vertices.size(); }
   /// Count of 16-bit numbers stored for each field: 3·#skeleton, rounded up to a multiple of
   /// kPatchPadding.
-  std::size_t values() const { return values_of(skeleton); }
-  static std::size_t values_of(std::size_t skeleton) {
-    return (3 * skeleton + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
+  std::size_t values_per_field() const { return values_per_field(skeleton_size); }
+  static std::size_t values_per_field(std::size_t skeleton_size) {
+    return (3 * skeleton_size + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
   }
 };
 
 /// The number of patches of a mesh with this many vertices.
-inline std::size_t patch_count(std::size_t vertices) {
-  return (vertices + kPatchVertices - 1) / kPatchVertices;
+inline std::size_t patch_count(std::size_t vertex_count) {
+  return (vertex_count + kPatchVertices - 1) / kPatchVertices;
 }
 
 /// The data of all patches, concatenated.
 struct PatchLists {
-  std::span<const std::uint32_t> vertices;   ///< #V: each vertex once, ordered by patch
-  std::span<const std::uint32_t> skeletons;  ///< #patches: number of skeleton vertices
-  std::span<const std::uint32_t> counts;     ///< #patches by #heads: see FieldPatch::counts
+  std::span<const std::uint32_t> vertices;        ///< #V: each vertex once, ordered by patch
+  std::span<const std::uint32_t> skeleton_sizes;  ///< #patches: number of skeleton vertices
+  std::span<const std::uint32_t>
+      field_counts;  ///< #patches by #heads: see FieldPatch::field_counts
   std::span<const float> steps, weights;
-  std::span<const std::int16_t> numbers;
-  std::shared_ptr<const void> owner;  ///< keeps all lists alive
+  std::span<const std::int16_t> quantized_values;
+  std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
 };
 
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all
-/// heads are strongly correlated: their values at a few vertices, the skeleton, determine the
+/// heads are strongly correlated: the fields' values at a few vertices, the skeleton, determine the
 /// values at the other vertices by weighted sums, with the same weights for all heads. This is an
 /// interpolative decomposition (Cheng, Gimbutas, Martinsson & Rokhlin 2005) of the matrix of the
 /// patch's vertices by the coordinates of all fields. Blending therefore sums the fields at the
@@ -75,8 +76,8 @@ class FieldPatches {
   FieldPatches() = default;
   /// Makes the patches from stored lists, if the lists are valid.
   /// \param ranks  #heads: number of fields of each head.
-  /// \return       nothing if the lists are not valid: `interpolate_fields` never makes such lists
-  ///               for heads with these numbers of fields.
+  /// \return       nothing if the lists are not valid, that is, if `interpolate_fields` cannot make
+  ///               such lists for heads with `ranks` fields.
   static std::optional<FieldPatches> from_lists(PatchLists lists, Index vertex_count,
                                                 std::span<const Index> ranks);
 
@@ -88,7 +89,7 @@ class FieldPatches {
 
  private:
   struct Patch {
-    std::size_t field_count, first_field, first_number, first_weight;
+    std::size_t field_count, first_field, first_value, first_weight;
   };
   PatchLists lists_;
   std::size_t heads_ = 0;
@@ -97,7 +98,7 @@ class FieldPatches {
 
 /// All vertices along a space-filling curve (hilbert_order). Patches are consecutive ranges of this
 /// order. Runs of up to 32 vertices with consecutive numbers and small distances stay together, so
-/// that blending writes the vertices of a face in longer contiguous pieces.
+/// that blending writes a new head's vertices in longer contiguous pieces.
 /// \param positions  #V by 3, any head of the topology.
 /// \param max_distance  largest distance between consecutive vertices of a run, in the unit of the
 ///                   positions.

@@ -33,9 +33,9 @@ std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
   return rows;
 }
 
-/// Chooses the rows (vertices) from which the principal directions are computed. Half of them are
-/// evenly spaced. For the other half, each block of rows gives the row that moves most at the first
-/// node (level 1), because a small number of fields fits such rows worst.
+/// Chooses the rows (vertices) from which the principal directions are computed. Half of the chosen
+/// rows are evenly spaced. The other half are, in each block of rows, the row that moves most at
+/// the first node (level 1), because a small number of fields fits such rows worst.
 NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacements) {
   const FieldRows& first = displacements.front();
   const auto moved = [&](std::size_t r) {
@@ -55,7 +55,8 @@ NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacemen
   sample.node_count = static_cast<Index>(displacements.size());
   for (const std::uint32_t r : rows) {
     for (const FieldRows& node : displacements) {
-      for (int c = 0; c < 3; ++c) sample.values.push_back(static_cast<double>(node[r].value[c]));
+      for (int c = 0; c < 3; ++c)
+        sample.displacements.push_back(static_cast<double>(node[r].value[c]));
     }
   }
   return sample;
@@ -130,7 +131,7 @@ class TileFitter {
                             rounded[left_out.kept_fields];
       if (missed > fitted.max_error) {
         fitted.max_error = missed;
-        fitted.level = left_out.level;
+        fitted.level = left_out.level_index;
       }
     }
     return fitted;
@@ -142,7 +143,8 @@ class TileFitter {
   /// 1/8, normals are as close to the exact normals as when all tiles keep the same fields
   /// (docs/method.md).
   static constexpr double kTruncationShare = 0.125;
-  /// The fraction of the tolerance that trailing fields omitted without evaluation may use.
+  /// The fraction of the tolerance that may be used to omit trailing fields without computing their
+  /// errors.
   static constexpr double kSkippedShare = 0.01;
 
   static double longest(std::span<const float> vectors) {
@@ -199,13 +201,13 @@ class TileFitter {
 /// The exact displacements at the probes, #levels by 3·#probes.
 Columns exact_displacements(const Probes& probes, OperatorKind kind,
                             const std::vector<std::uint64_t>& levels) {
-  Columns exact = Columns::Zero(static_cast<Index>(levels.size()), probes.values.cols());
+  Columns exact = Columns::Zero(static_cast<Index>(levels.size()), probes.terms.cols());
   parallel_for_each(exact.rows(), [&](std::ptrdiff_t l) {
     const ChebyshevSeries series = displacement_series(kind, levels[static_cast<std::size_t>(l)]);
-    const auto terms = std::min(static_cast<Index>(series.size()), probes.values.rows());
+    const auto terms = std::min(static_cast<Index>(series.size()), probes.terms.rows());
     for (Index k = 0; k < terms; ++k) {
       const double a = series[static_cast<std::size_t>(k)];
-      if (a != 0) exact.row(l) += a * probes.values.row(k);
+      if (a != 0) exact.row(l) += a * probes.terms.row(k);
     }
   });
   return exact;
@@ -280,7 +282,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   const Columns exact = exact_displacements(probes, filter.kind(), tested.levels);
   // Measure the error of interpolation between nodes. The fields may use the rest of the tolerance.
   const ProbeError of_nodes =
-      probe_error(exact, tested.weights, [&](Index v, Index n, Index c) -> double {
+      probe_error(exact, tested.node_weights, [&](Index v, Index n, Index c) -> double {
         const std::uint32_t vertex = probes.vertices[static_cast<std::size_t>(v)];
         return displacements[static_cast<std::size_t>(n)][filter.row_of_vertex()[vertex]].value[c];
       });
@@ -302,7 +304,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   std::vector<FieldTiles> fields;
   TileFitter::FittedTiles worst;
   for (TileFitter::FittedTiles& part : parts) {
-    for (const std::uint32_t count : part.fields.counts) rank = std::max(rank, count);
+    for (const std::uint32_t count : part.fields.field_counts) rank = std::max(rank, count);
     if (part.max_error > worst.max_error) worst = {{}, part.max_error, part.level};
     fields.push_back(std::move(part.fields));
   }

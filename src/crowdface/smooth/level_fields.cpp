@@ -12,20 +12,20 @@ namespace crowdface {
 namespace {
 
 struct OwnedFields {
-  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> first_field_of_tile;
   std::vector<float> steps;
-  std::vector<std::int16_t> numbers;
+  std::vector<std::int16_t> quantized_values;
 };
 
 }  // namespace
 
 double LevelFields::value(Index field, Index vertex, Index coordinate) const {
   const auto v = static_cast<std::size_t>(vertex), f = static_cast<std::size_t>(field);
-  const TileFields tile = at(v);
+  const TileFields tile = tile_fields(v);
   if (f >= tile.count) return 0;
   const std::size_t place =
       f * kTileValues + 3 * (v % kTileVertices) + static_cast<std::size_t>(coordinate);
-  return static_cast<double>(tile.steps[f]) * static_cast<double>(tile.numbers[place]);
+  return static_cast<double>(tile.steps[f]) * static_cast<double>(tile.quantized_values[place]);
 }
 
 float quantization_step(std::span<const float> values) {
@@ -38,16 +38,16 @@ float quantization_step(std::span<const float> values) {
   return std::ldexp(1.0F, m == 0.5F ? exponent - 1 : exponent);
 }
 
-float quantize(std::span<const float> values, std::int16_t* numbers) {
+float quantize(std::span<const float> values, std::int16_t* quantized) {
   const float step = quantization_step(values);
-  round_to_int16(values.data(), values.size(), step > 0 ? 1 / step : 0, numbers);
+  round_to_int16(values.data(), values.size(), step > 0 ? 1 / step : 0, quantized);
   return step;
 }
 
 void FieldTiles::add(std::span<const float> values, std::size_t count) {
-  counts.push_back(static_cast<std::uint32_t>(count));
-  numbers.resize(numbers.size() + count * kTileValues);
-  std::int16_t* to = numbers.data() + numbers.size() - count * kTileValues;
+  field_counts.push_back(static_cast<std::uint32_t>(count));
+  quantized_values.resize(quantized_values.size() + count * kTileValues);
+  std::int16_t* to = quantized_values.data() + quantized_values.size() - count * kTileValues;
   for (std::size_t p = 0; p < count; ++p) {
     const std::size_t at = p * kTileValues;
     steps.push_back(quantize(values.subspan(at, kTileValues), to + at));
@@ -56,17 +56,19 @@ void FieldTiles::add(std::span<const float> values, std::size_t count) {
 
 LevelFields concatenate(Index vertex_count, Index rank, std::vector<FieldTiles> tiles) {
   auto all = std::make_shared<OwnedFields>();
-  all->first.push_back(0);
+  all->first_field_of_tile.push_back(0);
   for (FieldTiles& part : tiles) {
-    for (const std::uint32_t count : part.counts) all->first.push_back(all->first.back() + count);
+    for (const std::uint32_t count : part.field_counts)
+      all->first_field_of_tile.push_back(all->first_field_of_tile.back() + count);
     all->steps.insert(all->steps.end(), part.steps.begin(), part.steps.end());
   }
-  all->numbers.reserve(all->steps.size() * kTileValues);
+  all->quantized_values.reserve(all->steps.size() * kTileValues);
   for (FieldTiles& part : tiles) {
-    all->numbers.insert(all->numbers.end(), part.numbers.begin(), part.numbers.end());
+    all->quantized_values.insert(all->quantized_values.end(), part.quantized_values.begin(),
+                                 part.quantized_values.end());
     part = FieldTiles();
   }
-  return {vertex_count, rank, all->first, all->steps, all->numbers, all};
+  return {vertex_count, rank, all->first_field_of_tile, all->steps, all->quantized_values, all};
 }
 
 LevelFields quantize(std::span<const float> fields, Index vertex_count) {

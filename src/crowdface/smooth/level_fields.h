@@ -14,9 +14,9 @@ namespace crowdface {
 
 /// The fields of one head at one tile of vertices.
 struct TileFields {
-  std::size_t count = 0;                  ///< number of fields
-  const float* steps = nullptr;           ///< #count quantization steps
-  const std::int16_t* numbers = nullptr;  ///< #count by kTileValues, in quantization steps
+  std::size_t count = 0;                           ///< number of fields
+  const float* steps = nullptr;                    ///< #count quantization steps
+  const std::int16_t* quantized_values = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
 /// The vector fields c_0 … c_{R−1} of one head, each #V by 3, quantized to 16 bits. Each tile of
@@ -28,30 +28,31 @@ struct LevelFields {
   Index vertex_count = 0;
   Index rank = 0;  ///< R
   /// #tiles + 1: index of each tile's first field in the concatenated fields of all tiles.
-  std::span<const std::uint32_t> first;
+  std::span<const std::uint32_t> first_field_of_tile;
   /// for each stored field of a tile, its quantization step in the unit of the positions
   std::span<const float> steps;
   /// For each stored field of a tile, kTileVertices by 3 integers. Entries beyond the mesh's last
   /// vertex are zero.
-  std::span<const std::int16_t> numbers;
-  std::shared_ptr<const void> owner;  ///< keeps the three lists alive
+  std::span<const std::int16_t> quantized_values;
+  std::shared_ptr<const void> memory_owner;  ///< keeps the three lists alive
 
   static std::size_t tile_count(std::size_t vertices) {
     return (vertices + kTileVertices - 1) / kTileVertices;
   }
   /// Returns the fields of the tile that contains the vertex.
-  TileFields at(std::size_t vertex) const {
-    const std::size_t tile = vertex / kTileVertices, begin = first[tile];
-    return {first[tile + 1] - begin, steps.data() + begin, numbers.data() + begin * kTileValues};
+  TileFields tile_fields(std::size_t vertex) const {
+    const std::size_t tile = vertex / kTileVertices, begin = first_field_of_tile[tile];
+    return {first_field_of_tile[tile + 1] - begin, steps.data() + begin,
+            quantized_values.data() + begin * kTileValues};
   }
   double value(Index field, Index vertex, Index coordinate) const;
 };
 
 /// The fields of a sequence of tiles.
 struct FieldTiles {
-  std::vector<std::uint32_t> counts;  ///< number of fields of each tile
+  std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
   std::vector<float> steps;
-  std::vector<std::int16_t> numbers;
+  std::vector<std::int16_t> quantized_values;
 
   /// Quantizes and appends the fields of one tile.
   /// \param values  `count` fields by kTileValues, finite; further values are ignored.
@@ -63,9 +64,9 @@ struct FieldTiles {
 float quantization_step(std::span<const float> values);
 
 /// Quantizes values to 16 bits.
-/// \param numbers  receives values.size() numbers.
+/// \param quantized  receives values.size() numbers.
 /// \return         the result of quantization_step.
-float quantize(std::span<const float> values, std::int16_t* numbers);
+float quantize(std::span<const float> values, std::int16_t* quantized);
 
 /// Concatenates the fields of all tiles of a mesh.
 /// \param tiles  all tiles, in order.

@@ -16,21 +16,21 @@ double variance_per_iteration(OperatorKind kind) {
 
 }  // namespace
 
-std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_length) {
-  if (!(size > 0) || !(edge_length > 0)) {
-    throw InvalidInput(concat("a level's size and the edge length must be positive, got ", size,
-                              " and ", edge_length));
+std::uint64_t iterations_for_wavelength(OperatorKind kind, double wavelength, double edge_length) {
+  if (!(wavelength > 0) || !(edge_length > 0)) {
+    throw InvalidInput(concat("a level's size and the edge length must be positive, got ",
+                              wavelength, " and ", edge_length));
   }
-  const double sigma = size / kWavelengthPerSigma / edge_length;
+  const double sigma = wavelength / kWavelengthPerSigma / edge_length;
   const double level = std::round(sigma * sigma / variance_per_iteration(kind));
   if (level > static_cast<double>(kMaxLevel)) {
-    throw InvalidInput(concat("a size of ", size, " on edges of ", edge_length,
+    throw InvalidInput(concat("a size of ", wavelength, " on edges of ", edge_length,
                               " would take more than 10^9 iterations"));
   }
   return static_cast<std::uint64_t>(level);
 }
 
-double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length) {
+double wavelength_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length) {
   const double variance = variance_per_iteration(kind) * static_cast<double>(level);
   return kWavelengthPerSigma * edge_length * std::sqrt(variance);
 }

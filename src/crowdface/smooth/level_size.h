@@ -11,21 +11,21 @@ namespace crowdface {
 /// The wavelength whose amplitude a Gaussian filter of standard deviation 1 halves: π·√(2/ln 2).
 inline constexpr double kWavelengthPerSigma = 5.336446256636997;
 
-/// The largest number of iterations that iterations_of_size returns.
+/// The largest number of iterations that iterations_for_wavelength returns.
 inline constexpr std::uint64_t kMaxLevel = 1'000'000'000;
 
-/// The number of smoothing iterations whose half-amplitude wavelength is nearest to `size`, for a
-/// mesh with the given edge length. L iterations act like a Gaussian of σ = h·√(L/2) (lazy: h·√L/2)
-/// with h = edge_length. The Gaussian halves the amplitude of waves of length
+/// The number of smoothing iterations whose half-amplitude wavelength is nearest to `wavelength`,
+/// for a mesh with the given edge length. L iterations act like a Gaussian of σ = h·√(L/2) (lazy:
+/// h·√L/2) with h = edge_length. The Gaussian halves the amplitude of waves of length
 /// kWavelengthPerSigma·σ.
-/// \param size         half-amplitude wavelength, the wavelength whose amplitude the filter halves.
-/// \param edge_length  in the unit of `size`.
+/// \param wavelength   half-amplitude wavelength, the wavelength whose amplitude the filter halves.
+/// \param edge_length  in the unit of `wavelength`.
 /// \throws InvalidInput if an argument is not positive or the result exceeds kMaxLevel.
-std::uint64_t iterations_of_size(OperatorKind kind, double size, double edge_length);
+std::uint64_t iterations_for_wavelength(OperatorKind kind, double wavelength, double edge_length);
 
-/// The inverse of iterations_of_size. Returns the half-amplitude wavelength of `level` iterations,
-/// in the unit of the edge length.
-double size_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length);
+/// The inverse of iterations_for_wavelength. Returns the half-amplitude wavelength of `level`
+/// iterations, in the unit of the edge length.
+double wavelength_of_iterations(OperatorKind kind, std::uint64_t level, double edge_length);
 
 /// The distinct levels round(max_level·(j/steps)²) for j = 0 … steps. The levels are dense near 0,
 /// where smoothing removes fine detail.

@@ -56,7 +56,7 @@ Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd 
 /// the dot product of the displacements at two nodes, summed over the sampled vertices.
 Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
   Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(sample.node_count, sample.node_count);
-  const double* vertex = sample.values.data();
+  const double* vertex = sample.displacements.data();
   for (Index v = 0; v < sample.vertex_count(); ++v, vertex += 3 * sample.node_count) {
     for (Index p = 0; p < sample.node_count; ++p) {
       const double* a = vertex + 3 * p;
@@ -78,12 +78,13 @@ Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd
   // Let Q·T be the QR factorization of the weighted functions, and C the displacements at the
   // nodes. With Z = T·C the trajectories are Q·Z. Their principal directions are the eigenvectors U
   // of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and Q·Z = (Q·U)·(Uᵀ·T·C).
-  const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.weights);
-  const Eigen::MatrixXd u = symmetric_eigen(product(product(t, moments), t.transpose())).vectors;
+  const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.node_weights);
+  const Eigen::MatrixXd u =
+      symmetric_eigen(product(product(t, moments), t.transpose())).eigenvectors;
   Directions directions;
   directions.mixing = solve_triangle(t, u);
   directions.combination = product(t.transpose(), u);
-  directions.functions = product(tested.weights, directions.mixing);
+  directions.functions = product(tested.node_weights, directions.mixing);
   return directions;
 }
 
@@ -99,7 +100,7 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
   const Index nodes = sample.node_count;
   fields.assign(static_cast<std::size_t>(3 * nodes), Lanes{});
   for (Index v = begin; v < end; ++v) {
-    const double* displacement = sample.values.data() + 3 * nodes * v;
+    const double* displacement = sample.displacements.data() + 3 * nodes * v;
     for (Index p = 0; p < nodes; ++p) {
       double field[3] = {};
       for (Index n = 0; n < nodes; ++n) {
@@ -180,11 +181,11 @@ TestedLevels make_tested_levels(const LevelNodes& nodes) {
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   TestedLevels tested{std::move(levels), {}};
   const auto count = static_cast<Index>(nodes.levels().size());
-  tested.weights.resize(static_cast<Index>(tested.levels.size()), count);
+  tested.node_weights.resize(static_cast<Index>(tested.levels.size()), count);
   for (std::size_t l = 0; l < tested.levels.size(); ++l) {
     const std::vector<double> weights = nodes.weights(tested.levels[l]);
     for (Index n = 0; n < count; ++n) {
-      tested.weights(static_cast<Index>(l), n) = weights[static_cast<std::size_t>(n)];
+      tested.node_weights(static_cast<Index>(l), n) = weights[static_cast<std::size_t>(n)];
     }
   }
   return tested;
@@ -195,7 +196,7 @@ Directions principal_directions(const TestedLevels& tested, const NodeDisplaceme
   constexpr int kRounds = 5;       // more rounds do not lower the rank (docs/method.md)
   constexpr double kFloor = 0.02;  // keeps the importance of every level above zero
   const Eigen::MatrixXd moments = second_moments(sample);
-  Eigen::VectorXd importance = Eigen::VectorXd::Ones(tested.weights.rows());
+  Eigen::VectorXd importance = Eigen::VectorXd::Ones(tested.node_weights.rows());
   Directions best;
   for (int round = 0; round < kRounds; ++round) {
     Directions directions = weighted_directions(tested, importance, moments);

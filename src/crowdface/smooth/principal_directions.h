@@ -13,16 +13,16 @@ namespace crowdface {
 /// levels occur), and the nodes.
 struct TestedLevels {
   std::vector<std::uint64_t> levels;
-  Eigen::MatrixXd weights;  ///< #levels by #nodes
+  Eigen::MatrixXd node_weights;  ///< #levels by #nodes
 };
 TestedLevels make_tested_levels(const LevelNodes& nodes);
 
 /// Displacements of some vertices at the nodes: coordinate c of vertex v at node n is
-/// values[(v·#nodes + n)·3 + c].
+/// displacements[(v·#nodes + n)·3 + c].
 struct NodeDisplacements {
   Index node_count = 0;
-  std::vector<double> values;
-  Index vertex_count() const { return static_cast<Index>(values.size()) / (3 * node_count); }
+  std::vector<double> displacements;
+  Index vertex_count() const { return static_cast<Index>(displacements.size()) / (3 * node_count); }
 };
 
 /// Orthogonal directions in the space of vertex trajectories, most important first. A trajectory is

@@ -71,8 +71,8 @@ SymmetricEigen symmetric_eigen(Eigen::MatrixXd matrix) {
   SymmetricEigen result{Eigen::VectorXd(size), Eigen::MatrixXd(size, size)};
   for (Index i = 0; i < size; ++i) {
     const Index from = order[static_cast<std::size_t>(i)];
-    result.values(i) = matrix(from, from);
-    result.vectors.col(i) = vectors.col(from);
+    result.eigenvalues(i) = matrix(from, from);
+    result.eigenvectors.col(i) = vectors.col(from);
   }
   return result;
 }

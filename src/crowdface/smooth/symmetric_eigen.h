@@ -7,8 +7,8 @@ namespace crowdface {
 
 /// Eigenvalues, largest first, and the corresponding eigenvectors as columns.
 struct SymmetricEigen {
-  Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;
+  Eigen::VectorXd eigenvalues;
+  Eigen::MatrixXd eigenvectors;
 };
 
 /// Eigendecomposition of a small symmetric matrix by Jacobi rotations (Golub & Van Loan 2013,

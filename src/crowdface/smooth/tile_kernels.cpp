@@ -21,8 +21,8 @@ void step_run(const ValenceRun& run, const std::uint32_t* ring, T scale, const R
   const hn::CappedTag<T, 4> lanes;
   const std::uint32_t valence = kValence == 0 ? run.valence : kValence;
   const auto factor = hn::Set(lanes, scale / static_cast<T>(valence));
-  Row<T>* row = previous + run.first;
-  for (const Row<T>* const end = row + run.count; row != end; ++row, ring += valence) {
+  Row<T>* row = previous + run.first_row;
+  for (const Row<T>* const end = row + run.row_count; row != end; ++row, ring += valence) {
     for (std::size_t l = 0; l < 4; l += hn::Lanes(lanes)) {
       auto sum = hn::Load(lanes, now[ring[0]].value + l);
       for (std::uint32_t n = 1; n < valence; ++n) {
@@ -36,10 +36,10 @@ void step_run(const ValenceRun& run, const std::uint32_t* ring, T scale, const R
 }
 
 template <class T>
-void step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings, T scale,
+void step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* neighbours, T scale,
           const Row<T>* now, Row<T>* previous) {
   for (const ValenceRun* run = runs; run != runs + run_count; ++run) {
-    const std::uint32_t* ring = rings + run->first_neighbour;
+    const std::uint32_t* ring = neighbours + run->first_neighbour;
     switch (run->valence) {
       case 4:
         step_run<4>(*run, ring, scale, now, previous);
@@ -132,13 +132,13 @@ void combine(const Row<float>* const* inputs, std::size_t input_count, const flo
 }
 
 // These functions are not templates because Highway's dispatch table does not support templates.
-void step_float(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
+void step_float(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* neighbours,
                 float scale, const Row<float>* now, Row<float>* previous) {
-  step(runs, run_count, rings, scale, now, previous);
+  step(runs, run_count, neighbours, scale, now, previous);
 }
-void step_double(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
+void step_double(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* neighbours,
                  double scale, const Row<double>* now, Row<double>* previous) {
-  step(runs, run_count, rings, scale, now, previous);
+  step(runs, run_count, neighbours, scale, now, previous);
 }
 void add_scaled_float(float factor, const Row<float>* values, std::size_t count, Row<float>* sums) {
   add_scaled_rows(factor, values, count, sums);
@@ -161,14 +161,14 @@ HWY_EXPORT(add_scaled_double);
 HWY_EXPORT(combine);
 
 template <>
-void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
+void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* neighbours,
                      float scale, const Row<float>* now, Row<float>* previous) {
-  HWY_DYNAMIC_DISPATCH(step_float)(runs, run_count, rings, scale, now, previous);
+  HWY_DYNAMIC_DISPATCH(step_float)(runs, run_count, neighbours, scale, now, previous);
 }
 template <>
-void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
+void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* neighbours,
                      double scale, const Row<double>* now, Row<double>* previous) {
-  HWY_DYNAMIC_DISPATCH(step_double)(runs, run_count, rings, scale, now, previous);
+  HWY_DYNAMIC_DISPATCH(step_double)(runs, run_count, neighbours, scale, now, previous);
 }
 template <>
 void add_scaled(float factor, const Row<float>* values, std::size_t count, Row<float>* sums) {

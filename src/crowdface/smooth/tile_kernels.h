@@ -40,7 +40,7 @@ class RowArray {
 /// added in list order, so that the bits of the result do not depend on the order of computation of
 /// the rows.
 template <class T>
-void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* rings,
+void recurrence_step(const ValenceRun* runs, std::size_t run_count, const std::uint32_t* neighbours,
                      T scale, const Row<T>* now, Row<T>* previous);
 
 /// Computes sums[i] += factor·values[i] by fused multiply-add.

@@ -48,9 +48,9 @@ void order_within(const Tile& tile, const SmoothingOperator& smoothing,
                   const std::vector<std::uint32_t>& tile_of, std::uint32_t tile_index,
                   std::vector<bool>& seen, std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> queue;
-  queue.reserve(tile.count);
+  queue.reserve(tile.row_count);
   std::size_t head = 0;
-  for (std::uint32_t r = tile.first; r < tile.first + tile.count; ++r) {
+  for (std::uint32_t r = tile.first_row; r < tile.first_row + tile.row_count; ++r) {
     const auto enqueue = [&](std::uint32_t v) {
       if (seen[v] || tile_of[v] != tile_index) return;
       seen[v] = true;
@@ -64,7 +64,7 @@ void order_within(const Tile& tile, const SmoothingOperator& smoothing,
   std::ranges::stable_sort(queue, [&](std::uint32_t a, std::uint32_t b) {
     return smoothing.neighbours(a).size() < smoothing.neighbours(b).size();
   });
-  std::ranges::copy(queue, order.begin() + tile.first);
+  std::ranges::copy(queue, order.begin() + tile.first_row);
 }
 
 /// Collects the halo of a tile ring by ring, and writes the tile's neighbour lists as local row
@@ -75,8 +75,8 @@ class TileBuilder {
       : smoothing_(smoothing), tiling_(tiling), local_(tiling.vertex_of_row.size(), kNowhere) {}
 
   void build(Tile& tile) {
-    vertices_.assign(tiling_.vertex_of_row.begin() + tile.first,
-                     tiling_.vertex_of_row.begin() + tile.first + tile.count);
+    vertices_.assign(tiling_.vertex_of_row.begin() + tile.first_row,
+                     tiling_.vertex_of_row.begin() + tile.first_row + tile.row_count);
     number(0);
     std::size_t begin = 0;
     for (int ring = 0; ring < tiling_.ring_count; ++ring) {
@@ -88,7 +88,7 @@ class TileBuilder {
       tile.run_counts.push_back(static_cast<std::uint32_t>(tile.runs.size()));
       begin = end;
     }
-    for (std::size_t l = tile.count; l < vertices_.size(); ++l) {
+    for (std::size_t l = tile.row_count; l < vertices_.size(); ++l) {
       tile.halo.push_back(tiling_.row_of_vertex[vertices_[l]]);
     }
     for (const std::uint32_t v : vertices_) local_[v] = kNowhere;
@@ -128,12 +128,12 @@ class TileBuilder {
       if (ring.empty()) continue;
       const auto size = static_cast<std::uint32_t>(ring.size());
       if (l == begin || tile.runs.empty() || tile.runs.back().valence != size ||
-          tile.runs.back().first + tile.runs.back().count != l) {
+          tile.runs.back().first_row + tile.runs.back().row_count != l) {
         tile.runs.push_back({static_cast<std::uint32_t>(l), 0, size,
-                             static_cast<std::uint32_t>(tile.rings.size())});
+                             static_cast<std::uint32_t>(tile.neighbours.size())});
       }
-      ++tile.runs.back().count;
-      for (const std::uint32_t n : ring) tile.rings.push_back(local_[n]);
+      ++tile.runs.back().row_count;
+      for (const std::uint32_t n : ring) tile.neighbours.push_back(local_[n]);
     }
   }
 
@@ -180,14 +180,14 @@ Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& posit
   const Index tile_count = (vertices + tile_rows - 1) / tile_rows;
   for (Index t = 0; t < tile_count; ++t) {
     Tile tile;
-    tile.first = static_cast<std::uint32_t>(vertices * t / tile_count);
-    tile.count = static_cast<std::uint32_t>(vertices * (t + 1) / tile_count) - tile.first;
+    tile.first_row = static_cast<std::uint32_t>(vertices * t / tile_count);
+    tile.row_count = static_cast<std::uint32_t>(vertices * (t + 1) / tile_count) - tile.first_row;
     tiling.tiles.push_back(std::move(tile));
   }
   std::vector<std::uint32_t> tile_of(tiling.vertex_of_row.size());
   for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
     const Tile& tile = tiling.tiles[t];
-    for (std::uint32_t r = tile.first; r < tile.first + tile.count; ++r) {
+    for (std::uint32_t r = tile.first_row; r < tile.first_row + tile.row_count; ++r) {
       tile_of[tiling.vertex_of_row[r]] = static_cast<std::uint32_t>(t);
     }
   }

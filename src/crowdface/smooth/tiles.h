@@ -11,10 +11,10 @@ namespace crowdface {
 
 /// Consecutive rows of a tile whose vertices have the same valence.
 struct ValenceRun {
-  std::uint32_t first = 0;            ///< first local row
-  std::uint32_t count = 0;            ///< number of rows
+  std::uint32_t first_row = 0;        ///< first local row
+  std::uint32_t row_count = 0;        ///< number of rows
   std::uint32_t valence = 0;          ///< number of neighbours of each vertex, at least 1
-  std::uint32_t first_neighbour = 0;  ///< index of the first neighbour in `Tile::rings`
+  std::uint32_t first_neighbour = 0;  ///< index of the first neighbour in `Tile::neighbours`
 };
 
 /// A part of the mesh. Several steps of the recurrence can run on a tile without data from other
@@ -23,17 +23,18 @@ struct ValenceRun {
 /// ring 1 (the outside neighbours of own rows), ring 2, … Each step invalidates the outermost valid
 /// ring, so with n rings the tile's own rows are correct after n steps.
 struct Tile {
-  std::uint32_t first = 0;          ///< first own row, in the tiling's order
-  std::uint32_t count = 0;          ///< number of own rows
-  std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of the local rows count, count + 1, …
+  std::uint32_t first_row = 0;      ///< first own row, in the tiling's order
+  std::uint32_t row_count = 0;      ///< number of own rows
+  std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of the local rows from row_count on
   /// runs of rows whose vertices are not fixed: first runs of own rows, then of ring 1, ring 2, …
   std::vector<ValenceRun> runs;
   /// run_counts[r] is the number of runs, counted from the first, that cover the own rows and rings
   /// 1 to r.
   std::vector<std::uint32_t> run_counts;
-  std::vector<std::uint32_t> rings;  ///< neighbour lists (local rows), each in the operator's order
+  std::vector<std::uint32_t>
+      neighbours;  ///< neighbour lists (local rows), each in the operator's order
 
-  std::uint32_t local_count() const { return count + static_cast<std::uint32_t>(halo.size()); }
+  std::uint32_t local_count() const { return row_count + static_cast<std::uint32_t>(halo.size()); }
 };
 
 /// A mesh cut into tiles. Rows are ordered tile by tile. The division into tiles affects the speed

@@ -50,8 +50,8 @@ const std::vector<std::uint8_t>& srgb8_of_densities() {
     std::vector<std::uint8_t> values(65536);
     int value = 255;
     for (std::size_t density = 0; density < values.size(); ++density) {
-      // A density converts to the nearest sRGB value: the largest value for which the midpoint to
-      // the next lower value does not exceed the density's light.
+      // Find the nearest sRGB value: lower `value` while the light is below the midpoint between
+      // `value` and the next lower value.
       const double light = light_of(static_cast<double>(density));
       while (value > 0 && light < light_of_srgb((value - 0.5) / 255)) --value;
       values[density] = static_cast<std::uint8_t>(value);

@@ -34,12 +34,12 @@ class RowBuffer {
   std::vector<float*> rows_;
 };
 
-/// Interpolates the fields at a row's covered texels. A span may write texels beyond its end; the
-/// next span overwrites these texels.
+/// Interpolates the fields at a row's covered texels. Writing a span may also change texels beyond
+/// the end of the span; the next span then overwrites these texels.
 void interpolate(const SurfaceTexels& texels, int y, const PictureFields& fields,
                  const RowBuffer& buffer) {
   const auto row = static_cast<float>(y);
-  const std::size_t width = fields.width();
+  const std::size_t width = fields.values_per_vertex();
   std::vector<Ramp> ramps(width);
   std::vector<float*> out(width);
   for (const SurfaceTexels::Span& span : texels.row(y)) {
@@ -48,12 +48,15 @@ void interpolate(const SurfaceTexels& texels, int y, const PictureFields& fields
     const float* second = fields.values.data() + width * triangle.corners[1];
     const float* third = fields.values.data() + width * triangle.corners[2];
     const auto begin = static_cast<float>(span.begin);
-    const float b = triangle.second[0] + row * triangle.second[2] + begin * triangle.second[1];
-    const float c = triangle.third[0] + row * triangle.third[2] + begin * triangle.third[1];
+    const float b = triangle.second_coefficients[0] + row * triangle.second_coefficients[2] +
+                    begin * triangle.second_coefficients[1];
+    const float c = triangle.third_coefficients[0] + row * triangle.third_coefficients[2] +
+                    begin * triangle.third_coefficients[1];
     for (std::size_t f = 0; f < width; ++f) {
       const float to_second = second[f] - first[f], to_third = third[f] - first[f];
-      ramps[f] = {first[f] + b * to_second + c * to_third,
-                  triangle.second[1] * to_second + triangle.third[1] * to_third};
+      ramps[f] = {
+          first[f] + b * to_second + c * to_third,
+          triangle.second_coefficients[1] * to_second + triangle.third_coefficients[1] * to_third};
       out[f] = buffer.rows()[f] + span.begin;
     }
     write_ramps(ramps, static_cast<std::size_t>(span.end - span.begin), out.data());
@@ -125,7 +128,7 @@ void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, st
   for (std::size_t c = 0; c < channels; ++c) {
     std::uint64_t sum = 0;
     for (const RowSums& row : sums) sum += row[c];
-    fill[c] = static_cast<Value>(sum / std::max<std::size_t>(1, texels.covered_count()));
+    fill[c] = static_cast<Value>(sum / std::max<std::size_t>(1, texels.covered_texel_count()));
   }
   fill_uncovered(texels, std::span<const Value>(fill).first(channels), values.data());
 }
@@ -157,9 +160,9 @@ BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& codin
   const auto channels = static_cast<std::size_t>(result.channels);
   std::vector<RowSums> row_sums(static_cast<std::size_t>(texels.height()));
   parallel_blocks(texels.height(), kPictureRowsPerBlock, [&](int begin, int end) {
-    const RowBuffer buffer(texels.width(), fields.width());
+    const RowBuffer buffer(texels.width(), fields.values_per_vertex());
     const std::span<float* const> sums = buffer.rows().first(fields.channels);
-    std::vector<BorrowedRow> lent(fields.heads.size());
+    std::vector<HeadTextureRow> lent(fields.heads.size());
     for (int y = begin; y < end; ++y) {
       const auto spans = texels.row(y);
       if (spans.empty()) continue;

@@ -15,7 +15,7 @@ struct PictureFields {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads with a non-zero factor, ascending
   std::vector<float> values;       ///< #vertices by #channels + #heads: base values, then factors
-  std::size_t width() const { return channels + heads.size(); }
+  std::size_t values_per_vertex() const { return channels + heads.size(); }
 };
 
 /// Computes a texture image of a face: the value of a covered texel is base + Σ_h factor_h ·

@@ -28,14 +28,14 @@ void write_ramps(const Ramp* ramps, std::size_t fields, std::size_t count, float
 
 /// Loads 16-bit numbers and converts them to floats.
 template <class D>
-HWY_INLINE hn::Vec<D> floats_of(D lanes, const Density* stored) {
-  const hn::Rebind<Density, D> words;
+HWY_INLINE hn::Vec<D> floats_of(D lanes, const std::uint16_t* stored) {
+  const hn::Rebind<std::uint16_t, D> words;
   const hn::Rebind<std::int32_t, D> integers;
   return hn::ConvertTo(lanes, hn::PromoteTo(integers, hn::LoadU(words, stored)));
 }
 
 template <std::size_t kChannels>
-HWY_INLINE void add_products_of(const BorrowedRow* heads, std::size_t count, std::size_t begin,
+HWY_INLINE void add_products_of(const HeadTextureRow* heads, std::size_t count, std::size_t begin,
                                 std::size_t end, float* const* sums) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
@@ -66,8 +66,8 @@ HWY_INLINE void add_products_of(const BorrowedRow* heads, std::size_t count, std
   }
 }
 
-void add_products(const BorrowedRow* heads, std::size_t count, std::size_t begin, std::size_t end,
-                  float* const* sums, std::size_t channels) {
+void add_products(const HeadTextureRow* heads, std::size_t count, std::size_t begin,
+                  std::size_t end, float* const* sums, std::size_t channels) {
   if (channels == 1) add_products_of<1>(heads, count, begin, end, sums);
   if (channels == 2) add_products_of<2>(heads, count, begin, end, sums);
   if (channels == 3) add_products_of<3>(heads, count, begin, end, sums);
@@ -86,7 +86,7 @@ void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* r
   HWY_DYNAMIC_DISPATCH(write_ramps)(ramps.data(), ramps.size(), count, rows);
 }
 
-void add_products(std::span<const BorrowedRow> heads, std::size_t begin, std::size_t end,
+void add_products(std::span<const HeadTextureRow> heads, std::size_t begin, std::size_t end,
                   std::span<float* const> sums) {
   HWY_DYNAMIC_DISPATCH(add_products)
   (heads.data(), heads.size(), begin, end, sums.data(), sums.size());

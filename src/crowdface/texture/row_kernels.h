@@ -3,9 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
-
-#include "crowdface/texture/optical_density.h"
 
 namespace crowdface {
 
@@ -25,15 +24,15 @@ struct Ramp {
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 
 /// One row of a head's texture map, and the factor by which each texel is multiplied.
-struct BorrowedRow {
+struct HeadTextureRow {
   /// The head's factor at each texel.
   const float* factors;
-  std::array<const Density*, 3> stored;  ///< stored values of each channel
+  std::array<const std::uint16_t*, 3> stored;  ///< stored values of each channel
 };
 
 /// sums[c][x] += factors[x]·stored[c][x] for x in [begin, end), head by head.
 /// \param sums  #channels rows, one to three.
-void add_products(std::span<const BorrowedRow> heads, std::size_t begin, std::size_t end,
+void add_products(std::span<const HeadTextureRow> heads, std::size_t begin, std::size_t end,
                   std::span<float* const> sums);
 
 }  // namespace crowdface

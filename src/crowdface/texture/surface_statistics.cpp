@@ -31,10 +31,10 @@ struct Sample {
 /// The decoded values of a texel; 0 for channels that the map does not have.
 Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   const auto channels = static_cast<std::size_t>(map.coding.channels);
-  const std::span<const Density> stored = map.stored();
+  const std::span<const StoredValue> stored = map.stored();
   Eigen::Array3f numbers = Eigen::Array3f::Zero();
   for (std::size_t c = 0; c < channels; ++c) {
-    numbers[static_cast<Index>(c)] = map.decode(stored[c * map.texels() + texel]);
+    numbers[static_cast<Index>(c)] = map.decode(stored[c * map.texel_count() + texel]);
   }
   return numbers;
 }
@@ -53,7 +53,7 @@ void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_
     const auto share = [&](const std::array<float, 3>& of) {
       return of[0] + static_cast<float>(x) * of[1] + static_cast<float>(y) * of[2];
     };
-    const float b = share(triangle.second), c = share(triangle.third);
+    const float b = share(triangle.second_coefficients), c = share(triangle.third_coefficients);
     Sample sample{p,
                   static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(texels.width()) +
                       static_cast<std::uint32_t>(x),
@@ -97,7 +97,7 @@ CompressedRows<Sample> sample_surface(const std::vector<SurfaceTexels>& texels,
                                       std::size_t vertices) {
   double covered = 0;
   for (const SurfaceTexels& picture : texels)
-    covered += static_cast<double>(picture.covered_count());
+    covered += static_cast<double>(picture.covered_texel_count());
   const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(covered / kMaxSamples))));
   return compressed_rows<Sample>(
       vertices, [&](const auto& put) { for_each_sample(texels, step, vertices, put); });
@@ -163,7 +163,7 @@ Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, s
 /// yet smoothed; NaN where one of the heads has no map.
 void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& maps,
                       SurfaceStatistics& statistics) {
-  const std::size_t heads = statistics.coarse_values.size(), pairs = statistics.pairs;
+  const std::size_t heads = statistics.coarse_values.size(), pairs = statistics.pair_count;
   parallel_blocks(static_cast<Index>(samples.group_count()), kBlock, [&](Index begin, Index end) {
     // For each head: the differences between the map and `coarse_values` in three channels, and 1
     // if the head has a map.
@@ -203,9 +203,9 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
   });
 }
 
-/// Groups consecutive pairs of heads, up to three pairs per group, whose heads have maps for the
-/// same texture images. The products of these pairs are known at the same vertices, so that they
-/// can be smoothed as one row.
+/// Groups consecutive pairs of heads, up to three pairs per group. Both heads of a pair have maps
+/// for certain texture images; these are the same images for all pairs of a group. The products of
+/// the pairs are therefore known at the same vertices, and can be smoothed as one row.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& maps) {
   std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map
   for (std::size_t a = 0; a < maps.front().size(); ++a) {
@@ -230,7 +230,7 @@ void smooth_covariances(const ChebyshevFilter& filter, std::uint64_t level, cons
   const auto ranges = pairs_alike(maps);
   const auto of_vertex = [&](std::size_t range, std::uint32_t vertex) {
     return std::span(statistics.covariances)
-        .subspan(vertex * statistics.pairs + ranges[range].first,
+        .subspan(vertex * statistics.pair_count + ranges[range].first,
                  ranges[range].second - ranges[range].first);
   };
   smooth_known(
@@ -268,8 +268,8 @@ SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
       [&](std::size_t head, std::uint32_t vertex, const Row<float>& means) {
         std::copy_n(means.value, 3, statistics.coarse_values[head].row(vertex).data());
       });
-  statistics.pairs = heads * (heads + 1) / 2;
-  statistics.covariances.resize(vertices * statistics.pairs);
+  statistics.pair_count = heads * (heads + 1) / 2;
+  statistics.covariances.resize(vertices * statistics.pair_count);
   multiply_details(samples, maps, statistics);
   smooth_covariances(filter, scale.covariance_iterations, maps, statistics);
   return statistics;

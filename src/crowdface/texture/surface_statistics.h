@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-/// Low-frequency statistics of the heads' texture maps, per vertex. They are smoothed on the mesh
-/// and not in texture space, so that texture seams have no effect.
+/// Low-frequency statistics of the heads' texture maps, per vertex. The statistics are smoothed on
+/// the mesh and not in texture space, so that texture seams have no effect.
 struct SurfaceStatistics {
   using Colours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
@@ -19,14 +19,14 @@ struct SurfaceStatistics {
   /// The covariance of the details of heads a and b around a vertex, summed over the channels: the
   /// mean product of both heads' differences between map and `coarse_values`.
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {
-    return covariances[vertex * pairs + pair_index(a, b)];
+    return covariances[vertex * pair_count + pair_index(a, b)];
   }
   /// Index of an unordered pair of heads among all pairs: a packed lower triangular matrix.
   std::size_t pair_index(std::size_t a, std::size_t b) const {
     return a < b ? pair_index(b, a) : a * (a + 1) / 2 + b;
   }
 
-  std::size_t pairs = 0;           ///< number of pairs of heads, each with itself included
+  std::size_t pair_count = 0;      ///< number of pairs of heads, each with itself included
   std::vector<float> covariances;  ///< #V by #pairs
 };
 
@@ -39,7 +39,7 @@ struct StatisticsScale {
 };
 
 /// Computes the statistics of the heads' maps.
-/// \param filter  a filter of the mesh, of either operator kind.
+/// \param filter  a filter of the mesh, with the umbrella or the lazy operator.
 /// \param texels  #pictures: the rasterized surface in each picture.
 /// \param maps    #pictures by #heads.
 SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,

@@ -21,10 +21,12 @@ bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle
   const double area = cross(u, v);
   if (!(std::abs(area) > 1e-12)) return false;
   const Point origin = Point(0.5, 0.5) - at[0];
-  triangle.second = {static_cast<float>(cross(origin, v) / area), static_cast<float>(v.y() / area),
-                     static_cast<float>(-v.x() / area)};
-  triangle.third = {static_cast<float>(cross(u, origin) / area), static_cast<float>(-u.y() / area),
-                    static_cast<float>(u.x() / area)};
+  triangle.second_coefficients = {static_cast<float>(cross(origin, v) / area),
+                                  static_cast<float>(v.y() / area),
+                                  static_cast<float>(-v.x() / area)};
+  triangle.third_coefficients = {static_cast<float>(cross(u, origin) / area),
+                                 static_cast<float>(-u.y() / area),
+                                 static_cast<float>(u.x() / area)};
   return true;
 }
 
@@ -34,11 +36,11 @@ int gutter_width(const TextureLayout::Picture& size) {
   return std::max(4, std::max(size.width, size.height) / 64);
 }
 
-std::vector<SurfaceTexels::Gutter> grow_gutter(const Owners& owners,
-                                               const TextureLayout::Picture& size) {
+std::vector<SurfaceTexels::GutterTexel> grow_gutter(const Owners& owners,
+                                                    const TextureLayout::Picture& size) {
   std::vector<bool> taken(owners.size());
   for (std::size_t i = 0; i < owners.size(); ++i) taken[i] = owners[i] != kNoIndex;
-  std::vector<SurfaceTexels::Gutter> gutter;
+  std::vector<SurfaceTexels::GutterTexel> gutter;
   const auto width = static_cast<std::size_t>(size.width);
   const auto grow = [&](std::size_t i, std::uint32_t from) {
     const auto take = [&](std::size_t other) {
@@ -76,13 +78,13 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
   std::vector<std::uint32_t> corners;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = static_cast<std::size_t>(f);
-    if (layout.of_face[face] != picture) continue;
+    if (layout.picture_of_face[face] != picture) continue;
     const auto vertices = topology.face(f), face_uvs = topology.face_uvs(f);
     if (std::ranges::count(face_uvs, kNoIndex) > 0) continue;
     const auto at = [&](std::size_t corner) {
       const auto uv = uvs.row(face_uvs[corner]);
-      return Point((uv[0] - layout.tile[face][0]) * size_.width,
-                   (1 - (uv[1] - layout.tile[face][1])) * size_.height);
+      return Point((uv[0] - layout.tile_of_face[face][0]) * size_.width,
+                   (1 - (uv[1] - layout.tile_of_face[face][1])) * size_.height);
     };
     for (std::size_t c = 1; c + 1 < vertices.size(); ++c) {
       const std::array<Point, 3> points = {at(0), at(c), at(c + 1)};
@@ -129,7 +131,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
 std::size_t SurfaceTexels::memory_bytes() const {
   return vertices_.size() * sizeof(vertices_[0]) + triangles_.size() * sizeof(Triangle) +
          spans_.size() * sizeof(Span) + row_begin_.size() * sizeof(row_begin_[0]) +
-         gutter_.size() * sizeof(Gutter);
+         gutter_.size() * sizeof(GutterTexel);
 }
 
 }  // namespace crowdface

@@ -17,9 +17,9 @@ struct TextureLayout {
     int height = 0;  ///< texels
   };
   std::vector<Picture> pictures;
-  std::vector<std::uint32_t> of_face;  ///< #F: index of the picture, or kNoIndex
+  std::vector<std::uint32_t> picture_of_face;  ///< #F: index of the picture, or kNoIndex
   /// #F: lower corner (u, v) of the unit square of texture space that contains the polygon.
-  std::vector<std::array<std::int32_t, 2>> tile;
+  std::vector<std::array<std::int32_t, 2>> tile_of_face;
 };
 
 /// The mesh rasterized into one texture image: for each texel, the triangle that covers the texel's
@@ -27,11 +27,11 @@ struct TextureLayout {
 class SurfaceTexels {
  public:
   /// A triangle of a polygon's fan. At the centre of texel (x, y), the barycentric coordinate of
-  /// the triangle's second corner is second[0] + x · second[1] + y · second[2], and that of its
-  /// third corner is the same expression with `third`.
+  /// the triangle's second corner is s[0] + x · s[1] + y · s[2] with s = second_coefficients, and
+  /// the barycentric coordinate of the third corner is the same expression of third_coefficients.
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  ///< indices into `vertices()`
-    std::array<float, 3> second, third;
+    std::array<float, 3> second_coefficients, third_coefficients;
     std::uint32_t face = 0;
   };
   /// The texels [begin, end) of one row that one triangle covers.
@@ -39,10 +39,10 @@ class SurfaceTexels {
     std::uint32_t triangle;
     std::uint16_t begin, end;
   };
-  /// An uncovered texel near the surface (`target`), and the covered texel whose colour it copies
-  /// (`source`). Because of the gutter, texture filtering does not mix the background into the
+  /// An uncovered texel near the surface (`target`), which gets the colour of a covered texel
+  /// (`source`). Because of such texels, texture filtering does not mix the background into the
   /// surface.
-  struct Gutter {
+  struct GutterTexel {
     std::uint32_t target, source;  ///< row · width + column of each texel
   };
 
@@ -59,9 +59,9 @@ class SurfaceTexels {
     const auto r = static_cast<std::size_t>(y);
     return {spans_.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
   }
-  const std::vector<Gutter>& gutter() const { return gutter_; }
+  const std::vector<GutterTexel>& gutter() const { return gutter_; }
   /// Number of covered texels.
-  std::size_t covered_count() const { return covered_; }
+  std::size_t covered_texel_count() const { return covered_; }
   std::size_t memory_bytes() const;
 
  private:
@@ -70,7 +70,7 @@ class SurfaceTexels {
   std::vector<Triangle> triangles_;
   std::vector<Span> spans_;
   std::vector<std::size_t> row_begin_;  ///< #rows + 1: index of each row's first span
-  std::vector<Gutter> gutter_;
+  std::vector<GutterTexel> gutter_;
   std::size_t covered_ = 0;
 };
 

@@ -49,7 +49,7 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
 }
 
 /// Normalizes weights over the heads that have a map. Uses the first of `choices` that gives weight
-/// to such a head; if there is none, gives all heads with a map equal weights.
+/// to such a head; if no choice does, gives equal weights to all heads with a map.
 HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> choices,
                                     const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
@@ -107,7 +107,7 @@ double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
 }
 
 /// The common coding of all maps of a texture image. Its range is the smallest range that contains
-/// the ranges of all maps; blended values are clamped to it.
+/// the ranges of all maps; blended values are clamped to this range.
 MapCoding common_coding(const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   std::optional<MapCoding> common;
   float high = 0;
@@ -154,13 +154,14 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
   return weights;
 }
 
-std::vector<double> region_shares(const RegionWeights& regions, const std::vector<double>& areas) {
+std::vector<double> region_shares(const RegionWeights& regions,
+                                  const std::vector<double>& vertex_areas) {
   std::vector<double> shares(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
   double total = 0;
-  for (std::size_t v = 0; v < areas.size(); ++v) {
-    total += areas[v];
+  for (std::size_t v = 0; v < vertex_areas.size(); ++v) {
+    total += vertex_areas[v];
     for (std::size_t k = 0; k < shares.size(); ++k) {
-      shares[k] += areas[v] * regions.alpha(static_cast<Index>(v), static_cast<Index>(k));
+      shares[k] += vertex_areas[v] * regions.alpha(static_cast<Index>(v), static_cast<Index>(k));
     }
   }
   require(total > 0, "a face of no area");
@@ -176,14 +177,15 @@ FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
 
 TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
                                const ChebyshevFilter& filter, const RegionWeights& regions,
-                               const CrowdTextures& textures, TextureBlending options,
+                               const CrowdTextures& textures, TextureBlendOptions options,
                                const FindStatistics& find)
     : regions_(regions), textures_(textures), options_(std::move(options)) {
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  require(textures.layout.of_face.size() == static_cast<std::size_t>(topology.face_count()) &&
-              textures.maps.size() == textures.layout.pictures.size() &&
-              options_.areas.size() == vertices,
-          "textures of another mesh");
+  require(
+      textures.layout.picture_of_face.size() == static_cast<std::size_t>(topology.face_count()) &&
+          textures.maps.size() == textures.layout.pictures.size() &&
+          options_.vertex_areas.size() == vertices,
+      "textures of another mesh");
   for (std::uint32_t p = 0; p < textures.layout.pictures.size(); ++p) {
     texels_.emplace_back(topology, uvs, textures.layout, p);
     for (const auto& map : textures.maps[p]) {
@@ -192,13 +194,14 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
     }
     codings_.push_back(common_coding(textures.maps[p]));
   }
-  statistics_ =
-      find([&] { return surface_statistics(filter, texels_, textures.maps, options_.scale); });
+  statistics_ = find([&] {
+    return surface_statistics(filter, texels_, textures.maps, options_.statistics_scale);
+  });
 
-  region_shares_ = region_shares(regions, options_.areas);
+  region_shares_ = region_shares(regions, options_.vertex_areas);
 }
 
-PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) const {
+PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& recipe) const {
   const auto& maps = textures_.maps[picture];
   const FaceWeights weights = face_weights(recipe, maps, region_shares_);
   PictureFields fields;
@@ -210,7 +213,7 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
     if (most > 0) fields.heads.push_back(h);
   }
   const std::vector<std::uint32_t>& vertices = texels_[picture].vertices();
-  const std::size_t width = fields.width();
+  const std::size_t width = fields.values_per_vertex();
   fields.values.resize(vertices.size() * width);
   parallel_blocks(
       static_cast<Index>(vertices.size()), kVerticesPerBlock, [&](Index begin, Index end) {
@@ -258,12 +261,12 @@ PictureFields TextureBlender::fields(std::size_t picture, const Recipe& recipe) 
 
 BlendedPicture TextureBlender::blend(const Recipe& recipe, std::size_t picture) const {
   return paint_picture(texels_[picture], codings_[picture], textures_.maps[picture],
-                       fields(picture, recipe));
+                       picture_fields(picture, recipe));
 }
 
 std::size_t TextureBlender::memory_bytes() const {
-  std::size_t bytes =
-      statistics_.covariances.size() * sizeof(float) + options_.areas.size() * sizeof(double);
+  std::size_t bytes = statistics_.covariances.size() * sizeof(float) +
+                      options_.vertex_areas.size() * sizeof(double);
   for (const auto& colours : statistics_.coarse_values) {
     bytes += static_cast<std::size_t>(colours.size()) * sizeof(float);
   }

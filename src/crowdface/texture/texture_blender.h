@@ -13,10 +13,10 @@
 
 namespace crowdface {
 
-struct TextureBlending {
-  StatisticsScale scale;
+struct TextureBlendOptions {
+  StatisticsScale statistics_scale;
   /// #V: weight of each vertex in means over the face; not all zero.
-  std::vector<double> areas;
+  std::vector<double> vertex_areas;
   /// #V, or empty: whether the vertex has the colours of the target alone (eyes, teeth).
   std::vector<bool> is_target_only;
 };
@@ -31,7 +31,7 @@ struct TextureBlending {
 ///   the regions' weights.
 /// - v_h varies over the face: half W_h plus half the weights of the region at that point.
 /// - The gain g restores the contrast of detail that averaging removes:
-///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. It is 1 if the details of
+///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. g is 1 if the details of
 ///   the heads agree and at most 1/√Σ v_h², the value for uncorrelated details (after Heitz &
 ///   Neyret 2018).
 ///
@@ -42,12 +42,12 @@ class TextureBlender {
   /// Returns the result of `make()`, possibly from a cache.
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
-  /// \param filter             a filter of the mesh, of either operator kind.
-  /// \param regions, textures  must outlive this object, as must the maps of the textures.
+  /// \param filter             a filter of the mesh, with the umbrella or the lazy operator.
+  /// \param regions, textures  these objects and the textures' maps must outlive the blender.
   /// \param find               may return cached statistics.
   TextureBlender(
       const Topology& topology, const TextureCoordinates& uvs, const ChebyshevFilter& filter,
-      const RegionWeights& regions, const CrowdTextures& textures, TextureBlending options,
+      const RegionWeights& regions, const CrowdTextures& textures, TextureBlendOptions options,
       const FindStatistics& find = [](const auto& make) { return make(); });
 
   /// Blends one texture image of a face. Thread-safe.
@@ -56,7 +56,7 @@ class TextureBlender {
 
   const SurfaceStatistics& statistics() const { return statistics_; }
 
-  /// Memory of this object in bytes.
+  /// Number of bytes of memory that this object uses.
   std::size_t memory_bytes() const;
   /// Additional memory in bytes that `blend` needs for the largest texture image.
   std::size_t blend_bytes() const;
@@ -64,11 +64,11 @@ class TextureBlender {
  private:
   /// Computes, for one texture image of a face, the base value and the heads' factors at each
   /// vertex.
-  PictureFields fields(std::size_t picture, const Recipe& recipe) const;
+  PictureFields picture_fields(std::size_t picture, const Recipe& recipe) const;
 
   const RegionWeights& regions_;
   const CrowdTextures& textures_;
-  TextureBlending options_;
+  TextureBlendOptions options_;
   std::vector<SurfaceTexels> texels_;  ///< #pictures
   std::vector<MapCoding> codings_;     ///< #pictures: coding of the blended picture
   SurfaceStatistics statistics_;
@@ -76,8 +76,9 @@ class TextureBlender {
 };
 
 /// For each region, the fraction of the face's area that the region covers.
-/// \param areas  #V: weight of each vertex.
-std::vector<double> region_shares(const RegionWeights& regions, const std::vector<double>& areas);
+/// \param vertex_areas  #V: weight of each vertex.
+std::vector<double> region_shares(const RegionWeights& regions,
+                                  const std::vector<double>& vertex_areas);
 
 /// Colour weights of the heads: `face` for the skin (W of TextureBlender), `target` for eyes and
 /// teeth.
@@ -87,8 +88,8 @@ struct FaceColourWeights {
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
                                       const std::vector<double>& region_shares);
 
-/// Colour weights of the heads in each region: the recipe's colour weights, if it has any.
-/// Otherwise the weights of the region's finest band; if these sum to less than one
+/// Colour weights of the heads in each region: the recipe's colour weights, if the recipe has
+/// colour weights. Otherwise the weights of the region's finest band; if these sum to less than one
 /// (Normalization::kPrinted), the target gets the remaining weight.
 /// \return #regions by #heads, rows summing to one.
 std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_t heads);

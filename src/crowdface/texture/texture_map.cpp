@@ -47,11 +47,12 @@ void add_row(const TexelRow& row, float weight, TexelRow& sum) {
 
 }  // namespace
 
-Density MapCoding::encode(float number) const {
-  return static_cast<Density>(std::clamp(std::floor((number - low) / step + 0.5F), 0.0F, 65535.0F));
+StoredValue MapCoding::encode(float number) const {
+  return static_cast<StoredValue>(
+      std::clamp(std::floor((number - low) / step + 0.5F), 0.0F, 65535.0F));
 }
 
-TextureMap make_texture_map(int width, int height, const LightRows& picture,
+TextureMap make_texture_map(int width, int height, const ImageRows& picture,
                             const MapCoding& coding) {
   require(width > 0 && height > 0 && picture.width > 0 && picture.height > 0, "a texture of ",
           width, " x ", height, " texels of one of ", picture.width, " x ", picture.height);
@@ -61,9 +62,9 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
   map.planes.resize(static_cast<std::size_t>(coding.channels) * static_cast<std::size_t>(width) *
                     static_cast<std::size_t>(height));
   const bool same_size = width == picture.width && height == picture.height;
-  if (same_size && picture.densities && coding.content == MapContent::kColours) {
+  if (same_size && picture.read_densities && coding.content == MapContent::kColours) {
     parallel_for_each(height, [&](int y) {
-      picture.densities(y, {map.row(0, y), map.row(1, y), map.row(2, y)});
+      picture.read_densities(y, {map.row(0, y), map.row(1, y), map.row(2, y)});
     });
     return map;
   }
@@ -77,14 +78,14 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
     TexelRow row(static_cast<std::size_t>(picture.width)), sum(row.size());
     for (int y = begin; y < end; ++y) {
       if (same_size) {
-        picture.row(y, row);
+        picture.read_row(y, row);
         for (int x = 0; x < width; ++x) write(x, y, row[static_cast<std::size_t>(x)]);
         continue;
       }
       const Taps& rows = down[static_cast<std::size_t>(y)];
       std::ranges::fill(sum, Eigen::Array3f::Zero());
       for (std::size_t t = 0; t < rows.weights.size(); ++t) {
-        picture.row(rows.first + static_cast<int>(t), row);
+        picture.read_row(rows.first + static_cast<int>(t), row);
         add_row(row, rows.weights[t], sum);
       }
       for (int x = 0; x < width; ++x) {
@@ -102,8 +103,8 @@ TextureMap make_texture_map(int width, int height, const LightRows& picture,
 
 std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
   const std::vector<std::uint8_t>& table = srgb8_of_densities();
-  const std::span<const Density> stored = map.stored();
-  const std::size_t texels = map.texels();
+  const std::span<const StoredValue> stored = map.stored();
+  const std::size_t texels = map.texel_count();
   std::vector<std::uint8_t> bytes(stored.size());
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t i = 0; i < texels; ++i) bytes[3 * i + c] = table[stored[c * texels + i]];
@@ -113,10 +114,10 @@ std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
 
 void move_to_disk(TextureMap& map, const std::filesystem::path& folder) {
   const std::string_view bytes(reinterpret_cast<const char*>(map.planes.data()),
-                               map.planes.size() * sizeof(Density));
+                               map.planes.size() * sizeof(StoredValue));
   map.disk_file =
       std::make_shared<const MappedFile>(MappedFile::from_temporary_copy(bytes, folder));
-  map.planes = std::vector<Density>();  // frees the memory, unlike assigning {}
+  map.planes = std::vector<StoredValue>();  // frees the memory, unlike assigning {}
 }
 
 }  // namespace crowdface

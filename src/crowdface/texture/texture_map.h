@@ -18,6 +18,9 @@
 
 namespace crowdface {
 
+/// A number of a texture map, encoded in 16 bits (see MapCoding).
+using StoredValue = std::uint16_t;
+
 /// What the values of a texture map mean.
 enum class MapContent {
   kColours,  ///< optical densities of red, green and blue
@@ -33,9 +36,9 @@ struct MapCoding {
   float step = 1;
 
   /// Decodes a stored value.
-  float decode(Density stored) const { return low + step * static_cast<float>(stored); }
+  float decode(StoredValue stored) const { return low + step * static_cast<float>(stored); }
   /// Encodes a number: the nearest stored value, clamped to 0 … 65,535.
-  Density encode(float number) const;
+  StoredValue encode(float number) const;
 
   /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
   /// representable.
@@ -52,25 +55,25 @@ struct MapCoding {
 struct TextureMap {
   int width = 0;
   int height = 0;
-  std::vector<Density> planes;  ///< one plane per channel: height by width, first row at v = 1
+  std::vector<StoredValue> planes;  ///< one plane per channel: height by width, first row at v = 1
   MapCoding coding = {};
   std::shared_ptr<const MappedFile> disk_file = {};  ///< holds the planes after move_to_disk
 
-  float decode(Density stored) const { return coding.decode(stored); }
-  std::size_t texels() const {
+  float decode(StoredValue stored) const { return coding.decode(stored); }
+  std::size_t texel_count() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
   /// The stored values of all channels, plane by plane, in memory or on disk.
-  std::span<const Density> stored() const {
+  std::span<const StoredValue> stored() const {
     if (disk_file == nullptr) return planes;
     const std::string_view bytes = disk_file->bytes();
-    return {reinterpret_cast<const Density*>(bytes.data()), bytes.size() / sizeof(Density)};
+    return {reinterpret_cast<const StoredValue*>(bytes.data()), bytes.size() / sizeof(StoredValue)};
   }
-  const Density* row(int channel, int y) const {
+  const StoredValue* row(int channel, int y) const {
     return stored().data() + plane_row_offset(channel, y);
   }
   /// A writable row; only for maps in memory.
-  Density* row(int channel, int y) { return planes.data() + plane_row_offset(channel, y); }
+  StoredValue* row(int channel, int y) { return planes.data() + plane_row_offset(channel, y); }
 
  private:
   std::size_t plane_row_offset(int channel, int y) const {
@@ -86,21 +89,21 @@ void move_to_disk(TextureMap& map, const std::filesystem::path& folder);
 
 /// A source image that is read row by row, from any thread. Rows contain linear light, or the
 /// numbers that a MapCoding encodes.
-struct LightRows {
+struct ImageRows {
   int width = 0;
   int height = 0;
   /// Reads row y: writes `width` texels.
-  std::function<void(int y, std::span<Eigen::Array3f> texels)> row;
-  /// Optional, for images that contain linear light: a faster alternative to `row` that writes row
-  /// y as densities. The result equals density_of_light of each value but needs no logarithms.
+  std::function<void(int y, std::span<Eigen::Array3f> texels)> read_row;
+  /// Optional, for images that contain linear light: a faster alternative to `read_row` that writes
+  /// row y as densities. The result equals density_of_light of each value but needs no logarithms.
   /// \param planes  red, green, blue.
-  std::function<void(int y, const std::array<Density*, 3>& planes)> densities = {};
+  std::function<void(int y, const std::array<Density*, 3>& planes)> read_densities = {};
 };
 
 /// Makes a map from an image and resamples it to `width` by `height`: with linear interpolation to
 /// enlarge, and with a tent filter two new texels wide to shrink. An image of the same size is
 /// copied exactly.
-TextureMap make_texture_map(int width, int height, const LightRows& picture,
+TextureMap make_texture_map(int width, int height, const ImageRows& picture,
                             const MapCoding& coding = {});
 
 /// The colours of a map as 8-bit sRGB, height by width by 3.

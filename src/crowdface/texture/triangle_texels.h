@@ -13,21 +13,22 @@ inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 /// Calls `body(x, y)` for each texel whose centre lies in the triangle or on its edge.
-/// \param at  the corners, in texels; y points downwards.
+/// \param corners  in texels; y points downwards.
 /// \param width, height  of the picture.
 template <class Body>
-void for_each_texel(const std::array<Eigen::Vector2d, 3>& at, int width, int height,
+void for_each_texel(const std::array<Eigen::Vector2d, 3>& corners, int width, int height,
                     const Body& body) {
-  const double area = cross(at[1] - at[0], at[2] - at[0]);
-  const Eigen::Vector2d low = at[0].cwiseMin(at[1]).cwiseMin(at[2]);
-  const Eigen::Vector2d high = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
+  const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Eigen::Vector2d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+  const Eigen::Vector2d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
   const auto texel = [](double x, int count) {
     return static_cast<int>(std::clamp(x, 0.0, count - 1.0));
   };
   for (int y = texel(low.y(), height); y <= texel(high.y(), height); ++y) {
     for (int x = texel(low.x(), width); x <= texel(high.x(), width); ++x) {
-      const Eigen::Vector2d from = Eigen::Vector2d(x + 0.5, y + 0.5) - at[0];
-      const double b = cross(from, at[2] - at[0]) / area, c = cross(at[1] - at[0], from) / area;
+      const Eigen::Vector2d from = Eigen::Vector2d(x + 0.5, y + 0.5) - corners[0];
+      const double b = cross(from, corners[2] - corners[0]) / area,
+                   c = cross(corners[1] - corners[0], from) / area;
       if (b >= 0 && c >= 0 && b + c <= 1) body(x, y);
     }
   }

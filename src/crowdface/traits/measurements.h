@@ -15,9 +15,9 @@ namespace crowdface {
 
 /// A landmark: a named point of the human face.
 struct TraitLandmark {
-  std::string name;         ///< name in landmark files, such as "eye_inner_left"
-  std::string_view symbol;  ///< Farkas' abbreviation, such as "en"
-  std::string_view where;   ///< description, for the user, of where the landmark is
+  std::string name;           ///< name in landmark files, such as "eye_inner_left"
+  std::string_view symbol;    ///< Farkas' abbreviation, such as "en"
+  std::string_view location;  ///< description for the user
 };
 /// Returns all landmarks that measurements use.
 const std::vector<TraitLandmark>& trait_landmarks();
@@ -41,7 +41,7 @@ struct Measurement {
   /// For each side of the face, the landmarks, as indices into trait_landmarks(). The value of the
   /// measurement is the mean over the sides. Paired measurements have two sides, other measurements
   /// one side. Ratios have none.
-  std::vector<std::array<std::size_t, 3>> sides = {};
+  std::vector<std::array<std::size_t, 3>> landmarks_of_sides = {};
   std::size_t dividend = 0, divisor = 0;  ///< only for ratios: indices into measurements()
 };
 /// Returns all measurements, in the order of docs/traits.md. A ratio comes after its dividend and

@@ -10,10 +10,11 @@
 
 namespace crowdface {
 
-TraitLimits merge_limits(const TraitLimits& common, const TraitLimits& own) {
-  TraitLimits all = own;
-  for (const TraitLimit& limit : common) {
-    if (std::ranges::find(own, limit.trait, &TraitLimit::trait) == own.end()) all.push_back(limit);
+TraitLimits merge_limits(const TraitLimits& defaults, const TraitLimits& limits) {
+  TraitLimits all = limits;
+  for (const TraitLimit& limit : defaults) {
+    if (std::ranges::find(limits, limit.trait, &TraitLimit::trait) == limits.end())
+      all.push_back(limit);
   }
   std::ranges::sort(all, {}, &TraitLimit::trait);
   return all;
@@ -30,11 +31,11 @@ TraitDistributions::TraitDistributions(const std::vector<std::vector<std::option
   for (std::vector<double>& values : sorted_values_) std::ranges::sort(values);
 }
 
-double TraitDistributions::quantile(std::size_t trait, double share) const {
+double TraitDistributions::quantile(std::size_t trait, double fraction) const {
   const auto row = std::ranges::find(table_, trait, &TraitTarget::trait);
-  if (row != table_.end()) return normal_quantile(*row, share);
+  if (row != table_.end()) return normal_quantile(*row, fraction);
   const std::vector<double>& values = sorted_values_[trait];
-  const double at = share * static_cast<double>(values.size() - 1);
+  const double at = fraction * static_cast<double>(values.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(at), values.size() - 1);
   const auto above = std::min(below + 1, values.size() - 1);
   const double t = at - static_cast<double>(below);
@@ -70,13 +71,13 @@ double normal_fraction_below(const TraitTarget& target, double value) {
   return std::round(0.5 * std::erfc(-z / std::numbers::sqrt2) * kSteps) / kSteps;
 }
 
-double normal_quantile(const TraitTarget& target, double share) {
+double normal_quantile(const TraitTarget& target, double fraction) {
   constexpr double kFarthest = 6, kSteps = 1e6;
   const TraitTarget standard{0, 0, 1};
   double low = -kFarthest, high = kFarthest;
   while (high - low > 0.1 / kSteps) {
     const double middle = (low + high) / 2;
-    (normal_fraction_below(standard, middle) < share ? low : high) = middle;
+    (normal_fraction_below(standard, middle) < fraction ? low : high) = middle;
   }
   return target.mean + target.deviation * std::round(high * kSteps) / kSteps;
 }

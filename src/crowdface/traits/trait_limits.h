@@ -37,8 +37,8 @@ struct TraitTarget {
   bool operator==(const TraitTarget&) const = default;
 };
 
-/// Returns all limits of `own`, and the limits of `common` for traits that have no limit in `own`.
-TraitLimits merge_limits(const TraitLimits& common, const TraitLimits& own);
+/// Returns all of `limits`, and the default limits of the traits that have no limit in `limits`.
+TraitLimits merge_limits(const TraitLimits& defaults, const TraitLimits& limits);
 
 /// The distributions of the measurements. They turn a quantile in a limit into a value. A
 /// distribution comes from the heads, or from a table.
@@ -61,7 +61,7 @@ class TraitDistributions {
   /// Returns a quantile of the trait. If the table contains the trait, this is a quantile of the
   /// table's normal distribution (normal_quantile). Otherwise the quantile is interpolated linearly
   /// between the values of the heads: 0 gives the smallest value, 1 the largest value.
-  double quantile(std::size_t trait, double share) const;
+  double quantile(std::size_t trait, double fraction) const;
   double bound_value(std::size_t trait, const TraitBound& bound) const {
     return bound.is_quantile ? quantile(trait, bound.value) : bound.value;
   }
@@ -86,7 +86,7 @@ double normal_fraction_below(const TraitTarget& target, double value);
 /// Returns the value below which the given fraction of a normal distribution lies. The value is
 /// rounded to 10⁻⁶ standard deviations. For the fractions 0 and 1, returns the mean minus and plus
 /// six standard deviations.
-double normal_quantile(const TraitTarget& target, double share);
+double normal_quantile(const TraitTarget& target, double fraction);
 
 /// Returns the Kolmogorov-Smirnov statistic: the largest difference, from 0 to 1, between the
 /// cumulative distribution of the values and the cumulative distribution of the target.

@@ -226,11 +226,11 @@ bool boxes_overlap(const Box& a, const Box& b) {
   return apart == 0;
 }
 
-LeafCorners::LeafCorners(std::span<const std::uint32_t> numbers,
+LeafCorners::LeafCorners(std::span<const std::uint32_t> triangle_indices,
                          std::span<const Triangle> triangles)
-    : count(numbers.size()) {
+    : count(triangle_indices.size()) {
   for (std::size_t i = 0; i < kCount; ++i) {
-    const Triangle& triangle = triangles[numbers[i < count ? i : 0]];
+    const Triangle& triangle = triangles[triangle_indices[i < count ? i : 0]];
     for (std::size_t k = 0; k < 3; ++k) vertex[k][i] = static_cast<std::int32_t>(triangle[k]);
   }
 }

@@ -29,8 +29,8 @@ struct LeafCorners {
   std::array<std::array<std::int32_t, kCount>, 3> vertex;
   std::size_t count;  ///< number of triangles in the leaf
 
-  /// \param numbers  indices of the leaf's triangles, one to kCount
-  LeafCorners(std::span<const std::uint32_t> numbers, std::span<const Triangle> triangles);
+  /// \param triangle_indices  indices of the leaf's triangles, one to kCount
+  LeafCorners(std::span<const std::uint32_t> triangle_indices, std::span<const Triangle> triangles);
 };
 
 /// The bounding boxes of the triangles in a leaf. If there are fewer than eight triangles, the
@@ -78,11 +78,11 @@ unsigned hit_mask(const BoxRay& ray, const LeafBoxes& boxes);
 /// Returns which boxes of two leaves overlap, as a bit mask. Bit 8 i + j is set if box i of `a`
 /// overlaps box j of `b`.
 std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b);
-/// Returns which triangles of two leaves have a vertex in common, as a bit mask like that of
-/// `overlap_mask`.
+/// Returns which triangles of two leaves have a vertex in common, as a bit mask with the bit order
+/// of `overlap_mask`.
 std::uint64_t shared_vertex_mask(const LeafCorners& a, const LeafCorners& b);
-/// Returns which triangles of two leaves have normals with a cosine above `min_cosine`, as a bit
-/// mask like that of `overlap_mask`.
+/// Returns for which triangles of two leaves the cosine between the normals is above `min_cosine`,
+/// as a bit mask with the bit order of `overlap_mask`.
 std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, float min_cosine);
 
 }  // namespace crowdface

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Measures the area of the parts behind the skin, such as gums and teeth, where these parts show
-/// through the skin. Const methods are thread-safe.
+/// Measures how much of the parts that belong behind the skin, such as gums and teeth, protrudes
+/// visibly through the skin. Const methods are thread-safe.
 class PartsThroughSkin {
  public:
   /// \param parts  indices of the components that are behind the skin

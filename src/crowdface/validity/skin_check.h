@@ -22,12 +22,13 @@ struct ViewSetup {
 struct SkinDefects {
   LocalDefects local;  ///< defects of single triangles
   /// number of triangles that take part in intersections which the target does not have
-  Index intersecting = 0;
+  Index intersecting_count = 0;
   /// How much the gap at a contact of the skin (such as between the lips) exceeds the widest gap of
   /// any head at the same contact. SkinCheck does not set this value; callers that know the
   /// contacts do.
   double gap_excess_mm = 0;
-  double exposed_mm2 = 0;  ///< how much more of the skin's back side is visible than on the target
+  /// how much more of the skin's back side is visible than on the target
+  double exposed_back_mm2 = 0;
 };
 
 /// Compares the skin of meshes that have the same topology with the skin of their targets. Const
@@ -45,8 +46,8 @@ class SkinCheck {
   ///
   /// \param target  index of a head that was passed to the constructor as a target.
   SkinDefects compare(const Positions& positions, Index target) const;
-  /// Compares the positions of a face with any target, such as a mixture of heads. Takes twice as
-  /// long as comparing with a head that is known as a target.
+  /// Compares the positions of a face with the positions of any target, such as a mixture of heads.
+  /// Takes twice as long as a comparison with a target of the constructor.
   SkinDefects compare(const Positions& positions, const Positions& target) const;
 
   /// Returns the memory that this object uses, in bytes.
@@ -59,7 +60,7 @@ class SkinCheck {
   struct Target {
     TargetTriangles triangles;
     NewIntersections intersections;
-    double exposed;
+    double exposed_back_area;
   };
   Target prepared_target(const Positions& positions) const;
   SkinDefects compare(const Positions& positions, const Target& target) const;

@@ -54,7 +54,7 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
       boxes_[n] = leaves_[TriangleTree::leaf_number(node)].bounding_box();
       continue;
     }
-    const Box &left = boxes_[n + 1], &right = boxes_[node.second];
+    const Box &left = boxes_[n + 1], &right = boxes_[node.second_child];
     for (std::size_t c = 0; c < 3; ++c) {
       boxes_[n].low[c] = std::min(left.low[c], right.low[c]);
       boxes_[n].high[c] = std::max(left.high[c], right.high[c]);
@@ -71,14 +71,14 @@ void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) con
   };
   if (pair.a == pair.b) {
     add(pair.a + 1, pair.a + 1);
-    add(a.second, a.second);
-    add(pair.a + 1, a.second);
+    add(a.second_child, a.second_child);
+    add(pair.a + 1, a.second_child);
   } else if (a.end - a.begin >= b.end - b.begin) {
     add(pair.a + 1, pair.b);
-    add(a.second, pair.b);
+    add(a.second_child, pair.b);
   } else {
     add(pair.a, pair.b + 1);
-    add(pair.a, b.second);
+    add(pair.a, b.second_child);
   }
 }
 
@@ -171,7 +171,7 @@ std::vector<std::uint32_t> TriangleScene::leaves_near(std::uint32_t leaf) const 
     if (node.is_leaf()) {
       near.push_back(TriangleTree::leaf_number(node));
     } else {
-      waiting.push_back(node.second);
+      waiting.push_back(node.second_child);
       waiting.push_back(n + 1);
     }
   }
@@ -201,9 +201,9 @@ std::uint32_t TriangleScene::find_any_hit(const Eigen::Vector3d& origin,
     if (!node.is_leaf()) {
       // First visit the child that contains the guess. The guess blocked the previous ray, and
       // triangles near it often block this ray too.
-      const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.second].begin;
-      waiting[count++] = right_first ? n + 1 : node.second;
-      waiting[count++] = right_first ? node.second : n + 1;
+      const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.second_child].begin;
+      waiting[count++] = right_first ? n + 1 : node.second_child;
+      waiting[count++] = right_first ? node.second_child : n + 1;
       continue;
     }
     unsigned left = hit_mask(box_ray, leaves_[TriangleTree::leaf_number(node)]) &

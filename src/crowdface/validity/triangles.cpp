@@ -75,7 +75,7 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const bool turned = normal.dot(frame.normal) < 0;
     const bool collapsed =
         normal.squaredNorm() < kCollapsed * kCollapsed * frame.normal.squaredNorm();
-    if (turned || collapsed) ++defects.flipped;
+    if (turned || collapsed) ++defects.flipped_count;
     // Compute the square of the largest singular value of the linear map from the target triangle
     // to this triangle. x and y are the images of the axes of `frame`.
     const Vector x = u / frame.length;
@@ -83,11 +83,11 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();
     stretches.push_back(0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b));
   }
-  defects.compared = static_cast<Index>(stretches.size());
+  defects.compared_count = static_cast<Index>(stretches.size());
   if (!stretches.empty()) {
     const double count = static_cast<double>(stretches.size());
     const auto rank = static_cast<std::size_t>(kPercentile * count);
-    defects.stretch = std::sqrt(nth_smallest(std::move(stretches), rank));
+    defects.stretch_factor = std::sqrt(nth_smallest(std::move(stretches), rank));
   }
   return defects;
 }

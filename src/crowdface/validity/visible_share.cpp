@@ -10,9 +10,10 @@ namespace {
 constexpr double kSpacingMm = 1;
 constexpr int kMaxAlongEdge = 8;  ///< largest number of samples along an edge of a triangle
 
-int points_along_edge(const Corners& at, double mm_per_unit) {
+int points_along_edge(const Corners& corners, double mm_per_unit) {
   const double longest =
-      std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
+      std::max({(corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm(),
+                (corners[0] - corners[2]).norm()});
   return std::clamp(static_cast<int>(longest * mm_per_unit / kSpacingMm), 1, kMaxAlongEdge);
 }
 
@@ -22,16 +23,16 @@ double ray_margin(const Positions& positions) {
   return 1e-5 * (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
 }
 
-double visible_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
+double visible_share(const TriangleScene& scene, const Corners& corners, std::uint32_t triangle,
                      double mm_per_unit, std::span<const Eigen::Vector3d> directions,
                      std::span<const std::size_t> viewers,
                      std::span<std::uint32_t> last_occluders) {
   if (viewers.empty()) return 0;
-  const int n = points_along_edge(at, mm_per_unit);
+  const int n = points_along_edge(corners, mm_per_unit);
   int shown = 0;
   const auto look_at = [&](int thirds_b, int thirds_c) {
     const double b = thirds_b / (3.0 * n), c = thirds_c / (3.0 * n);
-    const Eigen::Vector3d point = (1 - b - c) * at[0] + b * at[1] + c * at[2];
+    const Eigen::Vector3d point = (1 - b - c) * corners[0] + b * corners[1] + c * corners[2];
     shown += std::ranges::any_of(viewers, [&](std::size_t viewer) {
       std::uint32_t& other = last_occluders[viewer];
       other = scene.find_any_hit(point, directions[viewer], triangle, other);

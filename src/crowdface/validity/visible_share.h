@@ -17,13 +17,13 @@ double ray_margin(const Positions& positions);
 /// Returns the fraction of a triangle that at least one of the given viewers can see. The fraction
 /// is measured at samples about a millimetre apart, which are the centroids of equal subtriangles.
 ///
-/// \param at          corners of the triangle.
+/// \param corners     corners of the triangle.
 /// \param triangle    index of the triangle in the scene; a triangle never hides its own samples.
 /// \param directions  directions towards all viewers, of any non-zero length.
 /// \param viewers     indices into `directions` of the viewers that count.
 /// \param last_occluders  #directions: for each viewer, the triangle that last hid a sample. The
 ///                        next ray to the viewer tests this triangle first.
-double visible_share(const TriangleScene& scene, const Corners& at, std::uint32_t triangle,
+double visible_share(const TriangleScene& scene, const Corners& corners, std::uint32_t triangle,
                      double mm_per_unit, std::span<const Eigen::Vector3d> directions,
                      std::span<const std::size_t> viewers, std::span<std::uint32_t> last_occluders);
 

@@ -91,7 +91,7 @@ class Bending {
     std::vector<std::uint32_t> inside;
     const std::vector<bool> used = used_vertices(scan_.scan());
     for (std::uint32_t v = 0; v < used.size(); ++v) {
-      if (used[v] && !scan_.rim()[v]) inside.push_back(v);
+      if (used[v] && !scan_.is_boundary_vertex()[v]) inside.push_back(v);
     }
     scan_points_ = evenly_spaced_items(inside, kMaxScanPoints);
     const auto count = static_cast<double>(scan_points_.size());
@@ -108,8 +108,8 @@ class Bending {
     }
   }
 
-  /// Adds data terms that align the skin's boundary with the scan's boundary, if they are closer
-  /// than `reach`.
+  /// Adds data terms that align the skin's boundary with the scan's boundary, where the distance
+  /// between both boundaries is at most `reach`.
   void add_rim_terms(const Positions& current, double reach, DataTerms& data_terms) const {
     if (!scan_end_grid_) return;
     for (const std::uint32_t v : skin_end_) {
@@ -143,7 +143,7 @@ class Bending {
       add_skin_terms(current, reach, tangential, data_terms);
       for (const WrapLandmark& landmark : landmarks_) {
         data_terms.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
-                       landmark.place - base_.row(landmark.vertex).transpose());
+                       landmark.scan_position - base_.row(landmark.vertex).transpose());
       }
       solver.solve(data_terms, {}, displacements_);
     }

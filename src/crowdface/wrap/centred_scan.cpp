@@ -22,7 +22,8 @@ CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks) {
   };
   positions = moved(positions);
   for (WrapLandmark& landmark : result.landmarks) {
-    landmark.place = moved(Positions(landmark.place.transpose())).row(0).transpose();
+    landmark.scan_position =
+        moved(Positions(landmark.scan_position.transpose())).row(0).transpose();
   }
   result.box_centre = middle.transpose();
   return result;

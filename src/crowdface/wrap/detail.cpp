@@ -118,9 +118,10 @@ TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const P
   return asked;
 }
 
-/// Whether the offsets flip a triangle relative to its orientation before the offsets or, unless it
-/// was already flipped there, relative to the template.
-bool flips(const Positions& rest, const Positions& before, const Positions& normals,
+/// Whether the offsets flip a triangle. The triangle must keep its orientation of `before`. It must
+/// also keep its orientation of `rest_positions` (the template), unless it is already flipped in
+/// `before`.
+bool flips(const Positions& rest_positions, const Positions& before, const Positions& normals,
            const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {
     return row3(before, v) + along(v) * row3(normals, v);
@@ -128,13 +129,13 @@ bool flips(const Positions& rest, const Positions& before, const Positions& norm
   const Eigen::Vector3d was = area_vector(before, t), first = moved(t[0]);
   const Eigen::Vector3d is = (moved(t[1]) - first).cross(moved(t[2]) - first);
   if (was.dot(is) <= kMinAreaRatio * was.squaredNorm()) return true;
-  const Eigen::Vector3d of_rest = area_vector(rest, t);
+  const Eigen::Vector3d of_rest = area_vector(rest_positions, t);
   const double least = kMinFaceCosine * of_rest.norm();
   return of_rest.dot(is) <= least * is.norm() && of_rest.dot(was) > least * was.norm();
 }
 
 /// The triangles that the offsets flip; checks only triangles with a changed vertex.
-std::vector<std::uint32_t> flipped_triangles(const SkinMesh& skin, const Positions& rest,
+std::vector<std::uint32_t> flipped_triangles(const SkinMesh& skin, const Positions& rest_positions,
                                              const Positions& before, const Positions& normals,
                                              const Eigen::VectorXd& along,
                                              const std::vector<char>& changed) {
@@ -142,7 +143,7 @@ std::vector<std::uint32_t> flipped_triangles(const SkinMesh& skin, const Positio
   parallel_for_each(skin.triangles.size(), kDetailBlock, [&](std::size_t i) {
     const Triangle& t = skin.triangles[i];
     if (changed[t[0]] + changed[t[1]] + changed[t[2]] == 0) return;
-    is_turned[i] = flips(rest, before, normals, along, t) ? 1 : 0;
+    is_turned[i] = flips(rest_positions, before, normals, along, t) ? 1 : 0;
   });
   std::vector<std::uint32_t> turned;
   for (std::uint32_t i = 0; i < is_turned.size(); ++i) {
@@ -153,10 +154,12 @@ std::vector<std::uint32_t> flipped_triangles(const SkinMesh& skin, const Positio
 
 /// Reduces the offsets in a patch around each flipped triangle: to zero at the triangle, and less
 /// and less towards the border of the patch.
-void reduce_offsets(const Positions& rest, const Positions& before, const Positions& normals,
-                    std::span<const std::uint32_t> turned, const PatchMender& mender,
-                    Eigen::VectorXd& along) {
-  const auto is_bad = [&](const Triangle& t) { return flips(rest, before, normals, along, t); };
+void reduce_offsets(const Positions& rest_positions, const Positions& before,
+                    const Positions& normals, std::span<const std::uint32_t> turned,
+                    const PatchMender& mender, Eigen::VectorXd& along) {
+  const auto is_bad = [&](const Triangle& t) {
+    return flips(rest_positions, before, normals, along, t);
+  };
   Eigen::VectorXd asked;
   const PatchChange change{
       .make =
@@ -173,11 +176,13 @@ void reduce_offsets(const Positions& rest, const Positions& before, const Positi
 /// of the scan. Replaces each offset near a fold by the mean of the neighbours' offsets, and
 /// enlarges the treated area until the fold is gone or a limit is reached.
 /// \param mender  repairs the skin; created on first use.
-void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions& before,
+void even_out_folds(const SkinMesh& skin, const Positions& rest_positions, const Positions& before,
                     const Positions& normals, std::optional<PatchMender>& mender,
                     Eigen::VectorXd& along) {
   std::vector<char> uneven(skin.vertices.size(), 1);
-  const auto find = [&] { return flipped_triangles(skin, rest, before, normals, along, uneven); };
+  const auto find = [&] {
+    return flipped_triangles(skin, rest_positions, before, normals, along, uneven);
+  };
   std::vector<std::uint32_t> turned = find();
   std::fill(uneven.begin(), uneven.end(), 0);
   std::vector<std::uint32_t> evened;  // ascending
@@ -207,8 +212,8 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest, const Positions
     turned = find();
   }
   if (turned.empty()) return;
-  if (!mender) mender.emplace(skin, rest);
-  reduce_offsets(rest, before, normals, turned, *mender, along);
+  if (!mender) mender.emplace(skin, rest_positions);
+  reduce_offsets(rest_positions, before, normals, turned, *mender, along);
 }
 
 void move_along(const Positions& normals, const Eigen::VectorXd& along, Positions& positions) {
@@ -217,8 +222,8 @@ void move_along(const Positions& normals, const Eigen::VectorXd& along, Position
 
 }  // namespace
 
-Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Positions& positions,
-                        const ScanSurface& scan, int smoothing_steps) {
+Positions follow_detail(const SkinMesh& skin, const Positions& rest_positions,
+                        const Positions& positions, const ScanSurface& scan, int smoothing_steps) {
   std::optional<PatchMender> mender;
   Positions result = positions;
   Positions normals = vertex_normals_or_zero(skin.triangles, result);
@@ -233,7 +238,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     sums << asked.weights.cwiseProduct(asked.values), asked.weights;
     sums = iterate(lazy, sums, times);
     Eigen::VectorXd along = sums.col(0).cwiseQuotient(sums.col(1));
-    even_out_folds(skin, rest, result, normals, mender, along);
+    even_out_folds(skin, rest_positions, result, normals, mender, along);
     move_along(normals, along, result);
   }
   // On a regular mesh with edge length h, the mean of the neighbours differs from the value by h²/4
@@ -243,7 +248,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest, const Posit
     if (smoothing_steps == 0) normals = vertex_normals_or_zero(skin.triangles, result);
     const TargetOffsets asked = ask_scan(skin, result, normals, scan);
     Eigen::VectorXd along = fit.solve(asked.weights, asked.values);
-    even_out_folds(skin, rest, result, normals, mender, along);
+    even_out_folds(skin, rest_positions, result, normals, mender, along);
     move_along(normals, along, result);
   }
   return result;

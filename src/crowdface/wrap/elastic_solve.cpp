@@ -21,7 +21,7 @@ double product(const Positions& a, const Positions& b) {
   return parallel_dot(a.data(), b.data(), a.size(), 3 * kElasticBlock);
 }
 
-/// A += factor · b.
+/// Adds factor · b to `a`.
 void add_scaled(Positions& a, double factor, const Positions& b) {
   for (Index i = 0; i < a.size(); ++i) a.data()[i] += factor * b.data()[i];
 }
@@ -111,8 +111,8 @@ SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& 
 }
 
 SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd& areas,
-                            const Eigen::VectorXd& factors) {
-  const Eigen::VectorXd weights = factors.cwiseQuotient(areas);
+                            const Eigen::VectorXd& stiffness) {
+  const Eigen::VectorXd weights = stiffness.cwiseQuotient(areas);
   return laplacian.transpose() * weights.asDiagonal() * laplacian;
 }
 
@@ -128,7 +128,8 @@ struct ElasticSolver::State {
   SparseMatrix stiffness;
   Factors factors;
 
-  /// Returns (W + B) x. Uses the columns of B as its rows, because B is symmetric.
+  /// Returns (W + B) x. Reads B by columns: because B is symmetric, each column equals the row with
+  /// the same index.
   Positions times(const DataTerms& data_terms, const Positions& x) const {
     Positions y(x.rows(), 3);
     parallel_for_each(x.rows(), kElasticBlock, [&](Index i) {

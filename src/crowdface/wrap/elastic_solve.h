@@ -21,11 +21,12 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
 /// holds. Boundary vertices get rows of the same form, so that a boundary can move but not bend.
 SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& positions);
 
-/// The bending energy ∫ s |Δd|² of a displacement field d as dᵀ B d; B is #V by #V, symmetric.
+/// The symmetric matrix B, #V by #V, for which dᵀ B d is the bending energy ∫ s |Δd|² of a
+/// displacement field d.
 /// \param areas  #V
-/// \param factors  #V: the relative stiffness s.
+/// \param stiffness  #V: the relative stiffness s.
 SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd& areas,
-                            const Eigen::VectorXd& factors);
+                            const Eigen::VectorXd& stiffness);
 
 /// Quadratic data term of each vertex: Σ (d − offset)ᵀ W (d − offset) with one 3 by 3 matrix W per
 /// vertex.

@@ -102,16 +102,16 @@ std::vector<FaceFeature> face_features(const WrapTemplate& shape,
     for (std::uint32_t v = 0; v < shape.skin.vertices.size(); ++v) {
       if (shape.skin.openness[v] <= kVisibleOpenness) continue;
       const Eigen::Vector3d p = row3(shape.positions, shape.skin.vertices[v]);
-      if (distance_to_outline(p, places) < outline.reach_mm) feature.skin.push_back(v);
+      if (distance_to_outline(p, places) < outline.reach_mm) feature.skin_vertices.push_back(v);
     }
-    if (feature.skin.size() >= kMinVertices) features.push_back(std::move(feature));
+    if (feature.skin_vertices.size() >= kMinVertices) features.push_back(std::move(feature));
   }
   return features;
 }
 
-std::vector<double> relief_agreements(const WrapTemplate& shape,
-                                      const std::vector<FaceFeature>& features,
-                                      const Positions& wrapped) {
+std::vector<double> relief_correlations(const WrapTemplate& shape,
+                                        const std::vector<FaceFeature>& features,
+                                        const Positions& wrapped) {
   const SkinMesh& skin = shape.skin;
   const Positions before = skin.rows_of(shape.positions), after = skin.rows_of(wrapped);
   const Positions normals_before = vertex_normals_or_zero(skin.triangles, before),
@@ -119,9 +119,9 @@ std::vector<double> relief_agreements(const WrapTemplate& shape,
   const Eigen::VectorXd areas = areas_at_vertices(skin, before);
   std::vector<double> agreements;
   for (const FaceFeature& feature : features) {
-    const Eigen::VectorXd weights = areas(feature.skin);
-    const Eigen::VectorXd a = relief(before, normals_before, feature.skin, weights),
-                          b = relief(after, normals_after, feature.skin, weights);
+    const Eigen::VectorXd weights = areas(feature.skin_vertices);
+    const Eigen::VectorXd a = relief(before, normals_before, feature.skin_vertices, weights),
+                          b = relief(after, normals_after, feature.skin_vertices, weights);
     const auto product = [&](const Eigen::VectorXd& p, const Eigen::VectorXd& q) {
       return (weights.array() * p.array() * q.array()).sum();
     };

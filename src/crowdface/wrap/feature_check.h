@@ -14,7 +14,7 @@ namespace crowdface {
 /// ear.
 struct FaceFeature {
   std::string name;
-  std::vector<std::uint32_t> skin;  ///< rows of the skin, ascending
+  std::vector<std::uint32_t> skin_vertices;  ///< rows of the skin, ascending
 };
 
 /// Finds the facial features of a template from its landmarks. Omits a feature if one of the
@@ -23,14 +23,15 @@ struct FaceFeature {
 std::vector<FaceFeature> face_features(const WrapTemplate& shape,
                                        const std::map<std::string, std::uint32_t>& landmarks);
 
-/// Returns, for each feature, the correlation between its relief before and after a wrap. The
-/// relief is the height of the skin above a quadratic surface that is fitted to the feature. The
-/// correlation is above 0.75 if the template's feature lies on the same feature of the scan
-/// (measured by scripts/measure_wrap.sh), and mostly below 0.5 if it lies elsewhere.
+/// Returns, for each feature, the correlation between the feature's relief before and after a wrap.
+/// The relief is the height of the skin above a quadratic surface that is fitted to the feature.
+/// The correlation is above 0.75 if the template's feature lies on the same feature of the scan,
+/// and mostly below 0.5 if the template's feature lies elsewhere (measured by
+/// scripts/measure_wrap.sh).
 /// \param wrapped  positions of the whole template, #V by 3
 /// \return #features
-std::vector<double> relief_agreements(const WrapTemplate& shape,
-                                      const std::vector<FaceFeature>& features,
-                                      const Positions& wrapped);
+std::vector<double> relief_correlations(const WrapTemplate& shape,
+                                        const std::vector<FaceFeature>& features,
+                                        const Positions& wrapped);
 
 }  // namespace crowdface

@@ -35,10 +35,10 @@ void GrowingPatch::grow() {
   }
 }
 
-PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest)
+PatchMender::PatchMender(const SkinMesh& skin, const Positions& rest_positions)
     : skin_(skin), triangles_of_vertex_(topology_of(skin.triangles, skin.vertex_count())) {
   double area = 0;
-  for (const Triangle& t : skin.triangles) area += area_vector(rest, t).norm();
+  for (const Triangle& t : skin.triangles) area += area_vector(rest_positions, t).norm();
   const double edge = std::sqrt(area / static_cast<double>(skin.triangles.size()));
   max_rings_ = static_cast<int>(std::clamp(kMaxPatchMm / edge, kMinRings, kMaxRings));
 }

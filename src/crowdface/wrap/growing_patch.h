@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// A patch of vertices around a triangle that grows by one ring at a time.
+/// A growing patch: a triangle and the rings of vertices around the triangle.
 class GrowingPatch {
  public:
   GrowingPatch(const SkinMesh& skin, const Triangle& triangle);
@@ -44,9 +44,9 @@ struct PatchChange {
 /// Repairs triangles of a skin by operations on patches around them.
 class PatchMender {
  public:
-  /// \param rest  #skin by 3, in millimetres: a patch grows to at most twelve rings of vertices or
-  /// to about 15 mm, measured in `rest`.
-  PatchMender(const SkinMesh& skin, const Positions& rest);
+  /// \param rest_positions  #skin by 3, in millimetres: a patch grows to at most twelve rings of
+  /// vertices or to about 15 mm, measured in these positions.
+  PatchMender(const SkinMesh& skin, const Positions& rest_positions);
 
   /// For each bad triangle, applies the operation to the smallest patch around it in which this
   /// reduces the number of bad triangles. If no patch does, the triangle stays unchanged.

@@ -30,17 +30,18 @@ Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool
   return extent;
 }
 
-ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
+ShapeFit best_fit(const SkinMesh& skin, const Positions& rest_positions, const HeadAxes& axes,
                   const ScanSurface& scan, const PoseHint& hint) {
   constexpr std::array kLower = {0.0, 0.12, -0.12};  // offsets as fractions of the head's height
   const Eigen::Matrix3d from = frame_of(axes.up, axes.front), to = frame_of(hint.up, hint.front);
   const Eigen::AlignedBox3d head =
-      extent_of(rest, std::vector<bool>(static_cast<std::size_t>(rest.rows()), true), from);
+      extent_of(rest_positions,
+                std::vector<bool>(static_cast<std::size_t>(rest_positions.rows()), true), from);
   const Eigen::AlignedBox3d found =
       extent_of(scan.scan().positions, used_vertices(scan.scan()), to);
-  const ShapeFitOptions options{.reach_mm = {40, 30, 20, 12}, .steps = 4};
+  const ShapeFitOptions options{.search_radii_mm = {40, 30, 20, 12}, .steps_per_round = 4};
   ShapeFit best;
-  best.residual = 1e300;
+  best.median_distance_mm = 1e300;
   // Take the scale from the ratio of the heads' widths, because scans end at different heights.
   // Align the tops of the heads and the foremost points of the faces.
   for (const double wider : {1.0, 0.85, 1.15}) {
@@ -54,8 +55,8 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& a
       pose.translation = to * anchor_to - pose.scale * (to * anchor_from);
       ShapeFit start;
       start.pose = pose;
-      const ShapeFit fit = fit_shape(skin, {rest, {}}, scan, {}, start, options);
-      if (fit.residual < best.residual) best = fit;
+      const ShapeFit fit = fit_shape(skin, {rest_positions, {}}, scan, {}, start, options);
+      if (fit.median_distance_mm < best.median_distance_mm) best = fit;
     }
   }
   return best;
@@ -63,13 +64,14 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest, const HeadAxes& a
 
 }  // namespace
 
-Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
+Similarity guess_pose(const SkinMesh& skin, const Positions& rest_positions, const HeadAxes& axes,
                       const ScanSurface& scan, const PoseHint& hint,
                       const std::optional<ReliefMatch>& face) {
-  if (!face || !hint.face) return best_fit(skin, rest, axes, scan, hint).pose;
+  if (!face || !hint.face) return best_fit(skin, rest_positions, axes, scan, hint).pose;
   ShapeFit start;
   start.pose = pose_of_faces(*face, *hint.face);
-  return fit_shape(skin, {rest, {}}, scan, {}, start, {.reach_mm = {25, 20, 16, 12}, .steps = 4})
+  return fit_shape(skin, {rest_positions, {}}, scan, {}, start,
+                   {.search_radii_mm = {25, 20, 16, 12}, .steps_per_round = 4})
       .pose;
 }
 
@@ -79,7 +81,7 @@ Similarity pose_of_faces(const ReliefMatch& template_face, const ReliefMatch& sc
   pose.rotation = frame_of(scan_face.axes.up, scan_face.axes.front) *
                   frame_of(template_face.axes.up, template_face.axes.front).transpose();
   pose.translation =
-      scan_face.between_eyes - pose.scale * (pose.rotation * template_face.between_eyes);
+      scan_face.eye_midpoint - pose.scale * (pose.rotation * template_face.eye_midpoint);
   return pose;
 }
 

@@ -21,10 +21,10 @@ struct PoseHint {
 /// pose with closest points. Otherwise the function aligns the tops of the heads with several
 /// scales and offsets, refines each pose with closest points, and returns the pose with the
 /// smallest distances.
-/// \param rest  positions of the skin, in millimetres
+/// \param rest_positions  positions of the skin, in millimetres
 /// \param hint  may contain the face of the scan
 /// \param face  face of the template's skin, found by its relief
-Similarity guess_pose(const SkinMesh& skin, const Positions& rest, const HeadAxes& axes,
+Similarity guess_pose(const SkinMesh& skin, const Positions& rest_positions, const HeadAxes& axes,
                       const ScanSurface& scan, const PoseHint& hint,
                       const std::optional<ReliefMatch>& face);
 

@@ -2,8 +2,10 @@
 #include "crowdface/wrap/mirrored_landmarks.h"
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/selection.h"
@@ -16,17 +18,30 @@ namespace {
 constexpr double kMinMm = 6;  ///< natural variation between people
 constexpr double kTimesWorse = 2.5;
 
-/// Median distance in mm between corresponding landmarks of template and scan after the best
-/// similarity fit.
-double residual_of(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
+constexpr std::size_t kMinCount = 5;  ///< four points cannot reveal a reflection
+
+/// Distances in mm between corresponding landmarks of template and scan after the best similarity
+/// fit.
+std::vector<double> residuals_of(const Positions& positions,
+                                 const std::vector<WrapLandmark>& landmarks) {
   const Similarity pose = pose_of_landmarks(positions, landmarks);
   std::vector<double> off;
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d there = apply_similarity(pose, row3(positions, landmark.vertex));
-    off.push_back((there - landmark.place).norm() / pose.scale);
+    off.push_back((there - landmark.scan_position).norm() / pose.scale);
   }
-  const std::size_t middle = off.size() / 2;
-  return nth_smallest(std::move(off), middle);
+  return off;
+}
+
+double median_residual(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
+  return nth_smallest(residuals_of(positions, landmarks), landmarks.size() / 2);
+}
+
+/// Root mean square of the residuals. Unlike the median, it shows a single bad pair.
+double rms_residual(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
+  double sum = 0;
+  for (const double off : residuals_of(positions, landmarks)) sum += off * off;
+  return std::sqrt(sum / static_cast<double>(landmarks.size()));
 }
 
 /// The name of the landmark on the other side: "eye_left" for "eye_right"; the same name for a
@@ -52,12 +67,12 @@ std::string other_side(const std::string& name) {
 
 std::vector<WrapLandmark> with_sides_exchanged(const std::vector<WrapLandmark>& landmarks) {
   std::map<std::string, Eigen::Vector3d> places;
-  for (const WrapLandmark& landmark : landmarks) places[landmark.name] = landmark.place;
+  for (const WrapLandmark& landmark : landmarks) places[landmark.name] = landmark.scan_position;
   std::vector<WrapLandmark> exchanged;
   for (WrapLandmark landmark : landmarks) {
     const auto other = places.find(other_side(landmark.name));
     if (other == places.end()) continue;
-    landmark.place = other->second;
+    landmark.scan_position = other->second;
     exchanged.push_back(std::move(landmark));
   }
   return exchanged;
@@ -67,16 +82,16 @@ std::vector<WrapLandmark> with_sides_exchanged(const std::vector<WrapLandmark>& 
 
 void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks) {
-  constexpr std::size_t kMin = 5;  // four points cannot reveal a reflection
-  if (landmarks.size() < kMin) return;
-  const double as_they_are = residual_of(positions, landmarks);
+  if (landmarks.size() < kMinCount) return;
+  const double as_they_are = median_residual(positions, landmarks);
   if (!(as_they_are > kMinMm)) return;
   std::vector<WrapLandmark> mirrored = landmarks;
-  for (WrapLandmark& landmark : mirrored) landmark.place.x() = -landmark.place.x();
-  const double reflected = residual_of(positions, mirrored);
+  for (WrapLandmark& landmark : mirrored) landmark.scan_position.x() = -landmark.scan_position.x();
+  const double reflected = median_residual(positions, mirrored);
   if (!(reflected * kTimesWorse < as_they_are)) return;
   const std::vector<WrapLandmark> exchanged = with_sides_exchanged(landmarks);
-  const double swapped = exchanged.size() < kMin ? as_they_are : residual_of(positions, exchanged);
+  const double swapped =
+      exchanged.size() < kMinCount ? as_they_are : median_residual(positions, exchanged);
   const std::string numbers = concat(format_fixed(std::min(reflected, swapped), 1),
                                      " mm instead of ", format_fixed(as_they_are, 1), " mm");
   if (swapped < reflected) {
@@ -89,6 +104,31 @@ void refuse_mirrored_landmarks(const Positions& positions,
       concat("the scan is mirrored: with a reflection the landmarks fit to ", numbers,
              "; mirror it back (scale it by -1 along one axis, and flip its faces) before "
              "wrapping, or check that left and right are not swapped in the landmarks' names"));
+}
+
+void refuse_swapped_pair(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
+  if (landmarks.size() < kMinCount) return;
+  const double as_they_are = rms_residual(positions, landmarks);
+  if (!(as_they_are > kMinMm)) return;
+  double best = as_they_are / kTimesWorse;
+  std::string pair;
+  std::vector<WrapLandmark> swapped = landmarks;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    for (std::size_t j = i + 1; j < landmarks.size(); ++j) {
+      std::swap(swapped[i].scan_position, swapped[j].scan_position);
+      const double residual = rms_residual(positions, swapped);
+      std::swap(swapped[i].scan_position, swapped[j].scan_position);
+      if (!(residual < best)) continue;
+      best = residual;
+      pair = concat(quoted(landmarks[i].name), " and ", quoted(landmarks[j].name));
+    }
+  }
+  if (pair.empty()) return;
+  throw InvalidInput(concat("landmarks ", pair,
+                            " are swapped on the template or on the scan: with their places "
+                            "exchanged the landmarks fit to ",
+                            format_fixed(best, 1), " mm instead of ", format_fixed(as_they_are, 1),
+                            " mm; exchange the two"));
 }
 
 }  // namespace crowdface

@@ -76,8 +76,9 @@ std::vector<double> ReducedSkin::interpolate(const std::vector<double>& values) 
   return carried;
 }
 
-ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::size_t vertices) {
-  const ReducedMesh small = reduce_mesh(skin.triangles, positions, 2 * vertices);
+ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions,
+                        std::size_t vertex_count) {
+  const ReducedMesh small = reduce_mesh(skin.triangles, positions, 2 * vertex_count);
   ReducedSkin reduced;
   reduced.mesh.vertices = small.vertices;
   reduced.mesh.triangles = small.triangles;

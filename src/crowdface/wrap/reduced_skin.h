@@ -28,8 +28,8 @@ struct ReducedSkin {
   std::vector<double> interpolate(const std::vector<double>& values) const;
 };
 
-/// Reduces a skin to a subset of about `vertices` of its vertices.
+/// Reduces a skin to a subset of about `vertex_count` of its vertices.
 /// \param positions  #skin by 3
-ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::size_t vertices);
+ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions, std::size_t vertex_count);
 
 }  // namespace crowdface

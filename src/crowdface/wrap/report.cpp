@@ -113,11 +113,11 @@ Surfaces surfaces_of(const WrapTemplate& shape) {
 
 /// Returns colours in which the doubtful features are red; nothing if no feature is doubtful.
 std::optional<VertexColours> doubt_colours(const WrapTemplate& shape, const WrapResult& result) {
-  if (std::ranges::none_of(result.features, &FeatureAgreement::is_doubtful)) return std::nullopt;
+  if (std::ranges::none_of(result.features, &FeatureCheck::is_doubtful)) return std::nullopt;
   Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(shape.topology.vertex_count);
-  for (const FeatureAgreement& feature : result.features) {
+  for (const FeatureCheck& feature : result.features) {
     if (!feature.is_doubtful()) continue;
-    for (const std::uint32_t v : feature.skin) doubtful(shape.skin.vertices[v]) = 1;
+    for (const std::uint32_t v : feature.skin_vertices) doubtful(shape.skin.vertices[v]) = 1;
   }
   return mask_colours(doubtful, heat_colour(1));
 }
@@ -141,13 +141,13 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result) {
 
 std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result) {
   std::vector<std::string> warnings;
-  for (const FeatureAgreement& feature : result.features) {
+  for (const FeatureCheck& feature : result.features) {
     if (!feature.is_doubtful()) continue;
     warnings.push_back(concat("the ", feature.name,
                               " is doubtful: on the wrapped head it does not look like the "
                               "template's (agreement ",
-                              format_fixed(feature.agreement, 2), ", expected ",
-                              format_fixed(kDoubtfulAgreement, 2),
+                              format_fixed(feature.relief_correlation, 2), ", expected ",
+                              format_fixed(kMinReliefCorrelation, 2),
                               " or more): check the picture, where it is red, and pick landmarks "
                               "there"));
   }
@@ -180,7 +180,7 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult
 }
 
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
-                                       const SkinRegions& regions, std::size_t model_heads) {
+                                       const SkinRegions& regions, std::size_t model_head_count) {
   std::vector<std::string> warnings = wrap_doubts(shape, result);
   const std::vector<std::string> faults = scan_faults(shape, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
@@ -198,8 +198,8 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   if (result.folded_triangle_count > 0) {
     warnings.push_back(concat(result.folded_triangle_count, " triangles are flipped"));
   }
-  if (model_heads > 0 && model_heads < kFewHeads) {
-    warnings.push_back(concat("a model of ", model_heads,
+  if (model_head_count > 0 && model_head_count < kFewHeads) {
+    warnings.push_back(concat("a model of ", model_head_count,
                               " heads says little more than their mean; expected ", kFewHeads,
                               " or more"));
   }
@@ -222,7 +222,8 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                format_fixed(median, 1), " mm apart, expected less than ", kMaxMedianMm,
                "; are left and right swapped, or vertices counted from 1?"));
   }
-  if (const double far = measure_distances(shape, result).percentile_95; !(far <= kMaxDistanceMm)) {
+  if (const double far = measure_distances(shape, result).percentile_95_mm;
+      !(far <= kMaxDistanceMm)) {
     throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
                               " mm off the scan, expected less than ", kMaxDistanceMm,
                               farthest_region(shape, result, regions),
@@ -243,8 +244,8 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
                                const std::vector<std::string>& warnings) {
   nlohmann::ordered_json report;
   report["crowdface"] = kVersion;
-  report["inputs"] = facts.inputs;
-  report["mesh"] = facts.mesh;
+  report["inputs"] = facts.inputs_digest;
+  report["mesh"] = facts.mesh_digest;
   report["template"] = facts.template_file;
   report["scan"] = facts.scan_file;
   report["scale"] = result.pose.scale;
@@ -279,8 +280,8 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
     for (const auto& [name, mm] : facts.leave_out_wrap_mm) all.push_back(mm);
     report["correspondence_mm"] = spread_json(all);
   }
-  for (const FeatureAgreement& feature : result.features) {
-    report["features"][feature.name] = rounded(feature.agreement);
+  for (const FeatureCheck& feature : result.features) {
+    report["features"][feature.name] = rounded(feature.relief_correlation);
   }
   if (!result.dropped_landmarks.empty()) report["dropped_landmarks"] = result.dropped_landmarks;
   report["warnings"] = warnings;
@@ -291,7 +292,8 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
                          const HeadFrame& frame, const std::string& title) {
   const Positions standing = inverse(result.pose).apply(scan.positions);
   const std::array<const Positions*, 1> heads = {&result.positions};
-  const std::vector<Camera> cameras = fit_cameras(heads, frame, kViews, {.cut_below = 0.1});
+  const std::vector<Camera> cameras =
+      fit_cameras(heads, frame, kViews, {.bottom_cut_fraction = 0.1});
   const RenderOptions options{.size_px = kSidePx, .front = frame.front};
   const Topology scan_topology = topology_of(scan.triangles, scan.positions.rows());
   const FaceRenderer of_scan(scan_topology, options, {}, &standing),

@@ -15,7 +15,7 @@ namespace crowdface {
 /// Statistics of the distances from a wrapped skin to the scan, in mm, over the vertices that the
 /// scan covers.
 struct WrapDistances {
-  double median = 0, percentile_95 = 0;
+  double median_mm = 0, percentile_95_mm = 0;
 };
 WrapDistances measure_distances(const WrapTemplate& shape, const WrapResult& result);
 /// Returns the fraction of the visible skin for which there is no scan data.
@@ -23,9 +23,9 @@ double share_without_data(const WrapTemplate& shape, const WrapResult& result);
 
 /// Warnings for the user; one sentence each, with advice.
 /// \param regions  the warnings name each region of which a large fraction is far from the scan.
-/// \param model_heads  number of heads in the model; 0: no model.
+/// \param model_head_count  number of heads in the model; 0: no model.
 std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
-                                       const SkinRegions& regions, std::size_t model_heads);
+                                       const SkinRegions& regions, std::size_t model_head_count);
 
 /// The warnings about parts of the wrapped head that may be wrong: features, automatically found
 /// landmarks, and the position of the face.
@@ -37,7 +37,7 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
 
 /// Facts for the report that the result of a wrap does not contain.
 struct WrapFacts {
-  std::string template_file, scan_file, inputs, mesh;  ///< `inputs` and `mesh` are digests
+  std::string template_file, scan_file, inputs_digest, mesh_digest;
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
   /// Distance in mm of each landmark from the position that a similarity fitted to the other
   /// landmarks predicts; no entry if there is no prediction.
@@ -54,7 +54,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
                                const std::vector<std::string>& warnings);
 
 /// The bytes of a PNG file with three rows: the scan, the wrapped head, and the wrapped head
-/// coloured by its distance to the scan. Each row shows three sides.
+/// coloured by its distance to the scan. Each row shows the surface from three sides.
 std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const WrapResult& result,
                          const HeadFrame& frame, const std::string& title);
 

@@ -77,11 +77,11 @@ void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept)
   for (std::size_t i = 0; i < scan.triangles.size(); ++i) {
     if (!is_kept(i)) continue;
     scan.triangles[kept] = scan.triangles[i];
-    if (!scan.sources.empty()) scan.sources[kept] = scan.sources[i];
+    if (!scan.file_triangles.empty()) scan.file_triangles[kept] = scan.file_triangles[i];
     ++kept;
   }
   scan.triangles.resize(kept);
-  if (!scan.sources.empty()) scan.sources.resize(kept);
+  if (!scan.file_triangles.empty()) scan.file_triangles.resize(kept);
 }
 
 std::vector<bool> used_vertices(const Scan& scan) {
@@ -138,7 +138,7 @@ Scan keep_skin(const Scan& scan) {
   return of_modelled_head(scan, [](PartClass of) { return of == PartClass::kSkin; });
 }
 
-void weld(Scan& scan) {
+void weld_vertices(Scan& scan) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(scan.positions.rows()));
   std::iota(order.begin(), order.end(), 0U);
   const auto place = [&](std::uint32_t v) {

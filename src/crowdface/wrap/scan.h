@@ -15,9 +15,9 @@ struct Scan {
   Positions positions;                  ///< #V by 3
   std::vector<Triangle> triangles;      ///< oriented outwards
   std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
-  /// #triangles: number of each triangle in the file, whose polygons are cut by `triangles_of`;
-  /// empty if the scan does not come from a file.
-  std::vector<std::uint32_t> sources = {};
+  /// #triangles: index of each triangle in the file's own list of triangles, which `triangles_of`
+  /// makes from the file's polygons; empty if the scan does not come from a file.
+  std::vector<std::uint32_t> file_triangles = {};
 };
 
 /// Removes the triangles for which `is_kept` is false.
@@ -52,6 +52,6 @@ Scan keep_skin(const Scan& scan);
 /// vertices at texture seams. Triangles then refer to the first vertex at each position. If merging
 /// hardly enlarges the largest connected component, leaves the scan unchanged: the mesh was already
 /// connected, and lashes and eyes that touch the skin stay separate.
-void weld(Scan& scan);
+void weld_vertices(Scan& scan);
 
 }  // namespace crowdface

@@ -20,10 +20,11 @@ std::optional<ReliefMatch> find_scan_face(const Scan& scan, const std::optional<
   const Positions samples =
       sample_skin(topology_of(scan.triangles, vertices), moved.scan.positions, all, kSkinSamples);
   auto match = match_relief(samples, axes, {});
-  if (match && (match->score < kMinScore || (hint && match->degrees_off > kMaxDegreesOff))) {
+  if (match &&
+      (match->score < kMinScore || (hint && match->rotation_degrees > kMaxRotationDegrees))) {
     match.reset();
   }
-  if (match) match->between_eyes += moved.box_centre;
+  if (match) match->eye_midpoint += moved.box_centre;
   return match;
 }
 

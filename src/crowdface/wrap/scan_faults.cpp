@@ -39,7 +39,7 @@ std::optional<double> lid_opening(const Lids& lids, const ComponentShape& ball,
   for (std::size_t i = 0; i < lids.rim.size(); ++i) {
     const std::uint32_t v = lids.vertices[lids.rim[i]];
     if (std::abs((row3(rest, v) - ball.centre).dot(axes.side())) > kMiddle * ball.radius) continue;
-    (lids.upper[i] ? upper : lower).push_back(row3(positions, v).dot(axes.up));
+    (lids.is_upper[i] ? upper : lower).push_back(row3(positions, v).dot(axes.up));
   }
   const auto above = median(upper), below = median(lower);
   if (!above || !below) return std::nullopt;

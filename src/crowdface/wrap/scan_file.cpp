@@ -89,8 +89,8 @@ Scan read_scan(const std::filesystem::path& path) {
 Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
   reverse_inward_faces(mesh);
   Scan scan{std::move(mesh.positions), triangles_of(mesh.topology), std::move(mesh.notes)};
-  scan.sources.resize(scan.triangles.size());
-  std::iota(scan.sources.begin(), scan.sources.end(), 0U);
+  scan.file_triangles.resize(scan.triangles.size());
+  std::iota(scan.file_triangles.begin(), scan.file_triangles.end(), 0U);
   leave_out_unplaced(scan);
   if (scan.triangles.empty()) {
     refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),
@@ -103,7 +103,7 @@ Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
   }
   refuse_coarse_numbers(scan, path);
   if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
-  weld(scan);
+  weld_vertices(scan);
   refuse_fan(scan, path);
   return remove_shells(scan);
 }

@@ -13,8 +13,8 @@ namespace crowdface {
 /// primitives one after the other).
 /// \throws MissingInput; InvalidInput naming file, what was expected and what was found.
 Scan read_scan(const std::filesystem::path& path);
-/// Converts a mesh read from `path` to a scan. Moves positions and notes out of the mesh, and flips
-/// its polygons if the mesh is inside out.
+/// Converts a mesh read from `path` to a scan. Moves the positions and the notes (sentences about
+/// repairs) out of the mesh. Flips the mesh's polygons if the mesh is inside out.
 /// \throws InvalidInput like read_scan.
 Scan scan_of(FileMesh& mesh, const std::filesystem::path& path);
 

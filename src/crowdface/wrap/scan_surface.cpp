@@ -20,7 +20,8 @@ constexpr double kRounded = 1e-9;  ///< barycentric coordinate that counts as ze
 ScanSurface::ScanSurface(const Scan& scan)
     : scan_(remove_small_pieces(scan, kMinShare)),
       normals_(vertex_normals_or_zero(scan_.triangles, scan_.positions)),
-      rim_(build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
+      is_boundary_vertex_(
+          build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
       tree_(scan_.positions, scan_.triangles) {}
 
 ScanSurface::ClosestPoint ScanSurface::closest_point_of(const SurfaceHit& hit) const {
@@ -33,10 +34,10 @@ ScanSurface::ClosestPoint ScanSurface::closest_point_of(const SurfaceHit& hit) c
   bool rim = true;  // all corners with a nonzero coordinate are on the boundary
   for (std::size_t k = 0; k < 3; ++k) {
     place.normal += hit.shares[k] * normals_.row(corners[k]).transpose();
-    if (hit.shares[k] > kRounded && !rim_[corners[k]]) rim = false;
+    if (hit.shares[k] > kRounded && !is_boundary_vertex_[corners[k]]) rim = false;
   }
   place.normal = place.normal.normalized();
-  place.on_rim = rim;
+  place.is_on_boundary = rim;
   place.found = !rim && !place.normal.isZero();
   return place;
 }

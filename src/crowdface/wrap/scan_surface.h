@@ -25,8 +25,8 @@ class ScanSurface {
     /// unit normal, interpolated from the vertex normals
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     double distance = 0;
-    bool found = false;   ///< whether a point is within reach and not on the scan's boundary
-    bool on_rim = false;  ///< whether the point lies on the scan's boundary
+    bool found = false;  ///< whether a point is within reach and not on the scan's boundary
+    bool is_on_boundary = false;  ///< whether the point lies on the scan's boundary
     std::uint32_t triangle = kNoIndex;
   };
   /// The closest point whose normal has a cosine of at least `min_cosine` with the unit vector
@@ -41,14 +41,14 @@ class ScanSurface {
   const Scan& scan() const { return scan_; }
   const Positions& normals() const { return normals_; }
   /// #V: whether the vertex lies on the scan's boundary.
-  const std::vector<bool>& rim() const { return rim_; }
+  const std::vector<bool>& is_boundary_vertex() const { return is_boundary_vertex_; }
 
  private:
   ClosestPoint closest_point_of(const SurfaceHit& hit) const;
 
   Scan scan_;
   Positions normals_;
-  std::vector<bool> rim_;
+  std::vector<bool> is_boundary_vertex_;
   SurfaceTree tree_;
 };
 

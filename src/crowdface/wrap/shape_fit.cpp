@@ -69,7 +69,8 @@ class Equations {
         rows_(kPoseUnknowns + modes, kMaxRows),
         values_(kMaxRows) {}
 
-  /// Adds |W (J · unknowns − value)|² with J 3 by #unknowns.
+  /// Adds the term |weight · (jacobian · unknowns − value)|².
+  /// \param jacobian  3 by #unknowns.
   void add(const Eigen::Matrix<double, 3, Eigen::Dynamic>& jacobian, const Eigen::Vector3d& value,
            const Eigen::Matrix3d& weight) {
     rows_.middleCols<3>(count_) = (weight * jacobian).transpose();
@@ -141,7 +142,7 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                  const std::vector<std::uint32_t>& probes, double reach_mm,
                  const ShapeFitOptions& options, double first_scale,
                  std::vector<std::uint32_t>& found, ShapeFit& fit) {
-  const Positions placed = fit.pose.apply(model.shape(fit.coefficients));
+  const Positions placed = fit.pose.apply(model.evaluate(fit.coefficients));
   std::vector<Match> matches = find_matches(placed, vertex_normals_or_zero(skin.triangles, placed),
                                             scan, probes, reach_mm * fit.pose.scale, found);
   if (matches.size() < probes.size() / 50 + 3) return 0;
@@ -168,7 +169,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                                          (static_cast<double>(landmarks.size()) * mm * mm);
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = placed.row(landmark.vertex).transpose();
-    equations.add(jacobian_of(model, fit, landmark.vertex, point - middle), landmark.place - point,
+    equations.add(jacobian_of(model, fit, landmark.vertex, point - middle),
+                  landmark.scan_position - point,
                   std::sqrt(for_landmarks * landmark.weight()) * Eigen::Matrix3d::Identity());
   }
   for (Index k = 0; k < modes; ++k) equations.hold(kPoseUnknowns + k, -fit.coefficients(k), 1);
@@ -190,7 +192,7 @@ Similarity pose_of_landmarks(const Positions& positions,
   for (Index i = 0; i < from.rows(); ++i) {
     const WrapLandmark& landmark = landmarks[static_cast<std::size_t>(i)];
     from.row(i) = positions.row(landmark.vertex);
-    to.row(i) = landmark.place.transpose();
+    to.row(i) = landmark.scan_position.transpose();
   }
   return fit_similarity(from, to, ScaleFit::kUniform);
 }
@@ -207,21 +209,21 @@ ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurf
   ShapeFit fit = start;
   fit.coefficients.conservativeResizeLike(
       Eigen::VectorXd::Zero(static_cast<Index>(model.modes.size())));
-  for (const double reach : options.reach_mm) {
-    for (int i = 0; i < options.steps; ++i) {
+  for (const double reach : options.search_radii_mm) {
+    for (int i = 0; i < options.steps_per_round; ++i) {
       throw_if_interrupted();
       if (step(skin, model, scan, landmarks, probes, reach, options, start.pose.scale, found,
                fit) == 0)
         break;
     }
   }
-  const Positions placed = fit.pose.apply(model.shape(fit.coefficients));
+  const Positions placed = fit.pose.apply(model.evaluate(fit.coefficients));
   std::vector<double> distances;
   for (const std::uint32_t v : probes) {
     const auto place = scan.nearest(placed.row(v).transpose(), 1e300);
-    if (!place.on_rim) distances.push_back(place.distance / fit.pose.scale);
+    if (!place.is_on_boundary) distances.push_back(place.distance / fit.pose.scale);
   }
-  if (!distances.empty()) fit.residual = nth_smallest(distances, distances.size() / 2);
+  if (!distances.empty()) fit.median_distance_mm = nth_smallest(distances, distances.size() / 2);
   return fit;
 }
 

@@ -19,11 +19,11 @@ inline constexpr double kPickedErrorMm = 3;
 struct WrapLandmark {
   std::string name;
   std::uint32_t vertex = 0;  ///< row of the skin; before wrapping, row of the template
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< position on the scan
+  Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();  ///< position on the scan
   /// true: the program found the landmark from the surface's shape; false: the user picked it
   bool is_found_by_shape = false;
-  /// Uncertainty of `place`: standard deviation along each axis. The squared distance of a landmark
-  /// has the weight 1/error_mm².
+  /// Uncertainty of `scan_position`: standard deviation along each axis. The squared distance of a
+  /// landmark has the weight 1/error_mm².
   double error_mm = kPickedErrorMm;
 
   /// The weight of this landmark relative to a picked landmark.
@@ -41,14 +41,14 @@ Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vect
 
 /// The pose of a head in a scan, and its coefficients in the shape model.
 struct ShapeFit {
-  Similarity pose;               ///< transform from the template to the scan
-  Eigen::VectorXd coefficients;  ///< #modes, in standard deviations
-  double residual = 0;           ///< median distance from the visible skin to the scan, mm
+  Similarity pose;                ///< transform from the template to the scan
+  Eigen::VectorXd coefficients;   ///< #modes, in standard deviations
+  double median_distance_mm = 0;  ///< median distance from the visible skin to the scan
 };
 
 struct ShapeFitOptions {
-  std::vector<double> reach_mm = {25, 20, 16, 12, 10};  ///< search radius of each round
-  int steps = 4;                                        ///< number of steps in each round
+  std::vector<double> search_radii_mm = {25, 20, 16, 12, 10};  ///< search radius of each round
+  int steps_per_round = 4;                                     ///< number of steps in each round
   /// The whole scan has the weight of this many independent measurements with an error of 1 mm.
   /// With larger values, the prior pulls the coefficients less strongly towards 0.
   double effective_measurements = 7;

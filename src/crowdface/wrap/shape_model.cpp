@@ -14,7 +14,7 @@ constexpr std::ptrdiff_t kModelBlock = 4096;
 
 }  // namespace
 
-Positions ShapeModel::shape(const Eigen::VectorXd& coefficients) const {
+Positions ShapeModel::evaluate(const Eigen::VectorXd& coefficients) const {
   Positions result = mean;
   for (std::size_t k = 0; k < modes.size(); ++k) {
     result += coefficients(static_cast<Index>(k)) * modes[k];
@@ -44,11 +44,11 @@ ShapeModel make_shape_model(const std::vector<Positions>& heads) {
   // modes
   constexpr double kMinEigenvalue = 1e-9;
   for (Index k = 0; k + 1 < count; ++k) {
-    if (eigen.values(k) <= kMinEigenvalue * eigen.values(0)) break;
+    if (eigen.eigenvalues(k) <= kMinEigenvalue * eigen.eigenvalues(0)) break;
     Positions mode = Positions::Zero(model.mean.rows(), 3);
     // Σ_i v_i difference_i has length √λ; a standard deviation is √(λ / (count − 1)).
     for (Index i = 0; i < count; ++i) {
-      mode += eigen.vectors(i, k) * differences[static_cast<std::size_t>(i)];
+      mode += eigen.eigenvectors(i, k) * differences[static_cast<std::size_t>(i)];
     }
     model.modes.emplace_back(mode / std::sqrt(static_cast<double>(count - 1)));
   }

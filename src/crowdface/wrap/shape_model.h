@@ -15,7 +15,7 @@ struct ShapeModel {
   std::vector<Positions> modes;
 
   /// mean + Σ c_k modes_k
-  Positions shape(const Eigen::VectorXd& coefficients) const;
+  Positions evaluate(const Eigen::VectorXd& coefficients) const;
 };
 
 /// Builds a model of aligned heads (#V by 3 each, at least one). The number of modes is the number

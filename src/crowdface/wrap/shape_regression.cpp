@@ -121,7 +121,7 @@ class Regression {
 
   Eigen::VectorXd nearness(const Eigen::MatrixXd& places, const Eigen::Vector3d& place) const {
     return ((places.colwise() - place).colwise().squaredNorm() /
-            (-2 * options_.reach_mm * options_.reach_mm))
+            (-2 * options_.correlation_length_mm * options_.correlation_length_mm))
         .array()
         .exp()
         .transpose();
@@ -136,7 +136,7 @@ class Regression {
 std::vector<Observation> observe_scan(const SkinMesh& skin, const ShapeModel& model,
                                       const Positions& positions, const ScanSurface& scan,
                                       const std::vector<std::uint32_t>& places, double reach,
-                                      double noise_mm) {
+                                      double noise_deviation_mm) {
   const Positions normals = vertex_normals_or_zero(skin.triangles, positions);
   std::vector<Observation> observations(places.size());
   parallel_for_each(places.size(), 64, [&](std::size_t i) {
@@ -152,7 +152,7 @@ std::vector<Observation> observe_scan(const SkinMesh& skin, const ShapeModel& mo
   const double spread = outlier_distance(std::move(distances), reach);
   for (Observation& one : observations) {  // outliers get a large variance
     const double share = 1 + one.variance * one.variance / (spread * spread);
-    one.variance = noise_mm * noise_mm * share * share;
+    one.variance = noise_deviation_mm * noise_deviation_mm * share * share;
   }
   return observations;
 }
@@ -165,14 +165,14 @@ Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Pos
   const Regression regression(model, options);
   const std::vector<std::uint32_t> places = spread_places(skin, model.mean, options.sample_count);
   Positions current = positions;
-  for (const double reach : options.search_distances_mm) {
+  for (const double reach : options.search_radii_mm) {
     throw_if_interrupted();
     std::vector<Observation> observations =
-        observe_scan(skin, model, current, scan, places, reach, options.noise_mm);
+        observe_scan(skin, model, current, scan, places, reach, options.noise_deviation_mm);
     for (const WrapLandmark& landmark : landmarks) {
       for (Index k = 0; k < 3; ++k) {
         observations.push_back({landmark.vertex, Eigen::Vector3d::Unit(k),
-                                landmark.place(k) - model.mean(landmark.vertex, k),
+                                landmark.scan_position(k) - model.mean(landmark.vertex, k),
                                 landmark.error_mm * landmark.error_mm});
       }
     }

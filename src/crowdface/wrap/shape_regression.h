@@ -14,14 +14,13 @@ struct RegressionOptions {
   /// Fraction of the heads' variance that the model treats as local: correlated only between nearby
   /// points.
   double local_share = 0.15;
-  double reach_mm = 45;  ///< correlation length of the local variation
+  double correlation_length_mm = 45;  ///< correlation length of the local variation
   /// Standard deviation, along each axis, of an additional smooth random deformation with the same
   /// correlation length. It allows shapes that a few heads do not span.
   double smooth_deviation_mm = 1.8;
-  double noise_mm = 1;             ///< standard deviation of the scan
+  double noise_deviation_mm = 1;   ///< standard deviation of the scan
   std::size_t sample_count = 800;  ///< number of sampled vertices of the skin
-  std::vector<double> search_distances_mm = {10, 8, 6, 5,
-                                             4,  4, 4};  ///< search radius of each round
+  std::vector<double> search_radii_mm = {10, 8, 6, 5, 4, 4, 4};  ///< search radius of each round
 };
 
 /// Returns the most likely head, given the model and the observation that points of the skin lie on

@@ -65,7 +65,7 @@ SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, const SurfaceHit& s
     const MedianSplitTree::Node& node = tree_.nodes[next.node];
     if (!node.is_leaf()) {
       Waiting near = {next.node + 1, boxes_[next.node + 1].squaredExteriorDistance(point)};
-      Waiting far = {node.second, boxes_[node.second].squaredExteriorDistance(point)};
+      Waiting far = {node.second_child, boxes_[node.second_child].squaredExteriorDistance(point)};
       if (far.squared < near.squared) std::swap(near, far);
       stack[waiting++] = far;
       stack[waiting++] = near;
@@ -84,8 +84,8 @@ SurfaceHit SurfaceTree::search(const Eigen::Vector3d& point, const SurfaceHit& s
   return best;
 }
 
-SurfaceHit SurfaceTree::on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point,
-                                    double reach) const {
+SurfaceHit SurfaceTree::hit_on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point,
+                                        double reach) const {
   if (triangle != kNoIndex) {
     SurfaceHit hit = nearest_on_triangle(positions_, triangles_[triangle], point);
     hit.triangle = triangle;
@@ -96,14 +96,14 @@ SurfaceHit SurfaceTree::on_triangle(std::uint32_t triangle, const Eigen::Vector3
 
 SurfaceHit SurfaceTree::nearest(const Eigen::Vector3d& point, double reach,
                                 std::uint32_t guess) const {
-  return search(point, on_triangle(guess, point, reach), [](std::uint32_t) { return true; });
+  return search(point, hit_on_triangle(guess, point, reach), [](std::uint32_t) { return true; });
 }
 
 SurfaceHit SurfaceTree::nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                        double min_cosine, double reach, std::uint32_t guess) const {
   const auto accept = [&](std::uint32_t t) { return mean_normals_[t].dot(facing) >= min_cosine; };
   if (guess != kNoIndex && !accept(guess)) guess = kNoIndex;
-  return search(point, on_triangle(guess, point, reach), accept);
+  return search(point, hit_on_triangle(guess, point, reach), accept);
 }
 
 }  // namespace crowdface

@@ -46,7 +46,8 @@ class SurfaceTree {
 
  private:
   /// Returns the closest point of one triangle, or no hit if the point is farther than `reach`.
-  SurfaceHit on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point, double reach) const;
+  SurfaceHit hit_on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point,
+                             double reach) const;
   template <class Accept>
   SurfaceHit search(const Eigen::Vector3d& point, const SurfaceHit& start,
                     const Accept& accept) const;

@@ -7,15 +7,16 @@ namespace crowdface {
 
 /// Finds triangles of a wrapped skin that are rotated by more than a right angle relative to the
 /// template, or that have lost nearly all their area.
-/// \param rest  #skin by 3, of the template.
+/// \param rest_positions  #skin by 3, of the template.
 /// \param positions  #skin by 3, wrapped.
-std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Positions& rest,
+std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Positions& rest_positions,
                                             const Positions& positions);
 
 /// Repairs folded triangles. For each folded triangle, finds the smallest surrounding patch whose
 /// repair resolves the fold. The repair blends the patch towards the template's patch after the
 /// best similarity fit, with weights that decrease towards the patch's border.
 /// \return number of triangles that are still folded.
-Index unfold(const SkinMesh& skin, const Positions& rest, Positions& positions);
+Index repair_folded_triangles(const SkinMesh& skin, const Positions& rest_positions,
+                              Positions& positions);
 
 }  // namespace crowdface

@@ -49,7 +49,8 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = skin.row(landmark.vertex).transpose();
     result.push_back(
-        {landmark.name, (apply_similarity(pose, point) - landmark.place).norm() / pose.scale});
+        {landmark.name,
+         (apply_similarity(pose, point) - landmark.scan_position).norm() / pose.scale});
     result.back().is_found_by_shape = landmark.is_found_by_shape;
     result.back().error_mm = landmark.error_mm;
   }
@@ -64,7 +65,7 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
   std::vector<double> all;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     residuals[i].final_distance_mm =
-        (row3(wrapped, landmarks[i].vertex) - landmarks[i].place).norm();
+        (row3(wrapped, landmarks[i].vertex) - landmarks[i].scan_position).norm();
     all.push_back(residuals[i].final_distance_mm);
   }
   if (all.empty()) return;
@@ -75,23 +76,23 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
 
 void move(std::vector<WrapLandmark>& landmarks, const Similarity& motion) {
   for (WrapLandmark& landmark : landmarks) {
-    landmark.place = apply_similarity(motion, landmark.place);
+    landmark.scan_position = apply_similarity(motion, landmark.scan_position);
   }
 }
 
 void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& result) {
   result.distance_mm = Eigen::VectorXd::Zero(wrapped.rows());
-  std::vector<char> on_rim(static_cast<std::size_t>(wrapped.rows()), 0);
+  std::vector<char> on_boundary(static_cast<std::size_t>(wrapped.rows()), 0);
   parallel_blocks(wrapped.rows(), 1024, [&](Index begin, Index end) {
     std::uint32_t before = kNoIndex;
     for (Index v = begin; v < end; ++v) {
       const auto place = scan.nearest(row3(wrapped, v), 1e300, before);
       before = place.triangle;
       result.distance_mm(v) = place.distance;
-      on_rim[static_cast<std::size_t>(v)] = place.on_rim ? 1 : 0;
+      on_boundary[static_cast<std::size_t>(v)] = place.is_on_boundary ? 1 : 0;
     }
   });
-  result.lacks_data.assign(on_rim.begin(), on_rim.end());
+  result.lacks_data.assign(on_boundary.begin(), on_boundary.end());
 }
 
 /// The reduced skin's shape, model and landmarks.
@@ -105,7 +106,7 @@ struct ReducedInputs {
 
 ReducedInputs reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel* model,
                      const std::vector<WrapLandmark>& landmarks, const Similarity& pose) {
-  const SkinMesh& mesh = shape.reduced->mesh;
+  const SkinMesh& mesh = shape.reduced_skin->mesh;
   ReducedInputs small{mesh.rows_of(rest), std::nullopt, landmarks};
   if (model != nullptr) {
     small.model = ShapeModel{mesh.rows_of(model->mean), {}};
@@ -117,7 +118,7 @@ ReducedInputs reduce(const WrapTemplate& shape, const Positions& rest, const Sha
     const Eigen::Vector3d beside =
         (small.rest.row(nearest) - rest.row(landmark.vertex)).transpose();
     landmark.vertex = static_cast<std::uint32_t>(nearest);
-    landmark.place += pose.scale * (pose.rotation * beside);
+    landmark.scan_position += pose.scale * (pose.rotation * beside);
   }
   return small;
 }
@@ -127,6 +128,7 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
                       const std::optional<PoseHint>& hint) {
   if (landmarks.size() >= kMinLandmarks) {
     refuse_mirrored_landmarks(rest, landmarks);
+    refuse_swapped_pair(rest, landmarks);
     return pose_of_landmarks(rest, landmarks);
   }
   if (!hint) {
@@ -135,8 +137,8 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
                               "(--scan-up, --scan-front), found ",
                               landmarks.size(), " landmarks"));
   }
-  return guess_pose(bent, shape.reduced ? bent.rows_of(rest) : rest, shape.axes, surface, *hint,
-                    shape.face);
+  return guess_pose(bent, shape.reduced_skin ? bent.rows_of(rest) : rest, shape.axes, surface,
+                    *hint, shape.face);
 }
 
 void refuse_no_pose(const Similarity& pose) {
@@ -166,7 +168,7 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
                                const std::optional<PoseHint>& hint) {
   const std::optional<ReliefMatch> face = hint ? hint->face : std::nullopt;
   const SkinMesh& skin = shape.skin;
-  const SkinMesh& bent = shape.reduced ? shape.reduced->mesh : skin;
+  const SkinMesh& bent = shape.reduced_skin ? shape.reduced_skin->mesh : skin;
   std::vector<WrapLandmark> landmarks = landmarks_on_skin(skin, all_landmarks);
   const Positions rest = skin.rows_of(shape.positions);
   WrapResult result;
@@ -176,17 +178,18 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   {
     const ScanSurface surface(scan);
     fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint);
-    if (shape.reduced) small = reduce(shape, rest, model, landmarks, fit.pose);
+    if (shape.reduced_skin) small = reduce(shape, rest, model, landmarks, fit.pose);
     const auto& marks = small ? small->landmarks : landmarks;
     const ShapeModel alone{small ? small->rest : rest, {}};
     fit = fit_shape(bent, alone, surface, marks, fit);
-    result.pose_residual_mm = fit.residual;
+    result.pose_residual_mm = fit.median_distance_mm;
     result.landmarks = residuals_of(rest, fit.pose, landmarks);
     if (model != nullptr) {
       used = small ? &*small->model : model;
-      fit = fit_shape(
-          bent, *used, surface, marks, fit,
-          {.reach_mm = {20, 16, 12, 8, 6, 4}, .effective_measurements = 6, .landmark_weight = 0.1});
+      fit = fit_shape(bent, *used, surface, marks, fit,
+                      {.search_radii_mm = {20, 16, 12, 8, 6, 4},
+                       .effective_measurements = 6,
+                       .landmark_weight = 0.1});
     }
   }
   result.pose = fit.pose;
@@ -199,7 +202,7 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   Positions wrapped = small ? small->rest : rest;
   BendOptions bend;
   if (used != nullptr) {
-    wrapped = regress_shape(bent, *used, used->shape(fit.coefficients), surface, marks);
+    wrapped = regress_shape(bent, *used, used->evaluate(fit.coefficients), surface, marks);
     // After the model fit, differences are small and correspondences nearly correct. A tangential
     // weight would pull vertices along the surface to their closest points, which are less exact
     // correspondences than those of the model.
@@ -211,21 +214,22 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
   }
   wrapped = bend_skin(bent, wrapped, surface, marks, bend);
   if (small) {
-    unfold(bent, small->rest, wrapped);
-    wrapped = rest + shape.reduced->interpolate(wrapped - small->rest, skin);
+    repair_folded_triangles(bent, small->rest, wrapped);
+    wrapped = rest + shape.reduced_skin->interpolate(wrapped - small->rest, skin);
   }
-  wrapped = follow_detail(skin, rest, wrapped, surface, small ? shape.reduced->smoothing_steps : 0);
-  result.folded_triangle_count = unfold(skin, rest, wrapped);
+  wrapped =
+      follow_detail(skin, rest, wrapped, surface, small ? shape.reduced_skin->smoothing_steps : 0);
+  result.folded_triangle_count = repair_folded_triangles(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
   if (face && shape.face) {
     Index between = 0;
-    (rest.rowwise() - shape.face->between_eyes.transpose())
+    (rest.rowwise() - shape.face->eye_midpoint.transpose())
         .rowwise()
         .squaredNorm()
         .minCoeff(&between);
     result.face_distance_mm =
-        (row3(wrapped, between) - apply_similarity(back, face->between_eyes)).norm();
+        (row3(wrapped, between) - apply_similarity(back, face->eye_midpoint)).norm();
   }
 
   result.positions = shape.positions;
@@ -247,7 +251,7 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
   } else if (standing && !standing->face) {
     standing->face = find_scan_face(scan, hint);
   }
-  if (standing && standing->face) standing->face->between_eyes -= moved.box_centre;
+  if (standing && standing->face) standing->face->eye_midpoint -= moved.box_centre;
   WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, standing);
   result.pose.translation += moved.box_centre;
   return result;
@@ -259,14 +263,14 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
                         const std::optional<PoseHint>& hint) {
   const auto worst = [](const WrapResult& result) {
     const auto feature =
-        std::ranges::min_element(result.features, {}, &FeatureAgreement::agreement);
-    return feature == result.features.end() ? 1.0 : feature->agreement;
+        std::ranges::min_element(result.features, {}, &FeatureCheck::relief_correlation);
+    return feature == result.features.end() ? 1.0 : feature->relief_correlation;
   };
   const auto wrapped_with = [&](const std::vector<WrapLandmark>& landmarks) {
     WrapResult result = wrap(shape, model, scan, landmarks, hint);
-    const std::vector<double> agreements = relief_agreements(shape, features, result.positions);
+    const std::vector<double> correlations = relief_correlations(shape, features, result.positions);
     for (std::size_t i = 0; i < features.size(); ++i) {
-      result.features.push_back({features[i].name, agreements[i], features[i].skin});
+      result.features.push_back({features[i].name, correlations[i], features[i].skin_vertices});
     }
     return result;
   };
@@ -276,13 +280,13 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   // does not use these landmarks.
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = index_in_list(shape.skin.vertices, landmark.vertex);
-    return std::ranges::any_of(doubts, [&](const FeatureAgreement& feature) {
-      return feature.is_doubtful() && std::ranges::binary_search(feature.skin, row);
+    return std::ranges::any_of(doubts, [&](const FeatureCheck& feature) {
+      return feature.is_doubtful() && std::ranges::binary_search(feature.skin_vertices, row);
     });
   };
   std::vector<WrapLandmark> landmarks = all_landmarks;
   for (const bool drops_all : {false, true}) {
-    if (worst(best) >= kDoubtfulAgreement) break;
+    if (worst(best) >= kMinReliefCorrelation) break;
     const std::size_t dropped = std::erase_if(landmarks, [&](const WrapLandmark& landmark) {
       return landmark.is_found_by_shape && (drops_all || is_of_doubtful_feature(landmark));
     });
@@ -316,7 +320,8 @@ std::map<std::string, double> leave_out_distances(const WrapTemplate& shape,
     const Similarity back = inverse(result.pose);
     for (const WrapLandmark& landmark : left_out) {
       unseen[landmark.name] =
-          (row3(result.positions, landmark.vertex) - apply_similarity(back, landmark.place)).norm();
+          (row3(result.positions, landmark.vertex) - apply_similarity(back, landmark.scan_position))
+              .norm();
     }
   }
   return unseen;

@@ -27,23 +27,23 @@ struct LandmarkResidual {
   double error_mm = 0;  ///< see `WrapLandmark::error_mm`
 };
 
-/// A feature is doubtful if its agreement is smaller than this correlation.
-inline constexpr double kDoubtfulAgreement = 0.7;
+/// A feature is doubtful if its relief correlation is smaller.
+inline constexpr double kMinReliefCorrelation = 0.7;
 
-/// Agreement of a feature's relief on the wrapped template with the relief on the template; see
-/// `relief_agreements`.
-struct FeatureAgreement {
+/// Correlation between a feature's relief on the wrapped template and on the template; see
+/// `relief_correlations`.
+struct FeatureCheck {
   std::string name;
-  double agreement = 1;
-  std::vector<std::uint32_t> skin;  ///< rows of the skin, ascending
-  bool is_doubtful() const { return agreement < kDoubtfulAgreement; }
+  double relief_correlation = 1;
+  std::vector<std::uint32_t> skin_vertices;  ///< rows of the skin, ascending
+  bool is_doubtful() const { return relief_correlation < kMinReliefCorrelation; }
 };
 
 struct WrapResult {
   Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
   Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
   std::vector<LandmarkResidual> landmarks;
-  std::vector<FeatureAgreement> features;  ///< set by `wrap_checked` only
+  std::vector<FeatureCheck> features;  ///< set by `wrap_checked` only
   /// Names of automatically found landmarks that `wrap_checked` did not use, because a feature was
   /// doubtful in the wrap that used them.
   std::vector<std::string> dropped_landmarks;
@@ -74,7 +74,7 @@ inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determ
 WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
-/// Wraps the template, and checks with `relief_agreements` whether each feature of the template
+/// Wraps the template, and checks with `relief_correlations` whether each feature of the template
 /// ended on the same feature of the scan. If a feature is doubtful, repeats the wrap without the
 /// automatically found landmarks of this feature, and then without all automatically found
 /// landmarks. Returns the result whose worst feature agrees best.

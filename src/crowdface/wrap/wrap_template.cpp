@@ -20,14 +20,14 @@ void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
   const std::vector<Triangle> solid = occluding_triangles(shape);
   SkinMesh& skin = shape.skin;
   if (skin.vertices.size() <= options.max_vertices) {
-    skin.openness = vertex_visibility(shape.positions, normals, solid, skin.vertices);
+    skin.openness = vertex_openness(shape.positions, normals, solid, skin.vertices);
     return;
   }
-  shape.reduced = reduce_skin(skin, skin.rows_of(shape.positions), options.reduced_vertices);
+  shape.reduced_skin = reduce_skin(skin, skin.rows_of(shape.positions), options.reduced_vertices);
   std::vector<std::uint32_t> rows;
-  for (const std::uint32_t v : shape.reduced->mesh.vertices) rows.push_back(skin.vertices[v]);
-  shape.reduced->mesh.openness = vertex_visibility(shape.positions, normals, solid, rows);
-  skin.openness = shape.reduced->interpolate(shape.reduced->mesh.openness);
+  for (const std::uint32_t v : shape.reduced_skin->mesh.vertices) rows.push_back(skin.vertices[v]);
+  shape.reduced_skin->mesh.openness = vertex_openness(shape.positions, normals, solid, rows);
+  skin.openness = shape.reduced_skin->interpolate(shape.reduced_skin->mesh.openness);
 }
 
 }  // namespace
@@ -62,10 +62,11 @@ HeadShape head_shape(const WrapTemplate& shape) {
   HeadShape head;
   head.positions = shape.positions;
   for (const std::uint32_t c : shape.components.component_of_vertex) {
-    head.skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
+    head.is_skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
   }
   for (const Part& part : shape.parts.parts) {
-    if (part.is_eyeball) head.eyeballs.push_back(shape.parts.shapes[part.ball_component].centre);
+    if (part.is_eyeball)
+      head.eyeball_centres.push_back(shape.parts.shapes[part.ball_component].centre);
   }
   return head;
 }

@@ -21,8 +21,8 @@ struct WrapTemplate {
   HeadAxes axes;
   Positions positions;  ///< #V by 3, in millimetres
   SkinMesh skin;
-  std::optional<ReliefMatch> face;     ///< nothing if the skin does not have the relief of a face
-  std::optional<ReducedSkin> reduced;  ///< replaces a skin of many vertices during deformation
+  std::optional<ReliefMatch> face;  ///< nothing if the skin does not have the relief of a face
+  std::optional<ReducedSkin> reduced_skin;  ///< replaces a skin of many vertices during deformation
 };
 
 struct TemplateOptions {

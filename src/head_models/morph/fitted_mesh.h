@@ -16,8 +16,8 @@ struct AssetLicence {
   std::string licence, author, homepage;
 };
 
-/// Returns whether the package names the author and the licence lets everybody use and change the
-/// asset (AGPL, GPL, CC0, MIT or CC BY without NC and ND).
+/// Returns whether the package names an author, and the named licence lets everybody use and change
+/// the asset (AGPL, GPL, CC0, MIT or CC BY without NC and ND).
 bool is_free(const AssetLicence& licence);
 
 /// Returns the path of an image that the file of an asset refers to. \param name  path relative to
@@ -44,8 +44,8 @@ struct FittedMesh {
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.
   Positions fitted_to(const Positions& base) const;
-  /// Binds each vertex to the three nearest base-mesh vertices of `rows` instead, and adapts the
-  /// offsets so that the mesh fitted to `base` stays the same.
+  /// Replaces the anchors of each vertex by the three nearest base-mesh vertices in `rows`. Adapts
+  /// the offsets so that the mesh fitted to `base` stays the same.
   /// \param rows  base-mesh vertices, at least three.
   void anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base);
   /// Keeps the marked polygons. Removes all other polygons, and the vertices that no kept polygon

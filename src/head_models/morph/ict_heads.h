@@ -22,7 +22,7 @@ class IctHeads : public HeadModel {
   const Mesh& neutral() const override { return neutral_; }
   const std::vector<MaterialRange>& materials() const override { return file_.materials; }
   Positions positions(std::uint64_t seed, std::uint64_t index) const override;
-  /// Returns nothing: the modes have no sex and no age.
+  /// Returns nothing, because the model does not define sex and age.
   std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const override;
 
   /// Returns the file of the neutral mesh. All heads have its groups and materials.

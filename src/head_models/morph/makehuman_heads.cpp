@@ -90,7 +90,7 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
                                " above the neck's cut, ", "found none"));
     }
   }
-  out.rows = keep_used_rows(all, out.head);
+  out.head_rows = keep_used_rows(all, out.head);
   keep_used_rows(all, out.body);
   out.heights = {mean_height(all, {"helper-r-eye", "helper-l-eye"}, file),
                  mean_height(all, {"helper-upper-teeth", "helper-lower-teeth"}, file)};
@@ -112,27 +112,27 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
   }
   for (const std::uint32_t row :
        vertices_of_material(mesh_.head.topology, mesh_.materials, {"eyeball"})) {
-    eyes_.push_back(mesh_.rows[row]);
+    eye_rows_.push_back(mesh_.head_rows[row]);
   }
   neutral_ = {mesh_.head.topology, to_head_frame(mesh_.head.positions, mesh_.file_positions),
               mesh_.head.uvs};
-  const double origin = mean_of(mesh_.file_positions, eyes_).y();
-  heights_ = {kCentimetresPerUnit * (mesh_.heights.eyes - origin),
-              kCentimetresPerUnit * (mesh_.heights.mouth - origin)};
+  const double origin = mean_of(mesh_.file_positions, eye_rows_).y();
+  heights_ = {kCentimetresPerUnit * (mesh_.heights.eye_height - origin),
+              kCentimetresPerUnit * (mesh_.heights.mouth_height - origin)};
 }
 
 /// Converts positions to centimetres and moves the mean of the eyeballs to the origin. Without the
 /// move, heads would lie at different heights, because bodies differ in height. \param base  all
 /// vertices of the same body.
 Positions MakeHumanHeads::to_head_frame(const Positions& decimetres, const Positions& base) const {
-  const Eigen::RowVector3d origin = mean_of(base, eyes_);
+  const Eigen::RowVector3d origin = mean_of(base, eye_rows_);
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
 }
 
 std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
   std::vector<std::uint32_t> rows =
       vertices_of_material(mesh_.head.topology, mesh_.materials, {"skin"});
-  for (std::uint32_t& row : rows) row = mesh_.rows[row];
+  for (std::uint32_t& row : rows) row = mesh_.head_rows[row];
   return rows;
 }
 
@@ -143,13 +143,13 @@ void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
   for (Index f = 0; f < mesh_.materials[1].first_face; ++f) {
     topology.add_face(naked.face(f), naked.face_uvs(f));
   }
-  skin_ = renumber(topology.corner_vertices, naked.vertex_count);
-  for (std::uint32_t& row : skin_) row = mesh_.rows[row];
+  skin_rows_ = renumber(topology.corner_vertices, naked.vertex_count);
+  for (std::uint32_t& row : skin_rows_) row = mesh_.head_rows[row];
   const auto uv_rows = renumber(topology.corner_uvs, mesh_.head.uvs.rows());
   TextureCoordinates uvs = mesh_.head.uvs(uv_rows, kAllColumns);
   // Append the parts, with shifted vertex indices.
   materials_ = {mesh_.materials[0]};
-  auto vertices = static_cast<std::uint32_t>(skin_.size());
+  auto vertices = static_cast<std::uint32_t>(skin_rows_.size());
   for (const auto& [material, mesh] : parts) {
     materials_.push_back({material, topology.face_count()});
     const auto first_uv = static_cast<std::uint32_t>(uvs.rows());
@@ -172,7 +172,7 @@ void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
 }
 
 Positions MakeHumanHeads::append_parts(const Positions& base) const {
-  Positions head = base(skin_, kAllColumns);
+  Positions head = base(skin_rows_, kAllColumns);
   for (const ClothingPart& part : parts_) {
     const Positions more = part.mesh.fitted_to(base);
     head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
@@ -197,10 +197,10 @@ Positions MakeHumanHeads::positions(std::uint64_t seed, std::uint64_t index) con
   Positions base = mesh_.file_positions;
   const MakeHumanPerson person = random_makehuman_person(seed, index);
   for (const TargetWeight& target : makehuman_targets(person, seed, index)) {
-    targets_.add(target, rows, base);
+    targets_.add_displacements(target, rows, base);
   }
   if (!parts_.empty()) return append_parts(base);
-  return to_head_frame(base(mesh_.rows, kAllColumns), base);
+  return to_head_frame(base(mesh_.head_rows, kAllColumns), base);
 }
 
 std::optional<HeadPerson> MakeHumanHeads::person(std::uint64_t seed, std::uint64_t index) const {

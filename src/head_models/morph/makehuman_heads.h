@@ -18,7 +18,7 @@ struct MakeHumanMesh {
   Positions file_positions;  ///< all vertices of the file, decimetres; targets refer to these
   Mesh head;                 ///< decimetres, as in the file
   Mesh body;                 ///< the skin below the cut, decimetres
-  std::vector<std::uint32_t> rows;       ///< #V: row of each vertex in file_positions, ascending
+  std::vector<std::uint32_t> head_rows;  ///< #V: row of each vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
   FaceHeights heights;                   ///< decimetres
 };
@@ -46,8 +46,8 @@ class MakeHumanHeads : public HeadModel {
   void add_parts(std::vector<ClothingPart> parts);
 
   /// Returns all vertices of the base mesh, including helpers and joints, in decimetres.
-  const Positions& base() const { return mesh_.file_positions; }
-  /// Returns the rows of the head's skin in base(), ascending.
+  const Positions& base_positions() const { return mesh_.file_positions; }
+  /// Returns the rows of the head's skin in base_positions(), ascending.
   std::vector<std::uint32_t> skin_rows() const;
   /// Fits a mesh to the average head and returns its vertices in the coordinate frame of the heads.
   Positions fitted_to_neutral(const FittedMesh& mesh) const;
@@ -68,8 +68,8 @@ class MakeHumanHeads : public HeadModel {
 
   MakeHumanMesh mesh_;
   MorphTargets targets_;
-  std::vector<std::uint32_t> eyes_;  ///< rows of the eyeballs in the base mesh
-  std::vector<std::uint32_t> skin_;  ///< rows of the skin in the base mesh; set by add_parts()
+  std::vector<std::uint32_t> eye_rows_;   ///< rows of the eyeballs in the base mesh
+  std::vector<std::uint32_t> skin_rows_;  ///< rows of the skin in the base mesh; set by add_parts()
   std::vector<ClothingPart> parts_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;

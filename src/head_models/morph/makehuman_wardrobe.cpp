@@ -181,8 +181,8 @@ std::string prevailing_ancestry(const MakeHumanPerson& person) {
   return {};
 }
 
-std::vector<SkinShare> makehuman_skin(const fs::path& package, const MakeHumanPerson& person,
-                                      std::uint64_t seed, std::uint64_t index) {
+std::vector<SkinShare> makehuman_skin_shares(const fs::path& package, const MakeHumanPerson& person,
+                                             std::uint64_t seed, std::uint64_t index) {
   std::vector<SkinShare> out;
   const std::string_view sex = person.is_male ? "male" : "female";
   for (const AgeShare& age : age_shares(person.age_years)) {
@@ -201,7 +201,7 @@ std::vector<SkinShare> makehuman_skin(const fs::path& package, const MakeHumanPe
   return out;
 }
 
-double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index) {
+double makehuman_skin_density_factor(std::uint64_t seed, std::uint64_t index) {
   return std::clamp(1 + 0.1 * random_normal({seed, index, "makehuman/tone"}), 0.75, 1.25);
 }
 

@@ -19,12 +19,12 @@ struct SkinShare {
 
 /// Returns the skin textures that are blended for a person, by sex, age and ancestry. The shares
 /// sum to 1. \throws MissingInput, InvalidInput if a skin's file is missing or invalid.
-std::vector<SkinShare> makehuman_skin(const std::filesystem::path& package,
-                                      const MakeHumanPerson& person, std::uint64_t seed,
-                                      std::uint64_t index);
+std::vector<SkinShare> makehuman_skin_shares(const std::filesystem::path& package,
+                                             const MakeHumanPerson& person, std::uint64_t seed,
+                                             std::uint64_t index);
 
 /// Returns a random factor, 0.75 to 1.25, on the optical density of a person's skin textures.
-double makehuman_skin_tone(std::uint64_t seed, std::uint64_t index);
+double makehuman_skin_density_factor(std::uint64_t seed, std::uint64_t index);
 
 /// Returns a person's random eye colour: the name of a material of the package's eyes. "brown" has
 /// a probability of 0.9 for African, 0.85 for Asian and 0.25 for Caucasian ancestry.
@@ -55,10 +55,10 @@ MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const 
 /// A mesh of the package that some heads wear: hair, a brow, a beard.
 struct MakeHumanAttachment {
   std::string name, kind;
-  std::filesystem::path file;     ///< path in the package
-  std::vector<std::string> tags;  ///< tags that a head needs to wear the attachment
-  bool excludes_old = false;      ///< whether the attachment is not for old people
-  double relative_frequency = 1;  ///< relative frequency among attachments of the same kind
+  std::filesystem::path file;        ///< path in the package
+  std::vector<std::string> tags;     ///< tags that a head needs to wear the attachment
+  bool excludes_old_people = false;  ///< whether the attachment is not for old people
+  double relative_frequency = 1;     ///< relative frequency among attachments of the same kind
 };
 
 /// Returns the package's attachments that have a named author and a contemporary style, brows

@@ -35,8 +35,9 @@ MorphTargets::MorphTargets(const std::filesystem::path& file, std::vector<std::s
   for (std::size_t i = 0; i < names.size(); ++i) target_indices_[short_name(names[i])] = i;
 }
 
-void MorphTargets::add(const TargetWeight& target, std::span<const std::uint32_t> rows,
-                       Positions& positions) const {
+void MorphTargets::add_displacements(const TargetWeight& target,
+                                     std::span<const std::uint32_t> rows,
+                                     Positions& positions) const {
   const auto place = target_indices_.find(target.target);
   if (place == target_indices_.end()) {
     refuse_file(path_,

@@ -33,8 +33,8 @@ class MorphTargets {
   /// \param rows       the vertices: rows of the target.
   /// \param positions  #rows by 3.
   /// \throws InvalidInput if the target does not exist.
-  void add(const TargetWeight& target, std::span<const std::uint32_t> rows,
-           Positions& positions) const;
+  void add_displacements(const TargetWeight& target, std::span<const std::uint32_t> rows,
+                         Positions& positions) const;
   /// Whether the file contains this target.
   bool has(const std::string& target) const { return target_indices_.contains(target); }
 

@@ -50,7 +50,8 @@ const Section kBack = {{{5.2, 0},
 
 const Vector3d kAxis(0, -16.4, -3.1);  ///< middle of the rim of the average head
 
-// Radii, in the texture, of the circles that show the bust's rim (kInner) and lower edge (kOuter).
+// The texture shows the bust as a ring: kInner is the radius of the upper rim, kOuter the radius of
+// the lower edge, in texture coordinates.
 constexpr double kInner = 0.1, kOuter = 0.48;
 
 /// Returns the control points of the section in a horizontal direction from the axis.

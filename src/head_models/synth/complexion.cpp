@@ -62,31 +62,31 @@ void grow_beard(double kind, Complexion& look) {
 
 Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   const Person person = random_person(seed, index);
-  const bool male = person.male > 0;
+  const bool male = person.maleness > 0;
   const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
   Complexion look;
-  look.tone =
+  look.skin_tone =
       random_stratified({seed, index / 2, male ? "synth/tone_of_men" : "synth/tone_of_women"}, 5);
-  look.skin = along(skin_tones(), look.tone);
+  look.skin = along(skin_tones(), look.skin_tone);
   // Light hair occurs only with light skin.
-  const double darkest = smooth_step(0.15, 0.65, look.tone);
+  const double darkest = smooth_step(0.15, 0.65, look.skin_tone);
   const double hair = darkest + (1 - darkest) * unit("synth/hair");
-  const double grey = smooth_step(38, 74, person.age + 12 * (unit("synth/grey") - 0.5));
+  const double grey = smooth_step(38, 74, person.age_years + 12 * (unit("synth/grey") - 0.5));
   look.hair = look.young_hair = along(natural_hair(), hair);
   look.brow_hair = 0.85 * (look.hair + 0.45 * grey * (from_bytes(150, 143, 137) - look.hair));
   look.hair += grey * (from_bytes(168, 166, 164) - look.hair);
-  look.ruddy = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.6 * look.tone);
-  look.freckles = look.tone < 0.35 ? smooth_step(0.55, 1, unit("synth/freckles")) : 0;
-  look.age_spots = smooth_step(48, 75, person.age) * unit("synth/spots");
-  look.brows = (male ? 0.9 : 0.75) + 0.2 * (unit("synth/brow_density") - 0.5);
+  look.redness = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.6 * look.skin_tone);
+  look.freckles = look.skin_tone < 0.35 ? smooth_step(0.55, 1, unit("synth/freckles")) : 0;
+  look.age_spots = smooth_step(48, 75, person.age_years) * unit("synth/spots");
+  look.brow_density = (male ? 0.9 : 0.75) + 0.2 * (unit("synth/brow_density") - 0.5);
   look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
-  look.iris = random_iris(look.tone, unit("synth/iris"), unit("synth/iris_light"));
+  look.iris = random_iris(look.skin_tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
     // Use stratified random numbers, so that about two of five successive men are shaven, and so
     // that the hairlines of successive men differ.
     grow_beard(random_stratified({seed, index / 2, "synth/beard"}, 5), look);
     const double early = random_stratified({seed, index / 2, "synth/receding"}, 4);
-    look.receding = smooth_step(28, 80, person.age + 45 * (early - 0.5));
+    look.recession = smooth_step(28, 80, person.age_years + 45 * (early - 0.5));
   } else {
     look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
     const double fond = unit("synth/made_up");

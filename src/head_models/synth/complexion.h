@@ -16,30 +16,30 @@ inline ScreenColour from_bytes(double red, double green, double blue) {
   return ScreenColour(red, green, blue) / 255;
 }
 /// Maps a value in [0, 1] to an integer in 0 … 255, rounded to the nearest integer.
-inline std::uint8_t to_byte(double part) {
-  return static_cast<std::uint8_t>(std::floor(255 * part + 0.5));
+inline std::uint8_t to_byte(double value) {
+  return static_cast<std::uint8_t>(std::floor(255 * value + 0.5));
 }
 
 /// Colours and hair growth of a synthetic person.
 struct Complexion {
-  double tone = 0;          ///< 0 (lightest skin) … 1 (darkest)
+  double skin_tone = 0;     ///< 0 (lightest skin) … 1 (darkest)
   ScreenColour skin;        ///< base colour of the skin
   ScreenColour young_hair;  ///< colour of the scalp hair in young years
   ScreenColour hair;        ///< colour of the scalp hair, including grey
   ScreenColour brow_hair;   ///< colour of brows and beard, which turn grey later
-  double ruddy = 0;         ///< 0 … 1: redness of cheeks, nose and ears
+  double redness = 0;       ///< 0 … 1: redness of cheeks, nose and ears
   double freckles = 0;      ///< 0 … 1
   double age_spots = 0;     ///< 0 … 1
-  double brows = 1;         ///< density of the brows
+  double brow_density = 1;  ///< density of the brows
   double brow_width = 1;
   double brow_arch = 0;  ///< additional height of the brows' arch in cm; 0 for men
   double beard = 0;  ///< hair on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
   double moustache = 0;   ///< on the upper lip, on the same scale as `beard`
   double chin_beard = 0;  ///< on the chin, on the same scale as `beard`
   ScreenColour iris;
-  double receding = 0;  ///< 0 (full hairline) … 1 (bald on top)
-  double makeup = 0;    ///< 0 … 1: make-up on lids, lashes and cheeks
-  double lipstick = 0;  ///< 0 … 1; 0 for most people
+  double recession = 0;  ///< 0 (full hairline) … 1 (bald on top)
+  double makeup = 0;     ///< 0 … 1: make-up on lids, lashes and cheeks
+  double lipstick = 0;   ///< 0 … 1; 0 for most people
 };
 
 /// Returns the random complexion of head `index`. Skin tones are stratified: of five successive

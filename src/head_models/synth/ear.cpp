@@ -78,7 +78,7 @@ Vector3d on_ring(double around, double b) {
   const double reach = along(kReach, from) + front * 0.3 * smooth_step(0.5, 0.2, from);
   Vector3d ear = ear_point(reach * round, height_at(round, from));
   if (b >= kAttached) return ear;
-  const GuideRay ray = opening_ray(opening_of(Sheet::kEar), around);
+  const GuideRay ray = opening_ray(opening_of(SkinPatch::kEar), around);
   const Vector3d edge = project_onto_skin(ray.origin, ray.guide);
   const double part = b / kAttached;
   const Vector3d between = edge + part * (ear - edge);
@@ -88,7 +88,7 @@ Vector3d on_ring(double around, double b) {
 }  // namespace
 
 Vector3d ear_position(const Address& address) {
-  if (address.sheet == Sheet::kEar) return on_ring(address.a, address.b);
+  if (address.patch == SkinPatch::kEar) return on_ring(address.a, address.b);
   // The bowl: the innermost ring, lowered towards the centre.
   const Vector2d square(2 * address.a - 1, 1 - 2 * address.b);
   const double m = std::max(std::abs(square.x()), std::abs(square.y()));

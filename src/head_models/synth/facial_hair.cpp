@@ -27,12 +27,12 @@ constexpr std::uint64_t kSeed = 41;  // of the noise in the strands
 
 SkinPaint paint_of(const FacialHair& style) {
   Complexion look;
-  look.brows = style.dense;
-  look.brow_width = style.width;
-  look.brow_arch = style.arch;
-  look.beard = style.cheeks;
-  look.moustache = style.lip;
-  look.chin_beard = style.chin;
+  look.brow_density = style.brow_density;
+  look.brow_width = style.brow_width;
+  look.brow_arch = style.brow_arch;
+  look.beard = style.cheek_beard;
+  look.moustache = style.lip_beard;
+  look.chin_beard = style.chin_beard;
   return SkinPaint(kSeed, 1, 1, look);
 }
 
@@ -98,18 +98,46 @@ void fill_triangle(const std::array<Vector2d, 3>& uv, const std::array<Vector3d,
 
 std::span<const FacialHair> facial_hairs() {
   static constexpr auto kStyles = std::to_array<FacialHair>({
-      {.name = "brows_fine", .female = true, .width = 0.55, .arch = 0.25},
-      {.name = "brows_arched", .female = true, .width = 0.65, .arch = 0.38},
-      {.name = "brows_soft", .female = true, .width = 0.75, .arch = 0.18, .dense = 0.75},
-      {.name = "brows_full", .female = true, .width = 0.85, .arch = 0.22, .dense = 0.85},
-      {.name = "brows_straight", .width = 1.05, .dense = 0.85},
-      {.name = "brows_broad", .width = 1.25},
-      {.name = "brows_thin", .width = 0.9, .arch = 0.1, .dense = 0.8},
-      {.name = "brows_bushy", .width = 1.4, .arch = 0.08, .dense = 1},
-      {.name = "stubble", .is_beard = true, .share = 2, .cheeks = 0.45, .lip = 0.45, .chin = 0.45},
-      {.name = "moustache", .is_beard = true, .share = 0.5, .cheeks = 0.12, .lip = 1, .chin = 0.12},
-      {.name = "goatee", .is_beard = true, .share = 0.8, .cheeks = 0.15, .lip = 0.95, .chin = 1},
-      {.name = "full_beard", .is_beard = true, .share = 1.2, .cheeks = 1, .lip = 0.95, .chin = 1},
+      {.name = "brows_fine", .is_for_women = true, .brow_width = 0.55, .brow_arch = 0.25},
+      {.name = "brows_arched", .is_for_women = true, .brow_width = 0.65, .brow_arch = 0.38},
+      {.name = "brows_soft",
+       .is_for_women = true,
+       .brow_width = 0.75,
+       .brow_arch = 0.18,
+       .brow_density = 0.75},
+      {.name = "brows_full",
+       .is_for_women = true,
+       .brow_width = 0.85,
+       .brow_arch = 0.22,
+       .brow_density = 0.85},
+      {.name = "brows_straight", .brow_width = 1.05, .brow_density = 0.85},
+      {.name = "brows_broad", .brow_width = 1.25},
+      {.name = "brows_thin", .brow_width = 0.9, .brow_arch = 0.1, .brow_density = 0.8},
+      {.name = "brows_bushy", .brow_width = 1.4, .brow_arch = 0.08, .brow_density = 1},
+      {.name = "stubble",
+       .is_beard = true,
+       .relative_frequency = 2,
+       .cheek_beard = 0.45,
+       .lip_beard = 0.45,
+       .chin_beard = 0.45},
+      {.name = "moustache",
+       .is_beard = true,
+       .relative_frequency = 0.5,
+       .cheek_beard = 0.12,
+       .lip_beard = 1,
+       .chin_beard = 0.12},
+      {.name = "goatee",
+       .is_beard = true,
+       .relative_frequency = 0.8,
+       .cheek_beard = 0.15,
+       .lip_beard = 0.95,
+       .chin_beard = 1},
+      {.name = "full_beard",
+       .is_beard = true,
+       .relative_frequency = 1.2,
+       .cheek_beard = 1,
+       .lip_beard = 0.95,
+       .chin_beard = 1},
   });
   return kStyles;
 }
@@ -119,8 +147,8 @@ FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   const auto cover = [&](const Vector3d& p) {
     // Brows on a separate layer must be denser than brows in a skin texture, because the edges of
     // the layer do not blend with the skin.
-    if (style.is_beard) return paint.beard_cover(p);
-    const double root = std::sqrt(std::max(0.0, paint.brow_cover(p)));
+    if (style.is_beard) return paint.beard_coverage(p);
+    const double root = std::sqrt(std::max(0.0, paint.brow_coverage(p)));
     return root * std::sqrt(root);
   };
   const std::vector<Index> faces = covered_faces(skin, cover);
@@ -134,8 +162,8 @@ FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   topology.vertex_count = static_cast<Index>(rows.size());
   const Positions on_skin = skin.positions(rows, kAllColumns);
   layer.mesh.positions = on_skin + kAboveSkin * normals(rows, kAllColumns);
-  // The layer gets its own texture: the rectangle of the head's texture that the layer's polygons
-  // use.
+  // The layer gets its own texture, which covers the rectangle of the head's texture that the
+  // layer's polygons use.
   TextureCoordinates uvs = skin.uvs(uv_rows, kAllColumns);
   const Eigen::RowVector2d low = uvs.colwise().minCoeff(), high = uvs.colwise().maxCoeff();
   uvs = (uvs.rowwise() - low).array().rowwise() / (high - low).array();

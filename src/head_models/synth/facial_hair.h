@@ -14,13 +14,13 @@ namespace crowdface::synth {
 struct FacialHair {
   std::string_view name;
   bool is_beard = false;
-  bool female = false;
-  double share = 1;    ///< relative frequency
-  double width = 1;    ///< brows: factor on the height
-  double arch = 0;     ///< brows: additional height of the arch, cm
-  double dense = 0.9;  ///< brows: density
+  bool is_for_women = false;
+  double relative_frequency = 1;
+  double brow_width = 1;      ///< brows: factor on the height
+  double brow_arch = 0;       ///< brows: additional height of the arch, cm
+  double brow_density = 0.9;  ///< brows: density
   /// beards: lengths on cheeks and jaw, on the upper lip and on the chin; see Complexion::beard
-  double cheeks = 0, lip = 0, chin = 0;
+  double cheek_beard = 0, lip_beard = 0, chin_beard = 0;
 };
 /// Returns all styles of brows and beards.
 std::span<const FacialHair> facial_hairs();

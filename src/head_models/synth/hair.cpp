@@ -36,24 +36,25 @@ HairStyle random_hair_style(std::uint64_t seed, std::uint64_t index) {
   const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
   const double kind = random_stratified({seed, index / 2, "synth/hair_style"}, 4);
   HairStyle style;
-  style.curls = smooth_step(0.35, 0.9, 0.75 * look.tone + 0.5 * unit("synth/curls"));
-  style.lean = (unit("synth/hair_lean") < 0.5 ? -1 : 1) * 0.6 * unit("synth/hair_part");
-  if (person.male > 0) {
-    style.top = kind < 0.3 ? 0.35 : kind < 0.75 ? 1.3 : 2.0;
-    style.sides = kind < 0.75 ? 0.3 : 0.7;
+  style.curliness = smooth_step(0.35, 0.9, 0.75 * look.skin_tone + 0.5 * unit("synth/curls"));
+  style.extra_volume_to_side =
+      (unit("synth/hair_lean") < 0.5 ? -1 : 1) * 0.6 * unit("synth/hair_part");
+  if (person.maleness > 0) {
+    style.top_thickness = kind < 0.3 ? 0.35 : kind < 0.75 ? 1.3 : 2.0;
+    style.side_thickness = kind < 0.75 ? 0.3 : 0.7;
     return style;
   }
   style.low_edge = true;
-  style.top = 1.0;
-  style.sides = 0.8;
-  if (kind < 0.5 && person.age < 60) {
-    style.nape = 3;
+  style.top_thickness = 1.0;
+  style.side_thickness = 0.8;
+  if (kind < 0.5 && person.age_years < 60) {
+    style.nape_length = 3;
   } else if (kind < 0.75) {
-    style.bun = 2.0;
-    style.top = style.sides = 0.5;
+    style.bun_height = 2.0;
+    style.top_thickness = style.side_thickness = 0.5;
   } else {
-    style.top = 2.2;
-    style.sides = 1.5;
+    style.top_thickness = 2.2;
+    style.side_thickness = 1.5;
   }
   return style;
 }
@@ -61,41 +62,41 @@ HairStyle random_hair_style(std::uint64_t seed, std::uint64_t index) {
 }  // namespace
 
 bool has_curls(std::uint64_t seed, std::uint64_t index) {
-  return random_hair_style(seed, index).curls > 0.5;
+  return random_hair_style(seed, index).curliness > 0.5;
 }
 
-Hair::Hair(std::uint64_t seed, std::uint64_t index, bool falls)
+Hair::Hair(std::uint64_t seed, std::uint64_t index, bool includes_hanging_hair)
     : style_(random_hair_style(seed, index)),
-      receding_(random_complexion(seed, index).receding),
+      recession_(random_complexion(seed, index).recession),
       hairs_(mix(seed, index, 106), 0.045),
       tufts_(mix(seed, index, 107), 0.3),
       edge_(mix(seed, index, 108), 0.5),
       locks_(mix(seed, index, 109), 0.55) {
-  if (!falls) style_.nape = 0;
+  if (!includes_hanging_hair) style_.nape_length = 0;
 }
 
-double Hair::strand(const Vector3d& p) const {
+double Hair::strand_brightness(const Vector3d& p) const {
   // Straight hair is noise stretched into strands from the face to the back; curls are isotropic
   // noise.
   const double across = p.x() / (p - Vector3d(0, -4, -4)).norm();
   const double straight = hairs_.at({9 * across, 0.05 * p.y(), 0.05 * p.z()}) +
                           0.6 * tufts_.at({13 * across, 0.04 * p.y(), 0.04 * p.z()});
   const double curled = 0.6 * hairs_.at(p) + 0.6 * tufts_.at(p);
-  return straight + style_.curls * (curled - straight);
+  return straight + style_.curliness * (curled - straight);
 }
 
 /// Returns the amount, 0 … 1, of long hair that hangs over the neck at a point; such hair starts
 /// behind the ears.
 double Hair::hanging_fraction(const Vector3d& p) const {
-  if (style_.nape <= 0) return 0;
+  if (style_.nape_length <= 0) return 0;
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
 }
 
-double height_above_hairline(const Vector3d& p, bool low_edge, double receding) {
+double height_above_hairline(const Vector3d& p, bool low_edge, double recession) {
   // clang-format off
   const std::array<Vector2d, 9> high = {{
-      {0.0, 7.6 + 3.2 * receding}, {0.25, 7.5 + 4.2 * receding}, {0.42, 6.6 + 3.0 * receding},
-      {0.55, 5.0 + 0.6 * receding}, {0.68, 1.6}, {0.80, 0.6}, {0.92, 2.4}, {1.15, 2.0}, {1.35, -6.0}}};
+      {0.0, 7.6 + 3.2 * recession}, {0.25, 7.5 + 4.2 * recession}, {0.42, 6.6 + 3.0 * recession},
+      {0.55, 5.0 + 0.6 * recession}, {0.68, 1.6}, {0.80, 0.6}, {0.92, 2.4}, {1.15, 2.0}, {1.35, -6.0}}};
   static const std::array<Vector2d, 8> low = {{
       {0.0, 7.4}, {0.25, 7.0}, {0.42, 5.8}, {0.55, 3.6}, {0.68, 1.0}, {0.80, 0.2}, {0.92, 2.4}, {1.35, -7.5}}};
   // clang-format on
@@ -106,34 +107,35 @@ double height_above_hairline(const Vector3d& p, bool low_edge, double receding) 
 /// Returns the density of the hair that remains after balding, 0 … 1; balding starts at the crown.
 double Hair::density_after_balding(const Vector3d& p) const {
   const double crown = smooth_step(6.5, 11.5, p.y()) * smooth_step(-9, -4, p.z());
-  return 1 - smooth_step(0.45, 0.9, receding_) * crown;
+  return 1 - smooth_step(0.45, 0.9, recession_) * crown;
 }
 
-bool Hair::reaches(const Vector3d& p) const {
-  return above_edge(p) > -1 || hanging_fraction(p) > 0;
+bool Hair::may_cover(const Vector3d& p) const {
+  return height_above_edge(p) > -1 || hanging_fraction(p) > 0;
 }
 
-double Hair::cover(const Vector3d& p, double strand) const {
-  const double frayed =
-      above_edge(p) + 0.25 * edge_.at(p) + (style_.low_edge ? 0.15 : 0.25) * strand;
+double Hair::coverage(const Vector3d& p, double strand_brightness) const {
+  const double frayed = height_above_edge(p) + 0.25 * edge_.at(p) +
+                        (style_.low_edge ? 0.15 : 0.25) * strand_brightness;
   const double edge = smooth_step(-0.2, style_.low_edge ? 0.6 : 1.0, frayed);
   return std::max(edge * density_after_balding(p), smooth_step(0.02, 0.2, hanging_fraction(p)));
 }
 
 double Hair::thickness(const Vector3d& p) const {
-  const double rise =
-      smooth_step(-0.2, 2.4, above_edge(p)) * density_after_balding(p) * (1 - 0.6 * receding_);
+  const double rise = smooth_step(-0.2, 2.4, height_above_edge(p)) * density_after_balding(p) *
+                      (1 - 0.6 * recession_);
   const double top = smooth_step(5.5, 10.5, p.y());
-  const double fuller = 1 + style_.lean * p.x() / (3 + std::abs(p.x()));
-  const double curl = 1 + style_.curls * 0.22 * locks_.at(p);
+  const double fuller = 1 + style_.extra_volume_to_side * p.x() / (3 + std::abs(p.x()));
+  const double curl = 1 + style_.curliness * 0.22 * locks_.at(p);
   double thick =
-      rise * curl * (top * fuller * style_.top + (1 - top) * off_ears(p, 1.6) * style_.sides);
+      rise * curl *
+      (top * fuller * style_.top_thickness + (1 - top) * off_ears(p, 1.6) * style_.side_thickness);
   // The bun.
   const double knot = (p - Vector3d(0, 11.5, -3.5)).norm();
-  thick += style_.bun * smooth_step(3.2, 1.2, knot);
+  thick += style_.bun_height * smooth_step(3.2, 1.2, knot);
   // Hanging locks: noise stretched along y.
   const double wave = 1 + 0.12 * locks_.at({p.x(), 0.1 * p.y(), p.z()});
-  return thick + style_.nape * hanging_fraction(p) * off_ears(p, 1.6) * wave;
+  return thick + style_.nape_length * hanging_fraction(p) * off_ears(p, 1.6) * wave;
 }
 
 }  // namespace crowdface::synth

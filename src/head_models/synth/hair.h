@@ -12,19 +12,19 @@ namespace crowdface::synth {
 
 /// A hair style. The thicknesses of the hair layer are in cm, before age-related thinning.
 struct HairStyle {
-  double top = 0;         ///< above the forehead and on the crown
-  double sides = 0;       ///< above and behind the ears
-  double nape = 0;        ///< length of the hair that falls behind the ears and down the neck
-  double bun = 0;         ///< height of a bun on top; 0: none
-  double curls = 0;       ///< 0 (straight) … 1 (tight curls)
-  double lean = 0;        ///< −1 … 1: additional volume on one side of the top
+  double top_thickness = 0;   ///< above the forehead and on the crown
+  double side_thickness = 0;  ///< above and behind the ears
+  double nape_length = 0;     ///< length of the hair that falls behind the ears and down the neck
+  double bun_height = 0;      ///< height of a bun on top; 0: none
+  double curliness = 0;       ///< 0 (straight) … 1 (tight curls)
+  double extra_volume_to_side = 0;  ///< −1 … 1: additional volume on one side of the top
   bool low_edge = false;  ///< the hairline covers the temples and extends in front of the ears
 };
 
 /// Returns the height of a point above the hairline, cm; negative below.
 /// \param low_edge  hairline of women, which covers the temples.
-/// \param receding  0 (full hairline) … 1 (bald); ignored if `low_edge` is set.
-double height_above_hairline(const Eigen::Vector3d& p, bool low_edge, double receding = 0);
+/// \param recession  0 (full hairline) … 1 (bald); ignored if `low_edge` is set.
+double height_above_hairline(const Eigen::Vector3d& p, bool low_edge, double recession = 0);
 
 /// Returns whether a person's hair is curly.
 bool has_curls(std::uint64_t seed, std::uint64_t index);
@@ -32,29 +32,30 @@ bool has_curls(std::uint64_t seed, std::uint64_t index);
 /// A person's hair as a layer on the scalp. All points are points of the average head, cm.
 class Hair {
  public:
-  /// \param falls  whether to include hair that hangs over the neck; the roots of such hair are
-  ///               higher on the head.
-  Hair(std::uint64_t seed, std::uint64_t index, bool falls = true);
+  /// \param includes_hanging_hair  whether the layer includes the hair that falls behind the ears
+  ///                               and over the neck.
+  Hair(std::uint64_t seed, std::uint64_t index, bool includes_hanging_hair = true);
 
   /// Returns whether hair may be at a point; a fast conservative test.
-  bool reaches(const Eigen::Vector3d& p) const;
+  bool may_cover(const Eigen::Vector3d& p) const;
   /// Returns how much brighter (positive) or darker (negative) than the hair colour the strand at a
   /// point is, about −1 … 1.
-  double strand(const Eigen::Vector3d& p) const;
-  /// Returns the fraction of the skin that hair hides at a point, 0 … 1. \param strand  strand(p).
-  double cover(const Eigen::Vector3d& p, double strand) const;
+  double strand_brightness(const Eigen::Vector3d& p) const;
+  /// Returns the fraction of the skin that hair hides at a point, 0 … 1.
+  /// \param strand_brightness  strand_brightness(p).
+  double coverage(const Eigen::Vector3d& p, double strand_brightness) const;
   /// Returns the thickness of the hair layer at a point, cm.
   double thickness(const Eigen::Vector3d& p) const;
 
  private:
-  double above_edge(const Eigen::Vector3d& p) const {
-    return height_above_hairline(p, style_.low_edge, receding_);
+  double height_above_edge(const Eigen::Vector3d& p) const {
+    return height_above_hairline(p, style_.low_edge, recession_);
   }
   double density_after_balding(const Eigen::Vector3d& p) const;
   double hanging_fraction(const Eigen::Vector3d& p) const;
 
   HairStyle style_;
-  double receding_;
+  double recession_;
   SmoothNoise hairs_, tufts_, edge_, locks_;
 };
 

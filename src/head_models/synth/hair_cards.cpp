@@ -60,7 +60,7 @@ class Grower {
   explicit Grower(const HairCut& cut)
       : cut_(cut),
         locks_(mix(7, 1, 5), 1.6),
-        pieces_(std::max(cut.length, cut.sides) > kShort ? kPieces : kPiecesOfShort) {}
+        pieces_(std::max(cut.top_length, cut.side_length) > kShort ? kPieces : kPiecesOfShort) {}
 
   Card grow(const Root& root, std::uint64_t number, int layer) const {
     return cut_.layers > 1 ? tangle(root, number, layer) : comb(root, number);
@@ -72,13 +72,13 @@ class Grower {
   Card comb(const Root& root, std::uint64_t number) const {
     const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
     const double top = smooth_step(3, 8, root.place.y()), level = unit("level");
-    const double length =
-        (cut_.sides + top * (cut_.length - cut_.sides)) * (0.85 + 0.3 * unit("length"));
-    const double hem = cut_.hem - 1.2 * unit("hem");
-    const double fringe = cut_.fringe + 0.5 * (unit("hem") - 0.5),
+    const double length = (cut_.side_length + top * (cut_.top_length - cut_.side_length)) *
+                          (0.85 + 0.3 * unit("length"));
+    const double hem = cut_.hem_y - 1.2 * unit("hem");
+    const double fringe = cut_.fringe_y + 0.5 * (unit("hem") - 0.5),
                  twist = 0.35 * (unit("twist") - 0.5);
     const Vector3d way = combing_direction(cut_, root.place);
-    // Shift the root, so that roots do not form a straight line along the edge.
+    // Shift the root, so that roots do not form a straight line along the hairline.
     Vector3d p = root.place - (0.45 * unit("root") - 0.1) * way;
     double rest = hair_stand_off(cut_, p);
     p += (rest + 0.02 - head_distance(p)) * head_distance_gradient(p);
@@ -97,7 +97,7 @@ class Grower {
       const double combed = (0.95 - 0.7 * falls) * (1 - falls * smooth_step(1, -3, p.y()));
       direction += combed * combing_direction(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
       Vector3d next = p + step * direction.normalized();
-      const double swing = cut_.wave * smooth_step(0, 0.4, t);
+      const double swing = cut_.wave_amplitude * smooth_step(0, 0.4, t);
       next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
       next = beside_face(next, fringe);
       // A lock lies on the hair below it: the lock's distance from the head never decreases along
@@ -138,11 +138,11 @@ class Grower {
     const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
     const double top = smooth_step(1, 7, root.place.y());
     const double level = 0.3 + 0.7 * (layer + 0.2 + 0.8 * unit("level")) / cut_.layers;
-    const double length =
-        (cut_.sides + top * (cut_.length - cut_.sides)) * (0.8 + 0.4 * unit("length"));
+    const double length = (cut_.side_length + top * (cut_.top_length - cut_.side_length)) *
+                          (0.8 + 0.4 * unit("length"));
     const Vector3d any(unit("x") - 0.5, unit("y") - 0.5, unit("z") - 0.5);
     const Vector3d axis = Vector3d(unit("a") - 0.5, unit("b") - 0.5, unit("c") - 0.5).normalized();
-    Vector3d p = root.place + level * (0.45 + 0.35 * top) * cut_.volume * root.normal;
+    Vector3d p = root.place + level * (0.45 + 0.35 * top) * cut_.volume_factor * root.normal;
     Vector3d direction = (any.normalized() + 0.2 * root.normal).normalized();
     Card card;
     for (int i = 0; i <= kPiecesOfCurl; ++i) {

@@ -11,25 +11,25 @@ namespace crowdface::synth {
 /// A haircut: how hair is cut and combed on the average head. Lengths are in cm.
 struct HairCut {
   std::string_view name;
-  bool female = false;
-  bool curly = false;
+  bool is_for_women = false;
+  bool is_curly = false;
   bool has_bald_crown = false;  ///< the crown is bald
-  double receding = 0;  ///< of the hairline, 0 … 1; if above 0, young people do not wear the cut
-  double parting = 0;   ///< x of the parting
-  double sideways = 1;  ///< component of the combing direction away from the parting
-  double back = 0;      ///< component of the combing direction to the back (negative: forward)
-  double length = 5;    ///< length on top
-  double sides = 5;     ///< length above and behind the ears; 0: no hair there
-  double hem = -30;     ///< height y at which hair is cut
-  double fringe = 99;   ///< height y of the fringe over the forehead; 99: no fringe
-  double volume = 1;    ///< factor of the distance from the scalp
-  double wave = 0;      ///< amplitude of waves in the locks
+  double recession = 0;  ///< of the hairline, 0 … 1; if above 0, young people do not wear the cut
+  double parting_x = 0;  ///< x of the parting
+  double sideways_combing = 1;  ///< component of the combing direction away from the parting
+  double backward_combing = 0;  ///< component of the combing direction; negative: forward
+  double top_length = 5;        ///< length on top
+  double side_length = 5;       ///< length above and behind the ears; 0: no hair there
+  double hem_y = -30;           ///< height y at which hair is cut
+  double fringe_y = 99;         ///< height y of the fringe over the forehead; 99: no fringe
+  double volume_factor = 1;     ///< factor of the distance from the scalp
+  double wave_amplitude = 0;    ///< amplitude of waves in the locks
   /// 1: combed locks. Larger numbers: the number of layers of curls, which have random directions
   int layers = 1;
-  bool is_tied = false;  ///< tied at the back: lies on the head until behind the ears
-  bool young = false;    ///< whether old people do not wear the cut
+  bool is_tied = false;              ///< tied at the back: lies on the head until behind the ears
+  bool excludes_old_people = false;  ///< whether old people do not wear the cut
 
-  bool has_fringe() const { return fringe < 99; }
+  bool has_fringe() const { return fringe_y < 99; }
 };
 /// Returns all haircuts.
 std::span<const HairCut> hair_cuts();

@@ -33,7 +33,7 @@ double triangle_wave(double x) {
 
 /// Returns the coordinate of a point at right angles to the main combing direction, cm.
 double across_hair(const HairCut& cut, const Vector3d& p) {
-  if (cut.back >= 0.8)
+  if (cut.backward_combing >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
   // On the forehead, the hairline runs from side to side, and hair is combed at right angles to it.
   const double ahead = smooth_step(1, 4, p.z()), x = std::abs(p.x());
@@ -64,28 +64,29 @@ Vector3d head_distance_gradient(const Vector3d& p) {
 }
 
 double distance_inside_hair(const HairCut& cut, const Vector3d& p) {
-  const double above = height_above_hairline(p, cut.female, cut.receding),
+  const double above = height_above_hairline(p, cut.is_for_women, cut.recession),
                height = p.y() + 0.25 * std::max(0.0, p.z());
   if (cut.has_bald_crown) return std::min(above, 6.2 - height);
-  return cut.sides > 0 ? above : std::min(above, height - 4.3);
+  return cut.side_length > 0 ? above : std::min(above, height - 4.3);
 }
 
 double hair_stand_off(const HairCut& cut, const Vector3d& p) {
   const double rises = smooth_step(0, 2.6, distance_inside_hair(cut, p)),
                top = smooth_step(3, 8, p.y());
-  if (cut.layers > 1) return 0.5 * cut.volume * rises * (0.45 + 0.35 * smooth_step(1, 7, p.y()));
-  const bool parted = cut.back < 0.8 && !cut.has_fringe();
+  if (cut.layers > 1)
+    return 0.5 * cut.volume_factor * rises * (0.45 + 0.35 * smooth_step(1, 7, p.y()));
+  const bool parted = cut.backward_combing < 0.8 && !cut.has_fringe();
   const double parting =
-      smooth_step(2.2, 0, std::abs(p.x() - cut.parting)) * smooth_step(-6, -2, p.z());
-  return 0.7 * cut.volume * rises * (0.55 + 0.45 * top) * (parted ? 1 - 0.55 * parting : 1);
+      smooth_step(2.2, 0, std::abs(p.x() - cut.parting_x)) * smooth_step(-6, -2, p.z());
+  return 0.7 * cut.volume_factor * rises * (0.55 + 0.45 * top) * (parted ? 1 - 0.55 * parting : 1);
 }
 
 Vector3d combing_direction(const HairCut& cut, const Vector3d& p) {
   // The parting ends at the crown. Farther back, the combing direction changes gradually from one
   // side to the other.
-  const double wide = cut.back >= 0.8 ? 5 : 0.25 + 5 * smooth_step(-2, -7, p.z());
-  const double side = std::clamp((p.x() - cut.parting) / wide, -1.0, 1.0);
-  Vector3d way(cut.sideways * side, -0.15, -cut.back);
+  const double wide = cut.backward_combing >= 0.8 ? 5 : 0.25 + 5 * smooth_step(-2, -7, p.z());
+  const double side = std::clamp((p.x() - cut.parting_x) / wide, -1.0, 1.0);
+  Vector3d way(cut.sideways_combing * side, -0.15, -cut.backward_combing);
   if (cut.has_fringe()) {
     const double ahead = smooth_step(0, 2.5, p.z()) * smooth_step(6.0, 4.6, std::abs(p.x()));
     way += ahead * (Vector3d(0.1 * p.x() / 5, -0.3, 1.2) - way);

@@ -25,7 +25,7 @@ double hair_stand_off(const HairCut& cut, const Eigen::Vector3d& p);
 /// Returns the combing direction, a unit vector tangent to the scalp.
 Eigen::Vector3d combing_direction(const HairCut& cut, const Eigen::Vector3d& p);
 
-/// An incomplete hair mesh of quads; each vertex has one texture coordinate with the same index.
+/// A hair mesh of quads under construction. Vertex i has texture coordinate i.
 struct HairMesh {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> uvs;  ///< #points

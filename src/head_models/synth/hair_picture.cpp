@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kStrands = 30;          // strands per strip
 constexpr double kAcross = 1.9, kDown = 1.5;  // noise frequencies of curls on the cap's strip
 
-/// From v = 1 up to this fraction of its length, the cap's strip shows strands. The remaining part
-/// of the strip shows single roots.
+/// The strip for the cap shows closed strands in this fraction of its length, beginning at v = 1,
+/// and single roots in the remaining part.
 constexpr double kCapClosed = 0.5;
 
 struct Strand {

@@ -16,7 +16,7 @@ double cut_normal(const RandomKey& key) {
   return std::clamp(random_normal(key), -2.2, 2.2);
 }
 
-Vector3d displacement(const Pull& pull, const Vector3d& p) {
+Vector3d displacement(const LocalDisplacement& pull, const Vector3d& p) {
   const Vector3d from = p - pull.centre;
   const double r2 = from.cwiseQuotient(pull.radii).squaredNorm();
   if (r2 >= 1) return Vector3d::Zero();
@@ -24,7 +24,7 @@ Vector3d displacement(const Pull& pull, const Vector3d& p) {
   return kernel * (pull.shift + pull.stretch.cwiseProduct(from));
 }
 
-Pull mirrored(Pull pull) {
+LocalDisplacement mirrored(LocalDisplacement pull) {
   pull.centre.x() = -pull.centre.x();
   pull.shift.x() = -pull.shift.x();
   return pull;
@@ -35,8 +35,8 @@ Pull mirrored(Pull pull) {
 Person random_person(std::uint64_t seed, std::uint64_t index) {
   Person person;
   // Use stratified random numbers, so that even a few heads include both sexes and several ages.
-  person.male = random_stratified({seed, index, "synth/sex"}, 2) < 0.5 ? -1 : 1;
-  person.age = std::floor(18 + 60 * random_stratified({seed, index, "synth/age"}, 5));
+  person.maleness = random_stratified({seed, index, "synth/sex"}, 2) < 0.5 ? -1 : 1;
+  person.age_years = std::floor(18 + 60 * random_stratified({seed, index, "synth/age"}, 5));
   person.build = std::clamp(random_normal({seed, index, "synth/build"}), -2.0, 2.0);
   return person;
 }
@@ -54,32 +54,33 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
   // Choose a random value for each measure, distributed around the average for this person's sex,
   // age and build.
   for (const Measure& measure : measures()) {
-    double value = measure.male * person_.male + measure.aged * aged +
-                   measure.build * person_.build + measure.spread * normal(measure.name);
+    double value = measure.maleness_effect * person_.maleness + measure.age_effect * aged +
+                   measure.build_effect * person_.build + measure.spread * normal(measure.name);
     // Keep extreme heads plausible.
     value = std::clamp(value, -2.4, 2.4);
-    Pull pull = measure.pull;
+    LocalDisplacement pull = measure.displacement;
     pull.shift *= value;
     pull.stretch *= value;
-    pulls_.push_back(pull);
-    if (pull.centre.x() != 0) pulls_.push_back(mirrored(pull));
+    displacements_.push_back(pull);
+    if (pull.centre.x() != 0) displacements_.push_back(mirrored(pull));
   }
   // Choose overall size, proportions and asymmetry at random.
-  const double size = 0.018 * person_.male + 0.02 * normal("size");
+  const double size = 0.018 * person_.maleness + 0.02 * normal("size");
   scale_ =
-      Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.male,
+      Vector3d(1 + size + 0.03 * normal("width") + 0.012 * person_.build + 0.004 * person_.maleness,
                1 + size + 0.025 * normal("height"), 1 + size + 0.025 * normal("depth"));
   // The asymmetry of faces increases with age (Skomina et al. 2020).
   asymmetry_amplitude_ = 0.05 * (1 + 0.25 * aged);
-  face_length_ = 0.014 * person_.male + 0.04 * normal("face_length");
-  pulls_.push_back(
+  face_length_ = 0.014 * person_.maleness + 0.04 * normal("face_length");
+  displacements_.push_back(
       {{0, -2.5, 11}, {2.5, 4, 3}, {0.07 * normal("nose_lean"), 0, 0}, Vector3d::Zero()});
-  pulls_.push_back({{0, -9, 8}, {7, 6, 8}, {0.08 * normal("jaw_lean"), 0, 0}, Vector3d::Zero()});
+  displacements_.push_back(
+      {{0, -9, 8}, {7, 6, 8}, {0.08 * normal("jaw_lean"), 0, 0}, Vector3d::Zero()});
 }
 
 Vector3d Identity::deform(const Vector3d& point) const {
   Vector3d moved = point;
-  for (const Pull& pull : pulls_) moved += displacement(pull, point);
+  for (const LocalDisplacement& pull : displacements_) moved += displacement(pull, point);
   // Lengthen or shorten the face below the eyes, with a smooth transition at the eyes.
   moved.y() += face_length_ * (point.y() - std::sqrt(point.y() * point.y() + 4)) / 2;
   const double uneven = asymmetry_noise_.at(point),

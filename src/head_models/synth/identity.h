@@ -13,20 +13,20 @@ namespace crowdface::synth {
 
 /// Attributes of a person that determine the averages of the person's measures.
 struct Person {
-  double male = 0;   ///< −1 (female) … 1 (male)
-  double age = 40;   ///< years, 18 … 77
-  double build = 0;  ///< standard normal, clamped to ±2: slight … heavy
+  double maleness = 0;    ///< −1 (female) … 1 (male)
+  double age_years = 40;  ///< years, 18 … 77
+  double build = 0;       ///< standard normal, clamped to ±2: slight … heavy
 
   /// Returns the age in units of 20 years from 40: −1.1 … 1.85.
-  double scaled_age() const { return (age - 40) / 20; }
+  double scaled_age() const { return (age_years - 40) / 20; }
 };
 /// Returns the random person of head `index` of a seed. Stratified: of two successive heads (2k, 2k
 /// + 1) one is female and one male; of five successive heads (5k to 5k + 4) each has an age in a
 /// different fifth of the range.
 Person random_person(std::uint64_t seed, std::uint64_t index);
 
-/// The identity of a head: the attributes of the person, and the values of the person's measures.
-/// The values vary randomly around the averages of people with these attributes.
+/// The identity of a head: the attributes of the person, and random values of the person's
+/// measures. The mean of each measure depends on the attributes.
 class Identity {
  public:
   Identity(std::uint64_t seed, std::uint64_t index);
@@ -45,7 +45,7 @@ class Identity {
 
   std::uint64_t seed_ = 0, index_ = 0;
   Person person_;
-  std::vector<Pull> pulls_;
+  std::vector<LocalDisplacement> displacements_;
   Eigen::Vector3d scale_{1, 1, 1};
   double face_length_ = 0;
   double asymmetry_amplitude_ = 0;  ///< amplitude of asymmetry_noise_, cm

@@ -13,10 +13,10 @@ namespace {
 constexpr std::array<double, kColumns - 1> kColumnWeights = {2, 3, 4, 5, 4, 5, 6, 5, 4, 5, 4, 3, 2};
 constexpr std::array<double, kRows - 1> kRowWeights = {4, 4, 7, 3, 3, 2, 5, 3, 3, 5, 5};
 
-constexpr std::array<Opening, 4> kOpenings = {{{Sheet::kEye, 2, 4, 2, 3},
-                                               {Sheet::kNostril, 1, 2, 4, 5},
-                                               {Sheet::kMouth, -3, 3, 6, 7},
-                                               {Sheet::kEar, 6, 7, 2, 5}}};
+constexpr std::array<Opening, 4> kOpenings = {{{SkinPatch::kEye, 2, 4, 2, 3},
+                                               {SkinPatch::kNostril, 1, 2, 4, 5},
+                                               {SkinPatch::kMouth, -3, 3, 6, 7},
+                                               {SkinPatch::kEar, 6, 7, 2, 5}}};
 
 }  // namespace
 
@@ -30,9 +30,9 @@ double row_unit(int row) {
   return std::accumulate(kRowWeights.begin(), kRowWeights.begin() + row, 0.0);
 }
 
-const Opening& opening_of(Sheet sheet) {
+const Opening& opening_of(SkinPatch patch) {
   for (const Opening& opening : kOpenings) {
-    if (opening.sheet == sheet) return opening;
+    if (opening.patch == patch) return opening;
   }
   return kOpenings.back();
 }

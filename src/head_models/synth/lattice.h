@@ -9,18 +9,19 @@ namespace crowdface::synth {
 /// down to the neck; the cap closes the strip at the top. The strip has rectangular openings that
 /// are filled with concentric rings. The rings of eyes, nostrils and mouth end in an open hole, the
 /// rings of an ear in a core.
-enum class Sheet { kStrip, kCap, kEye, kNostril, kMouth, kEar, kEarCore };
+enum class SkinPatch { kStrip, kCap, kEye, kNostril, kMouth, kEar, kEarCore };
 
 /// A parametric location on the skin, independent of the tessellation.
 struct Address {
-  Sheet sheet = Sheet::kStrip;
+  SkinPatch patch = SkinPatch::kStrip;
   double side = 1;  ///< −1: the mirrored patch at the head's right (x < 0)
-  /// Strip and cap: signed units around the head from the midline of the face. Rings: 0 … 4 along
-  /// the sides of the opening, counter-clockwise from its upper left corner, seen on the side x >
-  /// 0. Ear core: 0 … 1 across.
+  /// First coordinate. Strip and cap: signed units around the head from the midline of the face.
+  /// Rings: 0 … 4 along the sides of the opening, counter-clockwise from its upper left corner,
+  /// seen on the side x > 0. Ear core: 0 … 1 across.
   double a = 0;
-  /// Strip: units down from the cap. Cap: units from front to back. Rings: 0 at the opening's
-  /// outline, 1 at the edge of the opening (ear: of the core), 2 at the hole. Ear core: 0 … 1 down.
+  /// Second coordinate. Strip: units down from the cap. Cap: units from front to back. Rings: 0 at
+  /// the opening's outline, 1 at the edge of the opening (ear: of the core), 2 at the hole. Ear
+  /// core: 0 … 1 down.
   double b = 0;
 };
 
@@ -39,11 +40,11 @@ double row_unit(int row);
 
 /// A rectangle of the lattice that is cut out of the strip: an eye, an ear, a nostril or the mouth.
 struct Opening {
-  Sheet sheet;
+  SkinPatch patch;
   int column0, column1, row0, row1;  ///< bounds at x > 0; for the mouth column0 = −column1
 };
-/// Returns the opening that is filled by the rings of this patch.
-const Opening& opening_of(Sheet sheet);
+/// Returns the opening in which this patch lies. The patch must not be the strip or the cap.
+const Opening& opening_of(SkinPatch patch);
 std::span<const Opening> openings();
 
 }  // namespace crowdface::synth

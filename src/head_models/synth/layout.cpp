@@ -13,15 +13,15 @@
 namespace crowdface::synth {
 namespace {
 
-/// Joins the patches of the skin (see Sheet) into one mesh.
+/// Joins the patches of the skin (see SkinPatch) into one mesh.
 class Sewing {
  public:
   explicit Sewing(const QuadCounts& counts)
       : counts_(counts),
-        front_(counts.column(kFrontColumn)),
-        deep_(counts.column(kBackColumn) - front_),
-        half_(counts.column(kColumns - 1)),
-        rows_(counts.row(kRows - 1)) {}
+        front_(counts.quads_to_column(kFrontColumn)),
+        deep_(counts.quads_to_column(kBackColumn) - front_),
+        half_(counts.quads_to_column(kColumns - 1)),
+        rows_(counts.quads_to_row(kRows - 1)) {}
 
   Layout sew() {
     for (int k = 0; k + 1 < kColumns; ++k) spread(counts_.columns, k, column_unit, column_units_);
@@ -32,7 +32,7 @@ class Sewing {
     add_cap();
     for (const Opening& opening : openings()) {
       add_rings(opening, 1);
-      if (opening.sheet != Sheet::kMouth) add_rings(opening, -1);
+      if (opening.patch != SkinPatch::kMouth) add_rings(opening, -1);
     }
     layout_.topology.vertex_count = static_cast<Index>(layout_.addresses.size());
     layout_.uvs.resize(static_cast<Index>(uvs_.size()), 2);
@@ -77,8 +77,9 @@ class Sewing {
     int i0, i1, j0, j1;
   };
   Span span_of(const Opening& w, int side) const {
-    const int i0 = counts_.column(w.column0), i1 = counts_.column(w.column1);
-    return {side > 0 ? i0 : -i1, side > 0 ? i1 : -i0, counts_.row(w.row0), counts_.row(w.row1)};
+    const int i0 = counts_.quads_to_column(w.column0), i1 = counts_.quads_to_column(w.column1);
+    return {side > 0 ? i0 : -i1, side > 0 ? i1 : -i0, counts_.quads_to_row(w.row0),
+            counts_.quads_to_row(w.row1)};
   }
 
   std::size_t strip_index(int i, int j) const {
@@ -91,7 +92,7 @@ class Sewing {
     std::vector<Span> holes;
     for (const Opening& w : openings()) {
       holes.push_back(span_of(w, 1));
-      if (w.sheet != Sheet::kMouth) holes.push_back(span_of(w, -1));
+      if (w.patch != SkinPatch::kMouth) holes.push_back(span_of(w, -1));
     }
     strip_.resize(strip_index(half_, rows_) + 1);
     // Leave out the vertices strictly inside openings, and the quads in openings.
@@ -106,7 +107,7 @@ class Sewing {
     for (int j = 0; j <= rows_; ++j) {
       for (int i = -half_; i <= half_; ++i) {
         if (inside(i, j)) continue;
-        const Address address{Sheet::kStrip, 1, column_at(i), row_at(j)};
+        const Address address{SkinPatch::kStrip, 1, column_at(i), row_at(j)};
         // The texture seam at the back: one vertex, two texture coordinates.
         if (i == half_)
           strip(i, j) = {strip(-half_, j).vertex, add_uv(address)};
@@ -137,7 +138,7 @@ class Sewing {
     for (int k = 0; k <= deep_; ++k) {
       for (int i = -front_; i <= front_; ++i) {
         const double b = column_at(front_ + k) - column_at(front_);
-        const Address address{Sheet::kCap, 1, column_at(i), b};
+        const Address address{SkinPatch::kCap, 1, column_at(i), b};
         const bool on_rim = k == 0 || k == deep_ || i == front_ || i == -front_;
         if (k == 0)
           cap.push_back(strip(i, 0));
@@ -199,9 +200,9 @@ class Sewing {
     const std::size_t n = first.size();
     std::vector<Corner> ring, next(n);
     for (const Stitch& s : first) ring.push_back(s.corner);
-    for (const double b : counts_.rings(opening.sheet)) {
+    for (const double b : counts_.ring_coordinates(opening.patch)) {
       for (std::size_t p = 0; p < n; ++p) {
-        next[p] = add({opening.sheet, static_cast<double>(side), first[p].a, b});
+        next[p] = add({opening.patch, static_cast<double>(side), first[p].a, b});
       }
       for (std::size_t p = 0; p < n; ++p) {
         const std::size_t q = (p + 1) % n;
@@ -209,7 +210,7 @@ class Sewing {
       }
       ring = next;
     }
-    if (opening.sheet == Sheet::kEar) add_core(span, side, first, ring);
+    if (opening.patch == SkinPatch::kEar) add_core(span, side, first, ring);
   }
 
   /// Fills the innermost ring of an ear with a grid of quads.
@@ -222,7 +223,7 @@ class Sewing {
     for (int j = s.j0 + 1; j < s.j1; ++j) {
       for (int i = s.i0 + 1; i < s.i1; ++i) {
         const double across = (column_at(i) - x0) / (x1 - x0);
-        core[{i, j}] = add({Sheet::kEarCore, static_cast<double>(side),
+        core[{i, j}] = add({SkinPatch::kEarCore, static_cast<double>(side),
                             side > 0 ? across : 1 - across, (row_at(j) - y0) / (y1 - y0)});
       }
     }

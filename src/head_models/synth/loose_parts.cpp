@@ -50,7 +50,7 @@ std::vector<Vector3d> lid_feet() {
   std::vector<Vector3d> feet;
   constexpr int kFeet = 32;
   for (int i = 0; i < kFeet; ++i) {
-    feet.push_back(mean_skin_with_sockets({Sheet::kEye, 1, 4.0 * i / kFeet, 1.2}).position);
+    feet.push_back(mean_skin_with_sockets({SkinPatch::kEye, 1, 4.0 * i / kFeet, 1.2}).position);
   }
   return feet;
 }
@@ -97,7 +97,7 @@ LooseParts::LooseParts(double edge_cm) {
 }
 
 void LooseParts::add_eyeball(double side, int n) {
-  first_.push_back(vertex_count());
+  first_vertices_.push_back(vertex_count());
   first_faces_.push_back(face_count());
   // Index the vertices by integer coordinates on the cube, so that its sides share vertices on
   // edges.
@@ -132,7 +132,7 @@ void LooseParts::add_eyeball(double side, int n) {
 
 void LooseParts::add_teeth(double up, int along, int around) {
   const Index first = vertex_count();
-  first_.push_back(first);
+  first_vertices_.push_back(first);
   first_faces_.push_back(face_count());
   constexpr double kThickness = 0.36;
   const int quarter = around / 4;
@@ -157,7 +157,7 @@ void LooseParts::add_teeth(double up, int along, int around) {
                          (1 - 0.25 * q.y() * q.y());
       points_.push_back(row.middle - out * outward * (outward.z() > 0 ? -1 : 1) +
                         Vector3d(0, row.height / 2 * q.y() * (1 - 0.15 * q.x() * q.x()), 0));
-      uvs_.push_back(unwrap_hole(Sheet::kMouth, 1,
+      uvs_.push_back(unwrap_hole(SkinPatch::kMouth, 1,
                                  {0.85 * t * (0.98 - 0.02 * k / around),
                                   up * (0.05 + 0.4 * static_cast<double>(k) / around)}));
     }
@@ -226,7 +226,7 @@ Positions LooseParts::positions(const Identity& identity) const {
   constexpr int kPlaces = 16;
   double width_before = 0, width_after = 0;
   for (int i = 0; i < kPlaces; ++i) {
-    const Vector3d p = mean_skin({Sheet::kMouth, 1, 4.0 * i / kPlaces, 2}).position;
+    const Vector3d p = mean_skin({SkinPatch::kMouth, 1, 4.0 * i / kPlaces, 2}).position;
     const Vector3d moved = identity.deform(p);
     before += p / kPlaces;
     after += moved / kPlaces;

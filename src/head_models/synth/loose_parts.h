@@ -26,7 +26,9 @@ class LooseParts {
   Index face_count() const { return static_cast<Index>(corners_.size() / 4); }
   /// Returns the index of the first vertex of a piece. Pieces are stored in the order of
   /// LoosePiece.
-  Index first_vertex(LoosePiece piece) const { return first_[static_cast<std::size_t>(piece)]; }
+  Index first_vertex(LoosePiece piece) const {
+    return first_vertices_[static_cast<std::size_t>(piece)];
+  }
   /// Returns the index of the first polygon of a piece.
   Index first_face(LoosePiece piece) const { return first_faces_[static_cast<std::size_t>(piece)]; }
 
@@ -50,7 +52,7 @@ class LooseParts {
       points_;  ///< eyeballs: on the unit sphere; teeth: in the mean head, cm
   std::vector<Eigen::RowVector2d> uvs_;  ///< one per vertex
   std::vector<std::uint32_t> corners_;   ///< four per face
-  std::vector<Index> first_, first_faces_;
+  std::vector<Index> first_vertices_, first_faces_;
 };
 
 }  // namespace crowdface::synth

@@ -44,9 +44,9 @@ GuideRay nostril_edge(const Vector2d& c) {
   return {inside, centre + c.x() * lateral + c.y() * forward};
 }
 
-GuideRay edge_of(Sheet sheet, const Vector2d& circle) {
-  if (sheet == Sheet::kEye) return eye_edge(circle);
-  return sheet == Sheet::kNostril ? nostril_edge(circle) : mouth_edge(circle);
+GuideRay edge_of(SkinPatch patch, const Vector2d& circle) {
+  if (patch == SkinPatch::kEye) return eye_edge(circle);
+  return patch == SkinPatch::kNostril ? nostril_edge(circle) : mouth_edge(circle);
 }
 
 /// Continues the skin from the edge of a lid inward. From b = 1 to 1.2, the skin crosses the
@@ -79,10 +79,10 @@ Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   return eye_centre() + radius * (spoke + 0.2 * t * back).normalized();
 }
 
-Vector3d into_opening(Sheet sheet, const Vector3d& edge, const Vector2d& c, double b) {
+Vector3d into_opening(SkinPatch patch, const Vector3d& edge, const Vector2d& c, double b) {
   const double t = b - 1;
-  if (sheet == Sheet::kEye) return into_eye(edge, c, b);
-  if (sheet == Sheet::kNostril) {
+  if (patch == SkinPatch::kEye) return into_eye(edge, c, b);
+  if (patch == SkinPatch::kNostril) {
     const Vector3d centre(0.80, -4.2, 10.35);
     const Vector3d goal = centre + 0.35 * (edge - centre) + Vector3d(-0.1, 1.15, -0.35);
     return edge + t * (goal - edge);
@@ -97,13 +97,13 @@ SkinPoint on_skin(const GuideRay& ray) {
 
 SkinPoint ring_skin(const Address& address) {
   const Vector2d circle = point_on_circle(address.a);
-  const GuideRay inner = edge_of(address.sheet, circle);
+  const GuideRay inner = edge_of(address.patch, circle);
   if (address.b >= 1) {
     SkinPoint edge = on_skin(inner);
     if (address.b == 1) return edge;
-    return {into_opening(address.sheet, edge.position, circle, address.b), edge.normal, 0};
+    return {into_opening(address.patch, edge.position, circle, address.b), edge.normal, 0};
   }
-  const GuideRay outer = opening_ray(opening_of(address.sheet), address.a);
+  const GuideRay outer = opening_ray(opening_of(address.patch), address.a);
   const Vector3d inner_guide = project_onto_skin(inner.origin, inner.guide);
   return on_skin({outer.origin + address.b * (inner.origin - outer.origin),
                   outer.guide + address.b * (inner_guide - outer.guide)});
@@ -111,18 +111,18 @@ SkinPoint ring_skin(const Address& address) {
 
 SkinPoint ear_skin(const Address& address) {
   const Vector3d position = ear_position(address);
-  const double relief = address.sheet == Sheet::kEar ? smooth_step(0.2, 0, address.b) : 0;
+  const double relief = address.patch == SkinPatch::kEar ? smooth_step(0.2, 0, address.b) : 0;
   return {position, skin_normal(position), relief};
 }
 
 SkinPoint right_side(const Address& address) {
-  switch (address.sheet) {
-    case Sheet::kStrip:
+  switch (address.patch) {
+    case SkinPatch::kStrip:
       return on_skin(strip_ray(address.a, address.b));
-    case Sheet::kCap:
+    case SkinPatch::kCap:
       return on_skin(cap_ray(address.a, address.b));
-    case Sheet::kEar:
-    case Sheet::kEarCore:
+    case SkinPatch::kEar:
+    case SkinPatch::kEarCore:
       return ear_skin(address);
     default:
       return ring_skin(address);
@@ -144,7 +144,7 @@ SkinPoint mean_skin(const Address& address) {
 }
 
 SkinPoint mean_skin_with_sockets(const Address& address) {
-  if (address.sheet != Sheet::kEye || address.b <= 1) return mean_skin(address);
+  if (address.patch != SkinPatch::kEye || address.b <= 1) return mean_skin(address);
   const Vector2d circle = point_on_circle(address.a);
   const SkinPoint edge = on_skin(eye_edge(circle));
   return on_its_side({into_socket(edge.position, circle, address.b), edge.normal, 0}, address);

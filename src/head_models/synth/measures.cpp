@@ -8,10 +8,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-Pull shifted(const Vector3d& centre, const Vector3d& radii, const Vector3d& shift) {
+LocalDisplacement shifted(const Vector3d& centre, const Vector3d& radii, const Vector3d& shift) {
   return {centre, radii, shift, Vector3d::Zero()};
 }
-Pull stretched(const Vector3d& centre, const Vector3d& radii, const Vector3d& stretch) {
+LocalDisplacement stretched(const Vector3d& centre, const Vector3d& radii,
+                            const Vector3d& stretch) {
   return {centre, radii, Vector3d::Zero(), stretch};
 }
 

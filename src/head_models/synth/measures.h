@@ -11,17 +11,18 @@ namespace crowdface::synth {
 /// A smooth local displacement: (1 − r²)³ · (shift + stretch · (p − centre)) for r < 1, where r is
 /// the distance from the centre relative to the radii. The displacement is mirrored at x = 0 unless
 /// the centre has x = 0. Lengths in cm.
-struct Pull {
+struct LocalDisplacement {
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 
-/// A property of a head, such as the length of the nose. Its value is male · Person::male + aged ·
-/// Person::scaled_age() + build · Person::build + spread · N(0, 1).
+/// A property of a head, such as the length of the nose. Its value is maleness_effect ·
+/// Person::maleness + age_effect · Person::scaled_age() + build_effect · Person::build + spread ·
+/// N(0, 1).
 struct Measure {
   std::string_view name;
-  double male, aged, build;  ///< coefficients of the average
-  double spread;             ///< standard deviation of the random part
-  Pull pull;                 ///< displacement for a value of 1
+  double maleness_effect, age_effect, build_effect;  ///< coefficients of the average
+  double spread;                                     ///< standard deviation of the random part
+  LocalDisplacement displacement;                    ///< displacement for a value of 1
 };
 /// Returns all measures.
 std::span<const Measure> measures();

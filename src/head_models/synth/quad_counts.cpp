@@ -9,15 +9,15 @@
 namespace crowdface::synth {
 namespace {
 
-/// Consecutive rings of an opening: the range of their coordinate b, and the number of rings at one
-/// quad per unit.
+/// Consecutive rings of an opening: the range of the ring coordinate b, and the number of rings if
+/// quads have a width of one unit.
 struct RingSpan {
   double from, to, weight;
 };
-std::vector<RingSpan> ring_spans(Sheet sheet) {
-  if (sheet == Sheet::kEye) return {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};
-  if (sheet == Sheet::kNostril) return {{0, 1, 4}, {1, 2, 2}};
-  if (sheet == Sheet::kMouth) return {{0, 1, 6}, {1, 2, 2}};
+std::vector<RingSpan> ring_spans(SkinPatch patch) {
+  if (patch == SkinPatch::kEye) return {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};
+  if (patch == SkinPatch::kNostril) return {{0, 1, 4}, {1, 2, 2}};
+  if (patch == SkinPatch::kMouth) return {{0, 1, 6}, {1, 2, 2}};
   return {{0, 1, 10}};  // the ear
 }
 
@@ -27,57 +27,61 @@ int quads(double weight, double scale) {
 
 }  // namespace
 
-QuadCounts::QuadCounts(double quads_per_unit) : scale(quads_per_unit) {
+QuadCounts::QuadCounts(double density) : quads_per_unit(density) {
   const auto in_column = [](int k) { return column_unit(k + 1) - column_unit(k); };
   const auto in_row = [](int k) { return row_unit(k + 1) - row_unit(k); };
   for (int i = 0; i + 1 < kColumns; ++i) {
-    columns[static_cast<std::size_t>(i)] = quads(in_column(i), scale);
+    columns[static_cast<std::size_t>(i)] = quads(in_column(i), quads_per_unit);
   }
   // The cap continues the columns of the face to the back of the head, so the back has the same
   // counts in reverse order.
   for (std::size_t i = 0; i < kFrontColumn; ++i) columns[columns.size() - 1 - i] = columns[i];
-  for (int j = 0; j + 1 < kRows; ++j) rows[static_cast<std::size_t>(j)] = quads(in_row(j), scale);
+  for (int j = 0; j + 1 < kRows; ++j)
+    rows[static_cast<std::size_t>(j)] = quads(in_row(j), quads_per_unit);
 }
 
-int QuadCounts::column(int k) const {
+int QuadCounts::quads_to_column(int k) const {
   const int sum = std::accumulate(columns.begin(), columns.begin() + std::abs(k), 0);
   return k < 0 ? -sum : sum;
 }
 
-int QuadCounts::row(int k) const {
+int QuadCounts::quads_to_row(int k) const {
   return std::accumulate(rows.begin(), rows.begin() + k, 0);
 }
 
-std::vector<double> QuadCounts::rings(Sheet sheet) const {
+std::vector<double> QuadCounts::ring_coordinates(SkinPatch patch) const {
   std::vector<double> out;
-  for (const RingSpan& span : ring_spans(sheet)) {
-    const int n = quads(span.weight, scale);
+  for (const RingSpan& span : ring_spans(patch)) {
+    const int n = quads(span.weight, quads_per_unit);
     for (int i = 1; i <= n; ++i) out.push_back(span.from + (span.to - span.from) * i / n);
   }
   return out;
 }
 
-Index QuadCounts::vertices() const {
-  const Index front = column(kFrontColumn), side = column(kBackColumn) - front;
-  const Index around = 2 * column(kColumns - 1);
-  Index sum = around * (row(kRows - 1) + 1) + (2 * front - 1) * (side - 1);
+Index QuadCounts::vertex_count() const {
+  const Index front = quads_to_column(kFrontColumn), side = quads_to_column(kBackColumn) - front;
+  const Index around = 2 * quads_to_column(kColumns - 1);
+  Index sum = around * (quads_to_row(kRows - 1) + 1) + (2 * front - 1) * (side - 1);
   for (const Opening& w : openings()) {
-    const Index nx = column(w.column1) - column(w.column0), ny = row(w.row1) - row(w.row0);
-    Index piece = 2 * (nx + ny) * static_cast<Index>(rings(w.sheet).size());
+    const Index nx = quads_to_column(w.column1) - quads_to_column(w.column0),
+                ny = quads_to_row(w.row1) - quads_to_row(w.row0);
+    Index piece = 2 * (nx + ny) * static_cast<Index>(ring_coordinates(w.patch).size());
     // Subtract the strip's vertices inside the opening. An ear needs no subtraction, because its
     // core has as many vertices.
-    if (w.sheet != Sheet::kEar) piece -= (nx - 1) * (ny - 1);
-    sum += w.sheet == Sheet::kMouth ? piece : 2 * piece;
+    if (w.patch != SkinPatch::kEar) piece -= (nx - 1) * (ny - 1);
+    sum += w.patch == SkinPatch::kMouth ? piece : 2 * piece;
   }
   return sum;
 }
 
-QuadCounts nearest_counts(Index wanted) {
+QuadCounts nearest_counts(Index wanted_vertices) {
   QuadCounts best(0.5);
   for (double scale = 0.5; scale < 40; scale *= 1.002) {
     const QuadCounts counts(scale);
-    if (std::abs(counts.vertices() - wanted) < std::abs(best.vertices() - wanted)) best = counts;
-    if (counts.vertices() > 2 * wanted) break;
+    if (std::abs(counts.vertex_count() - wanted_vertices) <
+        std::abs(best.vertex_count() - wanted_vertices))
+      best = counts;
+    if (counts.vertex_count() > 2 * wanted_vertices) break;
   }
   return best;
 }

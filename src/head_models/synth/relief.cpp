@@ -97,7 +97,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
       if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
     }
   }
-  const double rough = 1 + 0.25 * aged + 0.15 * identity.person().male;
+  const double rough = 1 + 0.25 * aged + 0.15 * identity.person().maleness;
   const auto octave = [&](std::uint64_t lane, double spacing, double amplitude) {
     return Octave{{mix(seed, index, lane), spacing}, amplitude};
   };
@@ -111,27 +111,27 @@ Relief::Relief(const Identity& identity, double edge_cm)
   lip_depth_ = 0.012 * carried(0.45, edge_cm) * (1 + 0.4 * aged);
 }
 
-void Relief::add_stroke(std::size_t which, double side, double depth) {
-  const Fold& fold = fold_list()[which];
-  const double lane = 20 * static_cast<double>(which) + 10 * side;
+void Relief::add_stroke(std::size_t fold_index, double side, double depth) {
+  const Fold& fold = fold_list()[fold_index];
+  const double lane = 20 * static_cast<double>(fold_index) + 10 * side;
   const double length = fold.wander > 0 ? (fold.end - fold.start).norm() : 0;
   Stroke stroke{{}, fold.width, depth, fold.bulge * side, lane, length, {}};
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;
     Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
-    p += fold.wander * Vector2d(0.5 * wander_.at({stroke.lane, 0.5 * p.y(), 5}),
-                                wander_.at({0.5 * p.x(), stroke.lane, 0}));
+    p += fold.wander * Vector2d(0.5 * wander_.at({stroke.noise_row, 0.5 * p.y(), 5}),
+                                wander_.at({0.5 * p.x(), stroke.noise_row, 0}));
     p.x() *= side;
     stroke.points[static_cast<std::size_t>(i)] = p;
   }
-  for (const Vector2d& p : stroke.points) stroke.reach.extend(p);
-  stroke.reach.min().array() -= 3 * fold.width;
-  stroke.reach.max().array() += 3 * fold.width;
+  for (const Vector2d& p : stroke.points) stroke.affected_box.extend(p);
+  stroke.affected_box.min().array() -= 3 * fold.width;
+  stroke.affected_box.max().array() += 3 * fold.width;
   strokes_.push_back(stroke);
 }
 
 double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const {
-  if (!stroke.reach.contains(place)) return 0;
+  if (!stroke.affected_box.contains(place)) return 0;
   // Find the nearest point of the polyline, the parameter of this point, and the side of the curve
   // on which `p` lies.
   double nearest = 1e30, along = 0, side = 1;
@@ -148,15 +148,15 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
   // groove.
   const double distance = std::sqrt(nearest);
   double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
-  if (stroke.length > 0)
-    taper *= smooth_step(-0.7, 0.3, breaks_.at({along * stroke.length, stroke.lane, 0}));
+  if (stroke.noise_length > 0)
+    taper *= smooth_step(-0.7, 0.3, breaks_.at({along * stroke.noise_length, stroke.noise_row, 0}));
   double height = -bump(distance / stroke.width);
   const double beside = side * distance * (stroke.bulge < 0 ? -1 : 1);
   height += std::abs(stroke.bulge) * bump((beside - 1.5 * stroke.width) / (1.5 * stroke.width));
   return stroke.depth * taper * height;
 }
 
-double Relief::folds(const Vector3d& p) const {
+double Relief::fold_height(const Vector3d& p) const {
   const double front = smooth_step(0.5, 2.5, p.z());
   if (front <= 0) return 0;
   const Vector2d place(p.x() + 0.08 * waver_x_.at(p), p.y() + 0.08 * waver_y_.at(p));
@@ -182,7 +182,7 @@ double Relief::grain(const Vector3d& p) const {
 
 double Relief::height(const SkinPoint& mean) const {
   if (mean.relief <= 0) return 0;
-  return mean.relief * (folds(mean.position) + grain(mean.position));
+  return mean.relief * (fold_height(mean.position) + grain(mean.position));
 }
 
 }  // namespace crowdface::synth

@@ -24,7 +24,7 @@ class Relief {
 
   /// Returns the part of `height` that is due to folds and lines, cm.
   /// \param position  point on the average head.
-  double folds(const Eigen::Vector3d& position) const;
+  double fold_height(const Eigen::Vector3d& position) const;
 
  private:
   /// A curve in the front view of the face, engraved (depth > 0) or raised (depth < 0). Lengths in
@@ -33,12 +33,13 @@ class Relief {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    double lane = 0, length = 0;  ///< noise coordinates of interruptions; length 0: uninterrupted
-    Eigen::AlignedBox2d reach;    ///< bounding box of the curve's effect
+    /// noise coordinates of interruptions; noise_length 0: uninterrupted
+    double noise_row = 0, noise_length = 0;
+    Eigen::AlignedBox2d affected_box;  ///< bounding box of the curve's effect
   };
   double grain(const Eigen::Vector3d& position) const;
   double stroke_height(const Stroke& stroke, const Eigen::Vector2d& place) const;
-  void add_stroke(std::size_t which, double side, double depth);
+  void add_stroke(std::size_t fold_index, double side, double depth);
 
   std::vector<Stroke> strokes_;
   SmoothNoise waver_x_, waver_y_, wander_, breaks_;

@@ -23,9 +23,9 @@ AtlasTexel place_at(const Address& address) {
   AtlasTexel place;
   place.skin = mean_skin_with_sockets(address);
   place.is_covered = true;
-  if (address.sheet == Sheet::kEye) place.eye = address.b;
-  if (address.sheet == Sheet::kMouth) place.mouth = address.b;
-  if (address.sheet == Sheet::kNostril) place.nostril = address.b;
+  if (address.patch == SkinPatch::kEye) place.eye_ring = address.b;
+  if (address.patch == SkinPatch::kMouth) place.mouth_ring = address.b;
+  if (address.patch == SkinPatch::kNostril) place.nostril_ring = address.b;
   return place;
 }
 
@@ -38,10 +38,10 @@ AtlasTexel mix_places(const std::array<const AtlasTexel*, 3>& corners,
     place.skin.position += weights[c] * corners[c]->skin.position;
     place.skin.normal += weights[c] * corners[c]->skin.normal;
     place.skin.relief += weights[c] * corners[c]->skin.relief;
-    place.eye += weights[c] * corners[c]->eye;
-    place.mouth += weights[c] * corners[c]->mouth;
-    place.nostril += weights[c] * corners[c]->nostril;
-    place.ball += weights[c] * corners[c]->ball;
+    place.eye_ring += weights[c] * corners[c]->eye_ring;
+    place.mouth_ring += weights[c] * corners[c]->mouth_ring;
+    place.nostril_ring += weights[c] * corners[c]->nostril_ring;
+    place.on_eyeball += weights[c] * corners[c]->on_eyeball;
     place.point_on_ball += weights[c] * corners[c]->point_on_ball;
   }
   place.skin.normal.normalize();
@@ -113,7 +113,7 @@ std::vector<AtlasTexel> skin_atlas(int size) {
     AtlasTexel place;
     place.skin = {eye_centre(), Eigen::Vector3d::UnitZ(), 0};
     place.is_covered = loose.is_on_eyeball(v) && loose.point_on_eyeball(v).z() > -0.1;
-    place.ball = place.is_covered ? 1 : 0;
+    place.on_eyeball = place.is_covered ? 1 : 0;
     if (place.is_covered) place.point_on_ball = loose.point_on_eyeball(v);
     places.push_back(place);
   }

@@ -12,11 +12,11 @@ namespace crowdface::synth {
 
 /// The point of the average head that one texel of the skin texture shows.
 struct AtlasTexel {
-  SkinPoint skin;    ///< on the average head
-  double eye = 0;    ///< Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2
-  double mouth = 0;  ///< Address::b around the mouth
-  double nostril = 0;  ///< Address::b around a nostril
-  double ball = 0;     ///< 1 on an eyeball
+  SkinPoint skin;       ///< on the average head
+  double eye_ring = 0;  ///< Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2
+  double mouth_ring = 0;    ///< Address::b around the mouth
+  double nostril_ring = 0;  ///< Address::b around a nostril
+  double on_eyeball = 0;    ///< 1 on an eyeball
   Eigen::Vector3d point_on_ball =
       Eigen::Vector3d::Zero();  ///< on an eyeball: point on the unit sphere with its pupil at +z
   bool is_covered = false;      ///< whether the texel shows a surface

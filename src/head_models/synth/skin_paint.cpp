@@ -88,10 +88,10 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
                      0.7 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
-  const double blood = std::min(1.0, complexion_.ruddy + 0.2 * complexion_.makeup);
+  const double blood = std::min(1.0, complexion_.redness + 0.2 * complexion_.makeup);
   tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
   // Darken lines and hollows, because they lie in shade.
-  const double hollow = std::clamp(-relief_.folds(p) / 0.2, 0.0, 0.6);
+  const double hollow = std::clamp(-relief_.fold_height(p) / 0.2, 0.0, 0.6);
   tint(colour, {0.88, 0.81, 0.79}, hollow);
   return colour;
 }
@@ -112,13 +112,14 @@ void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
 
 void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
-  const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
+  const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring));
   if (amount <= 0) return;
   ScreenColour lips = colour;
-  const double pale = 0.25 * std::max(0.0, person_.scaled_age()) + (person_.male > 0 ? 0.35 : 0.0);
+  const double pale =
+      0.25 * std::max(0.0, person_.scaled_age()) + (person_.maleness > 0 ? 0.35 : 0.0);
   tint(lips, {0.93, 0.82, 0.81}, 1 - pale);
   tint(lips, {0.93, 0.58, 0.64}, complexion_.lipstick);
-  tint(lips, ScreenColour::Constant(0.86), complexion_.tone);
+  tint(lips, ScreenColour::Constant(0.86), complexion_.skin_tone);
   // The upper lip is darker, because it faces down.
   if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.96, 0.93, 0.93}, 1);
   cover(colour, lips, amount);
@@ -135,25 +136,25 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   const double crease = smooth_step(0.16, 0.02, std::abs(p.y() - 0.42 - 0.66 * biweight(beside)));
   tint(colour, {0.74, 0.64, 0.62}, 0.75 * crease * smooth_step(0, 0.35, lids));
   tint(colour, {0.76, 0.68, 0.70}, 0.7 * complexion_.makeup * lids);
-  if (place.eye <= 0) return;
+  if (place.eye_ring <= 0) return;
   // Lashes are painted as a line along the edge of the lid; the inner edge of the lid is red.
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
-  const double lashes =
-      smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye) * smooth_step(1.12, 1.03, place.eye);
+  const double lashes = smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye_ring) *
+                        smooth_step(1.12, 1.03, place.eye_ring);
   const ScreenColour hair = has_own_hair() ? complexion_.hair : from_bytes(70, 54, 44);
   const ScreenColour dark = (0.45 - 0.25 * complexion_.makeup) * hair + 0.02;
   cover(colour, dark,
         lashes * (upper ? 0.75 + 0.25 * complexion_.makeup : 0.3 + 0.4 * complexion_.makeup));
-  cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * complexion_.tone),
-        0.8 * smooth_step(1.05, 1.15, place.eye));
+  cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * complexion_.skin_tone),
+        0.8 * smooth_step(1.05, 1.15, place.eye_ring));
 }
 
 void SkinPaint::paint_openings(const AtlasTexel& place, ScreenColour& colour) const {
-  cover(colour, ScreenColour(0.40, 0.17, 0.16), smooth_step(1.02, 1.5, place.mouth));
-  cover(colour, ScreenColour(0.22, 0.09, 0.07), smooth_step(0.98, 1.35, place.nostril));
+  cover(colour, ScreenColour(0.40, 0.17, 0.16), smooth_step(1.02, 1.5, place.mouth_ring));
+  cover(colour, ScreenColour(0.22, 0.09, 0.07), smooth_step(0.98, 1.35, place.nostril_ring));
 }
 
-double SkinPaint::brow_cover(const Vector& p) const {
+double SkinPaint::brow_coverage(const Vector& p) const {
   if (p.z() < 3) return 0;
   // An arch above each eye, thickest towards the nose.
   const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
@@ -168,10 +169,10 @@ double SkinPaint::brow_cover(const Vector& p) const {
   // Hairs point outward: noise stretched along their direction.
   const double along = x - 0.9 * (p.y() - arch), across = (p.y() - arch) + 0.55 * x;
   const double strands = hairs_.at({0.22 * along, across, 7 * (p.x() > 0 ? 1.0 : -1.0)});
-  return complexion_.brows * body * smooth_step(-0.75, 0.6, strands + 0.9 * (body - 0.5));
+  return complexion_.brow_density * body * smooth_step(-0.75, 0.6, strands + 0.9 * (body - 0.5));
 }
 
-double SkinPaint::beard_cover(const Vector& p, double strand) const {
+double SkinPaint::beard_coverage(const Vector& p, double strand) const {
   const double x = std::abs(p.x());
   // Upper edge of the beard, from the moustache along the cheek to the sideburn: points (|x|, y).
   static const std::array<Vector2d, 5> edge = {
@@ -203,10 +204,10 @@ double SkinPaint::beard_length(const Vector& p) const {
   return length + chin * (complexion_.chin_beard - length);
 }
 
-double SkinPaint::beard_cover(const Vector& p) const {
+double SkinPaint::beard_coverage(const Vector& p) const {
   if (p.z() < -0.5 || p.y() > 0) return 0;
   const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
-  const double dense = beard_cover(p, strand) * beard_length(p);
+  const double dense = beard_coverage(p, strand) * beard_length(p);
   if (dense <= 0) return 0;
   // Single hairs: the part of the noise above a threshold. Stubble is finer than a long beard.
   const double stubble = smooth_step(0.9, 0.5, dense);
@@ -219,7 +220,7 @@ void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   if (complexion_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
   // Short hair: noise stretched along y.
   const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
-  const double beard = beard_cover(p, strand);
+  const double beard = beard_coverage(p, strand);
   if (beard <= 0) return;
   const double length = beard_length(p);
   // Hair roots below the surface give the skin a cool shade.
@@ -237,7 +238,7 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   tint(colour, {0.93, 0.80, 0.76},
        smooth_step(0.45, 0.95, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
   tint(colour, {0.93, 0.87, 0.76},
-       0.5 * complexion_.tone + 0.25 * std::max(0.0, person_.scaled_age()));
+       0.5 * complexion_.skin_tone + 0.25 * std::max(0.0, person_.scaled_age()));
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
@@ -254,7 +255,8 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
 }
 
 ScreenColour SkinPaint::at(const AtlasTexel& place) const {
-  if (place.ball > 0.5) return eyeball_colour(place.point_on_ball.normalized()).max(0.0).min(1.0);
+  if (place.on_eyeball > 0.5)
+    return eyeball_colour(place.point_on_ball.normalized()).max(0.0).min(1.0);
   const Vector& p = place.skin.position;
   ScreenColour colour = bare_skin_colour(p);
   paint_spots(p, colour);
@@ -263,26 +265,27 @@ ScreenColour SkinPaint::at(const AtlasTexel& place) const {
   paint_openings(place, colour);
   if (has_own_hair()) paint_beard(p, colour);
   const bool ear = place.skin.relief < 0.5;
-  if (!ear && hair_.reaches(p)) {
-    const double lock = hair_.strand(p);
+  if (!ear && hair_.may_cover(p)) {
+    const double lock = hair_.strand_brightness(p);
     const ScreenColour hair = has_own_hair() ? complexion_.hair : 0.45 * colour;
     cover(colour, hair * (1 + (0.24 - 0.16 * hair.mean()) * lock),
-          scalp_hair_ * hair_.cover(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
+          scalp_hair_ * hair_.coverage(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
   }
-  if (has_own_hair()) cover(colour, complexion_.brow_hair, brow_cover(p));
+  if (has_own_hair()) cover(colour, complexion_.brow_hair, brow_coverage(p));
   return colour.max(0.0).min(1.0);
 }
 
 double SkinPaint::roughness_at(const AtlasTexel& place) const {
   const Vector& p = place.skin.position;
-  double hair = has_own_hair() ? brow_cover(p) : 0;
+  double hair = has_own_hair() ? brow_coverage(p) : 0;
   if (has_own_hair() && complexion_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
-    hair = std::max(hair, beard_length(p) * beard_cover(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
+    hair =
+        std::max(hair, beard_length(p) * beard_coverage(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
   }
-  if (place.skin.relief >= 0.5 && hair_.reaches(p)) {
-    hair = std::max(hair, scalp_hair_ * hair_.cover(p, hair_.strand(p)));
+  if (place.skin.relief >= 0.5 && hair_.may_cover(p)) {
+    hair = std::max(hair, scalp_hair_ * hair_.coverage(p, hair_.strand_brightness(p)));
   }
-  const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth));
+  const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring));
   return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.scaled_age());
 }
 

@@ -27,9 +27,9 @@ class SkinPaint {
 
   using Vector = Eigen::Vector3d;
   /// Returns the fraction of the skin that the brows hide at a point of the average head.
-  double brow_cover(const Vector& p) const;
+  double brow_coverage(const Vector& p) const;
   /// Returns the fraction of the skin that the beard hides at a point of the average head.
-  double beard_cover(const Vector& p) const;
+  double beard_coverage(const Vector& p) const;
 
  private:
   ScreenColour eyeball_colour(const Vector& ball) const;
@@ -40,7 +40,7 @@ class SkinPaint {
   void paint_openings(const AtlasTexel& place, ScreenColour& colour) const;
   void paint_beard(const Vector& p, ScreenColour& colour) const;
   bool has_own_hair() const { return scalp_hair_ == 1; }
-  double beard_cover(const Vector& p, double strand) const;
+  double beard_coverage(const Vector& p, double strand) const;
   double beard_length(const Vector& p) const;
 
   Person person_;

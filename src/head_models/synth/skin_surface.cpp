@@ -13,7 +13,7 @@ namespace crowdface::synth {
 namespace {
 
 bool is_skin(const AtlasTexel& place) {
-  return place.is_covered && place.ball <= 0.5;
+  return place.is_covered && place.on_eyeball <= 0.5;
 }
 
 /// Computes the slopes of a height field that is stored in texels; between two texels that are not
@@ -61,14 +61,15 @@ double texel_cm(int size, const std::vector<AtlasTexel>& atlas) {
   return nth_smallest(std::move(steps), middle);
 }
 
-std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas, double texel,
-                                       const Relief& fine, const Relief& coarse) {
+std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas,
+                                       double texel_size_cm, const Relief& fine,
+                                       const Relief& coarse) {
   std::vector<double> heights(atlas.size());
   for_each_texel(size, [&](std::size_t i) {
     if (!is_skin(atlas[i])) return;
     heights[i] = fine.height(atlas[i].skin) - coarse.height(atlas[i].skin);
   });
-  const Slopes slopes(atlas, heights, texel);
+  const Slopes slopes(atlas, heights, texel_size_cm);
   const auto side = static_cast<std::size_t>(size);
   std::vector<std::uint8_t> bytes(3 * atlas.size());
   for_each_texel(size, [&](std::size_t i) {
@@ -86,7 +87,7 @@ std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& 
 }
 
 double skin_roughness(const AtlasTexel& place, double on_lips, double hair, double aged) {
-  if (place.ball > 0.5) return 0.08;
+  if (place.on_eyeball > 0.5) return 0.08;
   const Eigen::Vector3d& p = place.skin.position;
   const double front = smooth_step(4, 7, p.z());
   const double nose = smooth_step(2.2, 0.8, std::abs(p.x())) * smooth_step(-5.5, -4, p.y()) *
@@ -96,7 +97,8 @@ double skin_roughness(const AtlasTexel& place, double on_lips, double hair, doub
   double roughness = 0.57 + 0.04 * std::clamp(aged, 0.0, 1.0);
   roughness -= front * (0.09 * nose + 0.07 * forehead);
   roughness += on_lips * (0.34 - roughness);
-  roughness += smooth_step(1.05, 1.15, place.eye) * (0.15 - roughness);  // moist inner edge of lids
+  roughness +=
+      smooth_step(1.05, 1.15, place.eye_ring) * (0.15 - roughness);  // moist inner edge of lids
   return roughness + hair * (0.8 - roughness);
 }
 

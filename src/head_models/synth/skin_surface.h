@@ -13,14 +13,15 @@ namespace crowdface::synth {
 double texel_cm(int size, const std::vector<AtlasTexel>& atlas);
 
 /// Returns a tangent-space normal map of the relief that is too fine for the mesh, as 8-bit RGB.
-/// The red channel is the component to the right of the texture, the green channel the component to
-/// its top. Eyeballs are smooth.
+/// The red channel is the component towards larger u, the green channel the component towards
+/// larger v. Eyeballs are smooth.
 /// \param atlas   skin_atlas(size).
-/// \param texel   texel_cm() of the atlas.
+/// \param texel_size_cm  texel_cm() of the atlas.
 /// \param fine    the complete relief of the head.
 /// \param coarse  the part of the relief that the mesh represents.
-std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas, double texel,
-                                       const Relief& fine, const Relief& coarse);
+std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas,
+                                       double texel_size_cm, const Relief& fine,
+                                       const Relief& coarse);
 
 /// Returns the roughness of the skin at a place, 0 … 1: low on lips, nose and forehead, lowest on
 /// eyes.

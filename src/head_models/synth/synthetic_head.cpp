@@ -44,7 +44,7 @@ SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp) : scalp
   });
   for (std::uint32_t v = 0; v < layout.addresses.size(); ++v) {
     const synth::Address& address = layout.addresses[v];
-    if (address.sheet != synth::Sheet::kStrip) continue;
+    if (address.patch != synth::SkinPatch::kStrip) continue;
     if (address.b == synth::row_unit(synth::kRows - 1)) rim_.push_back(v);
   }
   edge_cm_ = edge_of(topology_.vertex_count);

@@ -60,28 +60,28 @@ Eigen::Vector2d disc_centre() {
 struct HalfAxes {
   Eigen::Vector2d edge, hole;
 };
-HalfAxes half_axes_of(Sheet sheet) {
-  if (sheet == Sheet::kEye) return {{0.62, 0.36}, {0.50, 0.28}};
-  if (sheet == Sheet::kNostril) return {{0.45, 0.45}, {0.2, 0.2}};
-  if (sheet == Sheet::kMouth) return {{0.8, 0.12}, {0.6, 0.03}};
+HalfAxes half_axes_of(SkinPatch patch) {
+  if (patch == SkinPatch::kEye) return {{0.62, 0.36}, {0.50, 0.28}};
+  if (patch == SkinPatch::kNostril) return {{0.45, 0.45}, {0.2, 0.2}};
+  if (patch == SkinPatch::kMouth) return {{0.8, 0.12}, {0.6, 0.03}};
   return {{0.4, 0.4}, {0.4, 0.4}};
 }
 
 Eigen::Vector2d in_opening(const Address& address) {
-  const HalfAxes axes = half_axes_of(address.sheet);
-  if (address.sheet == Sheet::kEarCore) {
+  const HalfAxes axes = half_axes_of(address.patch);
+  if (address.patch == SkinPatch::kEarCore) {
     return {axes.edge.x() * (2 * address.a - 1), axes.edge.y() * (1 - 2 * address.b)};
   }
   const Eigen::Vector2d start = point_on_square(address.a);
-  const Eigen::Vector2d round = address.sheet == Sheet::kEar ? start : start / start.norm();
+  const Eigen::Vector2d round = address.patch == SkinPatch::kEar ? start : start / start.norm();
   const Eigen::Vector2d edge = round.cwiseProduct(axes.edge);
   if (address.b <= 1) return start + (edge - start) * address.b;
   return edge + (round.cwiseProduct(axes.hole) - edge) * (address.b - 1);
 }
 
 /// Maps a point q in the square [−1, 1]² of an opening to texture coordinates.
-Eigen::RowVector2d unwrap_opening(Sheet sheet, double side, const Eigen::Vector2d& q) {
-  const Opening& w = opening_of(sheet);
+Eigen::RowVector2d unwrap_opening(SkinPatch patch, double side, const Eigen::Vector2d& q) {
+  const Opening& w = opening_of(patch);
   const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
   const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
   return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
@@ -116,18 +116,18 @@ double strip_v(double unit) {
   return scaled(0, down(unit)).y();
 }
 
-Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place) {
-  return unwrap_opening(sheet, side, place.cwiseProduct(half_axes_of(sheet).hole));
+Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector2d& place) {
+  return unwrap_opening(patch, side, place.cwiseProduct(half_axes_of(patch).hole));
 }
 
 Eigen::RowVector2d unwrap(const Address& address) {
-  if (address.sheet == Sheet::kStrip) return scaled(across(address.a), down(address.b));
-  if (address.sheet == Sheet::kCap) {
+  if (address.patch == SkinPatch::kStrip) return scaled(across(address.a), down(address.b));
+  if (address.patch == SkinPatch::kCap) {
     const double deep = column_unit(kBackColumn) - column_unit(kFrontColumn);
     return scaled(across(address.a), -kCapHeight * address.b / deep);
   }
-  const Sheet sheet = address.sheet == Sheet::kEarCore ? Sheet::kEar : address.sheet;
-  return unwrap_opening(sheet, address.side, in_opening(address));
+  const SkinPatch patch = address.patch == SkinPatch::kEarCore ? SkinPatch::kEar : address.patch;
+  return unwrap_opening(patch, address.side, in_opening(address));
 }
 
 }  // namespace crowdface::synth

@@ -15,7 +15,7 @@ Eigen::RowVector2d unwrap(const Address& address);
 /// texture.
 /// \param side   1, or −1 for the opening at x < 0.
 /// \param place  point in the unit disc, which maps to the hole.
-Eigen::RowVector2d unwrap_hole(Sheet sheet, double side, const Eigen::Vector2d& place);
+Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector2d& place);
 
 /// Returns texture coordinates in the texture area of an eyeball, a disc beside the cap that is
 /// large enough that the pupil is round in a texture of 1,024 texels.
