@@ -107,7 +107,9 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
   std::uint64_t end = sizeof header + header.arrays * sizeof(StoredArray);
   entry.require_size(end <= size);
   entry.arrays_.resize(header.arrays);
-  std::memcpy(entry.arrays_.data(), bytes.data() + sizeof header, end - sizeof header);
+  if (!entry.arrays_.empty()) {  // memcpy must not be given the null pointer of an empty vector
+    std::memcpy(entry.arrays_.data(), bytes.data() + sizeof header, end - sizeof header);
+  }
   for (const StoredArray& row : entry.arrays_) {
     end = aligned(end);
     entry.require_size(row.offset == end && end <= size && row.name[sizeof row.name - 1] == 0);
