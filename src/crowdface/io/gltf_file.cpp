@@ -2,6 +2,7 @@
 #include "crowdface/io/gltf_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -58,17 +59,17 @@ std::string decoded_base64(std::string_view text) {
 
 Eigen::Matrix4d local_matrix(const GltfJson& node) {
   if (node.contains("matrix")) return matrix_from(node.at("matrix").get<std::vector<double>>());
-  const auto t = node.value("translation", std::vector<double>{0, 0, 0});
-  const auto q = node.value("rotation", std::vector<double>{0, 0, 0, 1});
-  const auto s = node.value("scale", std::vector<double>{1, 1, 1});
-  const double x = q.at(0), y = q.at(1), z = q.at(2), w = q.at(3);
+  // Reading into arrays refuses lists that are too short.
+  const auto t = node.value("translation", std::array<double, 3>{0, 0, 0});
+  const auto [x, y, z, w] = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
+  const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
   Eigen::Matrix4d matrix;
-  matrix << s.at(0) * (1 - 2 * (y * y + z * z)), s.at(1) * 2 * (x * y - z * w),
-      s.at(2) * 2 * (x * z + y * w), t.at(0),  //
-      s.at(0) * 2 * (x * y + z * w), s.at(1) * (1 - 2 * (x * x + z * z)),
-      s.at(2) * 2 * (y * z - x * w), t.at(1),  //
-      s.at(0) * 2 * (x * z - y * w), s.at(1) * 2 * (y * z + x * w),
-      s.at(2) * (1 - 2 * (x * x + y * y)), t.at(2),  //
+  matrix << s[0] * (1 - 2 * (y * y + z * z)), s[1] * 2 * (x * y - z * w),
+      s[2] * 2 * (x * z + y * w), t[0],  //
+      s[0] * 2 * (x * y + z * w), s[1] * (1 - 2 * (x * x + z * z)), s[2] * 2 * (y * z - x * w),
+      t[1],  //
+      s[0] * 2 * (x * z - y * w), s[1] * 2 * (y * z + x * w), s[2] * (1 - 2 * (x * x + y * y)),
+      t[2],  //
       0, 0, 0, 1;
   return matrix;
 }
