@@ -190,7 +190,7 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
   m.folded_triangle_count =
       TargetTriangles(shape.skin.triangles, shape.skin.rows_of(shape.positions))
           .compare(shape.skin.rows_of(result.positions))
-          .flipped;
+          .flipped_count;
   return m;
 }
 
