@@ -259,7 +259,11 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
   refuse("word.stl", "solid x\nvertex 1 2 three\n", "three");
   refuse("cut.glb", whole.substr(0, whole.size() - 4), "cut off");
   refuse("loop.glb", glb(cube(), R"({"children":[0]})"), "form a cycle");
-  refuse("short.glb", glb(cube(), R"({"children":[1],"rotation":[0,0,1]})"), "does not have");
+  for (const char* list : {R"("matrix":[1])", R"("translation":[0,0])", R"("rotation":[0,0,1])",
+                           R"("scale":[1,1])", R"("scale":[1,1,1,1])"}) {
+    refuse("list.glb", glb(cube(), concat(R"({"children":[1],)", list, "}")), "numbers in the");
+  }
+  refuse("child.glb", glb(cube(), R"({"children":[1,7]})"), "does not have");
   refuse("other_end.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n", "middle");
   const std::string nan("\0\0\xc0\x7f", 4);
   refuse("nan.ply",

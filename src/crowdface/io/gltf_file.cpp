@@ -57,12 +57,30 @@ std::string decoded_base64(std::string_view text) {
   return out;
 }
 
-Eigen::Matrix4d local_matrix(const GltfJson& node) {
-  if (node.contains("matrix")) return matrix_from(node.at("matrix").get<std::vector<double>>());
-  // Reading into arrays refuses lists that are too short.
-  const auto t = node.value("translation", std::array<double, 3>{0, 0, 0});
-  const auto [x, y, z, w] = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
-  const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
+/// Reads a list of N numbers of a node.
+/// \throws InvalidInput (exit 3) if the list has another length.
+template <std::size_t N>
+std::array<double, N> numbers_of_node(const GltfFile& file, std::size_t node, const char* key,
+                                      const std::array<double, N>& if_missing) {
+  const auto numbers = file.scene().at("nodes")[node].value(
+      key, std::vector<double>(if_missing.begin(), if_missing.end()));
+  if (numbers.size() != N) {
+    file.fail(concat("expected ", N, " numbers in the ", key, " of node ", node, ", found ",
+                     numbers.size()));
+  }
+  std::array<double, N> read;
+  std::copy(numbers.begin(), numbers.end(), read.begin());
+  return read;
+}
+
+Eigen::Matrix4d local_matrix(const GltfFile& file, std::size_t node) {
+  if (file.scene().at("nodes")[node].contains("matrix")) {
+    const auto columns = numbers_of_node<16>(file, node, "matrix", {});
+    return matrix_from({columns.begin(), columns.end()});
+  }
+  const auto t = numbers_of_node<3>(file, node, "translation", {0, 0, 0});
+  const auto [x, y, z, w] = numbers_of_node<4>(file, node, "rotation", {0, 0, 0, 1});
+  const auto s = numbers_of_node<3>(file, node, "scale", {1, 1, 1});
   Eigen::Matrix4d matrix;
   matrix << s[0] * (1 - 2 * (y * y + z * z)), s[1] * 2 * (x * y - z * w),
       s[2] * 2 * (x * z + y * w), t[0],  //
@@ -307,7 +325,6 @@ std::vector<std::uint32_t> GltfFile::parents() const {
 /// Processes each node once, parents before children.
 std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
     const std::vector<std::uint32_t>& parents) const {
-  const Json& nodes = scene_.at("nodes");
   std::vector<Eigen::Matrix4d> worlds(parents.size());
   std::vector<bool> known(parents.size(), false);
   std::vector<std::uint32_t> above;
@@ -318,7 +335,7 @@ std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
     }
     for (; !above.empty(); above.pop_back()) {
       const std::uint32_t n = above.back(), parent = parents[n];
-      const Eigen::Matrix4d local = local_matrix(nodes[n]);
+      const Eigen::Matrix4d local = local_matrix(*this, n);
       worlds[n] = parent == kNoIndex ? local : matrix_product(worlds[parent], local);
       if (!(worlds[n].array().abs() < kFarthestNode).all()) {
         fail(concat("the position of its node ", n, " is out of range"));
