@@ -17,7 +17,14 @@
 #include "crowdface/core/fixed_order.h"
 #include "crowdface/core/interrupt.h"
 
-#ifdef __SANITIZE_THREAD__
+#if defined(__SANITIZE_THREAD__)  // GCC
+#define CROWDFACE_THREAD_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)  // clang
+#define CROWDFACE_THREAD_SANITIZER
+#endif
+#endif
+#ifdef CROWDFACE_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
 
@@ -29,7 +36,7 @@ namespace {
 /// synchronisation. Does nothing in other builds.
 class HandOver {
  public:
-#ifdef __SANITIZE_THREAD__
+#ifdef CROWDFACE_THREAD_SANITIZER
   void give() {
     __tsan_release(&at_);
   }
