@@ -18,16 +18,18 @@ def sources(*endings):
 
 
 def comments():
-    """Blocks of consecutive comment lines, with the first line of code after them."""
+    """Comments with the code that they describe: the first line below them, or the line that they end."""
     for path in sources(".h", ".cpp"):
-        block = []
+        block, code_before = [], ""
         for line in path.read_text().split("\n"):
             text = line.strip()
             if text.startswith("//") and "SPDX" not in text:
                 block.append(text.lstrip("/< ").rstrip())
-            elif block:
-                yield f"{path.relative_to(ROOT)}: {' '.join(block)}    [{text}]"
-                block = []
+                continue
+            if block:
+                yield f"{path.relative_to(ROOT)}: {' '.join(block)}    [{code_before or text}]"
+            code, mark, comment = text.partition("///<")
+            block, code_before = ([comment.strip()], code.strip()) if mark else ([], "")
 
 
 def identifiers():
