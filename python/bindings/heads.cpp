@@ -189,7 +189,7 @@ class Smoothing {
 
   std::vector<Positions> smoothed(const Eigen::Ref<const Positions>& positions,
                                   const std::vector<std::uint64_t>& levels) const {
-    return smooth_view(filter_, positions, levels);
+    return smooth_without_copy(filter_, positions, levels);
   }
 
   Positions blended(const std::string& recipe, const std::vector<std::string>& regions,

@@ -74,12 +74,12 @@ class PythonJob {
     std::vector<std::string> lines;
     const CrowdPlan plan = plan_crowd(job_.config, job_.inputs, prepared(), defects, cache_);
     std::string text;
-    annotated_plan_text(plan.crowd, job_.names, job_.settings,
-                        table_facts(job_.config))([&](std::string_view piece) { text += piece; });
+    annotated_plan_text(plan.crowd, job_.names, job_.settings, tags_and_kinds_of(job_.config))(
+        [&](std::string_view piece) { text += piece; });
     for (const std::string_view line : split(text, '\n')) {
       if (!line.empty()) lines.emplace_back(line);
     }
-    require_whole(prepared());
+    require_not_truncated(prepared());
     return lines;
   }
 
@@ -90,7 +90,7 @@ class PythonJob {
     for (const FacePlan& face : faces) pointers.push_back(&face.recipe);
     std::vector<Positions> results(faces.size());
     builder().build(pointers, results);
-    require_whole(prepared());
+    require_not_truncated(prepared());
     return results;
   }
 
@@ -171,7 +171,7 @@ fs::path run(const Source& source, GenerateOptions options, bool only_plan) {
   only_plan ? plan(source.file, source.overrides, options)
             : generate(source.file, source.overrides, options);
   Problems problems;
-  const ConfigReading reading = read_config_parts(source.file, source.overrides, problems);
+  const ConfigReading reading = read_partial_config(source.file, source.overrides, problems);
   return reading.config.output.directory;
 }
 

@@ -99,7 +99,7 @@ void blend(const BlendOptions& options) {
 
 }  // namespace
 
-Run add_blend(CLI::App& program) {
+CommandAction add_blend(CLI::App& program) {
   return add_command(program, "blend", "Blend one face from its recipe in a plan", declare_blend,
                      blend);
 }

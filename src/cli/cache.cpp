@@ -9,7 +9,7 @@
 
 namespace crowdface::cli {
 
-Run add_cache(CLI::App& program) {
+CommandAction add_cache(CLI::App& program) {
   struct Options : CommonOptions {
     CacheOption cache;
     bool clear = false;
@@ -27,8 +27,8 @@ Run add_cache(CLI::App& program) {
           return;
         }
         const CacheContents contents = list_cache(folder);
-        print(concat(folder.string(), "\n", contents.prepared_count, " prepared heads, ",
-                     contents.read_count, " loaded heads, ",
+        print(concat(folder.string(), "\n", contents.prepared_head_count, " prepared heads, ",
+                     contents.loaded_head_count, " loaded heads, ",
                      format_fixed(static_cast<double>(contents.bytes) / 1e6, 1), " MB\n"));
       });
 }

@@ -122,7 +122,7 @@ void write_landmarks(const Job& job, const HeadLandmarks& landmarks,
 
 }  // namespace
 
-Run add_check(CLI::App& program) {
+CommandAction add_check(CLI::App& program) {
   struct Options : CommonOptions {
     ConfigOptions config;
     std::string masks, landmarks;
@@ -148,7 +148,7 @@ Run add_check(CLI::App& program) {
         const bool limited = !job.config.named_traits().empty();
         if (!limited && !options.traits && options.landmarks.empty()) return;
         const HeadLandmarks landmarks = find_head_landmarks(job.config, job.inputs);
-        require_named_traits(job.config, landmarks);
+        require_available_traits(job.config, landmarks);
         if (options.traits) print(format_head_traits(job.config, job.inputs, landmarks));
         if (!options.landmarks.empty()) write_landmarks(job, landmarks, options.landmarks);
       });

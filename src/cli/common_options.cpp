@@ -55,7 +55,7 @@ void CommonOptions::add_to(CLI::App& command) {
                "Change a limit on the size of inputs: " + describe_input_limits());
 }
 
-std::vector<std::string> CommonOptions::limit_arguments() const {
+std::vector<std::string> CommonOptions::input_limit_arguments() const {
   std::vector<std::string> arguments;
   for (const std::string& limit : limits) arguments.insert(arguments.end(), {"--limit", limit});
   return arguments;

@@ -25,9 +25,9 @@ struct CommonOptions {
   std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
-  /// Returns the `--limit` arguments that this run received, to pass on to the processes that this
-  /// run starts.
-  std::vector<std::string> limit_arguments() const;
+  /// Returns the `--limit` options of this command line (limits on the size of inputs), to pass
+  /// them on to processes that this run starts.
+  std::vector<std::string> input_limit_arguments() const;
   /// Applies the options. \return an object that limits the number of threads during its lifetime.
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
 };
@@ -59,7 +59,7 @@ struct WriteOptions {
   bool dry_run = false;
   std::string memory_limit;
   std::string shard;
-  bool planned = false;
+  bool planned = false;  ///< `--planned`: require a plan in the folder; make no new plan
 
   void add_to(CLI::App& command);
   /// Adds the options `--shard` and `--planned`. For commands that build faces.
@@ -97,8 +97,8 @@ std::uint64_t parse_whole_number(std::string_view option, const std::string& tex
 ///   `Options`.
 /// \param work      executes the command.
 template <class Options>
-Run add_command(CLI::App& program, const char* name, const char* description,
-                void (*declare)(CLI::App&, Options&), void (*work)(const Options&)) {
+CommandAction add_command(CLI::App& program, const char* name, const char* description,
+                          void (*declare)(CLI::App&, Options&), void (*work)(const Options&)) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = add_subcommand(program, name, description);
   declare(command, *options);

@@ -248,7 +248,7 @@ std::string synopsis(const CommandDescription& command) {
   return text + '\n';
 }
 
-Run add_printer(
+CommandAction add_printer(
     CLI::App& program, const char* name, const char* help,
     const std::function<void(CLI::App&, std::string&)>& declare,
     const std::function<std::string(const ProgramDescription&, const std::string&)>& make) {
@@ -279,7 +279,7 @@ std::string manual_page(const ProgramDescription& program) {
   return text + concat(".SH EXIT STATUS\n.nf\n", roff(program.footer), "\n.fi\n");
 }
 
-Run add_completion(CLI::App& program) {
+CommandAction add_completion(CLI::App& program) {
   return add_printer(
       program, "completion", "Print the script with which a shell completes this command line",
       [](CLI::App& command, std::string& shell) {
@@ -290,7 +290,7 @@ Run add_completion(CLI::App& program) {
       completion_script);
 }
 
-Run add_manual(CLI::App& program) {
+CommandAction add_manual(CLI::App& program) {
   return add_printer(
       program, "manual", "Print the manual page, for man", [](CLI::App&, std::string&) {},
       [](const ProgramDescription& tables, const std::string&) { return manual_page(tables); });

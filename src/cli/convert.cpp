@@ -144,7 +144,7 @@ void declare_convert(CLI::App& command, ConvertOptions& options) {
 
 }  // namespace
 
-Run add_convert(CLI::App& program) {
+CommandAction add_convert(CLI::App& program) {
   return add_command(program, "convert", "Convert a mesh to another format", declare_convert,
                      convert);
 }

@@ -31,7 +31,7 @@ void edit(const EditorOptions& options) {
   EditOptions edited;
   edited.cache = options.config.cache_path();
   edited.cache.trusts_seen_files = !options.hash_all;
-  edited.generate_arguments = options.limit_arguments();
+  edited.generate_arguments = options.input_limit_arguments();
   if (!options.threads.empty()) {
     edited.generate_arguments.insert(edited.generate_arguments.end(),
                                      {"--threads", options.threads});
@@ -51,7 +51,7 @@ void edit(const EditorOptions& options) {
 
 }  // namespace
 
-Run add_edit(CLI::App& program) {
+CommandAction add_edit(CLI::App& program) {
   return add_command(program, "edit", "Edit faces by hand on a page in this machine's browser",
                      declare_edit, edit);
 }

@@ -6,7 +6,7 @@
 
 namespace crowdface::cli {
 
-Run add_gather(CLI::App& program) {
+CommandAction add_gather(CLI::App& program) {
   struct Options : CommonOptions {
     CacheOption cache;
     std::string directory;

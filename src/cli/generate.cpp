@@ -6,7 +6,7 @@
 
 namespace crowdface::cli {
 
-Run add_generate(CLI::App& program) {
+CommandAction add_generate(CLI::App& program) {
   struct Options : CommonOptions {
     ConfigOptions config;
     WriteOptions write;

@@ -153,8 +153,8 @@ void import_makehuman(const ImportOptions& options, const HeadRequest& request) 
     for (std::uint64_t i = 1; i <= request.count; ++i) {
       dress->add_person(request.directory, head_name("makehuman", i), request.seed, i, files);
     }
-    dress->add_common(request.directory,
-                      {{}, [&] { return encode(model.neutral().positions, {}); }}, files);
+    dress->add_shared_files(request.directory,
+                            {{}, [&] { return encode(model.neutral().positions, {}); }}, files);
   }
   if (options.body) {
     const fs::path folder = request.directory / "body";
@@ -249,7 +249,7 @@ void declare_import(CLI::App& command, ImportOptions& options) {
 
 }  // namespace
 
-Run add_import(CLI::App& program) {
+CommandAction add_import(CLI::App& program) {
   return add_command(program, "import",
                      "Make heads from a morphable model that you have: MakeHuman or ICT-FaceKit",
                      declare_import, import_heads);

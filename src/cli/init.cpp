@@ -151,7 +151,7 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
   remove_odd_heads(*set, components);
   const bool stands_apart = needs_rigid_alignment(*set, components);
   if (stands_apart) align_heads(*set, components, Align::kRigid);
-  const HeadShape mean = shape_of_mean(*set);
+  const HeadShape mean = mean_head_shape(*set);
   ShapeAnalysis analysis{set->heads[0].positions, find_orientation(set->topology, mean), {}};
   if (const auto marks =
           find_face_marks(set->topology, mean,
@@ -209,13 +209,13 @@ void init(const InitOptions& options) {
   const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
   if (files.size() < kMinHeads || files.size() > kMaxHeads) {
-    const std::string left_out = other_meshes_message(heads);
+    const std::string left_out = left_out_meshes_message(heads);
     throw MissingInput(
         concat(heads.string(), ": expected ", kMinHeads, " to ", kMaxHeads,
                " heads (OBJ, PLY, GLB, glTF, FBX, USD, NumPy), found ", files.size(),
                left_out.empty() ? suggested_head_pattern(heads) : concat("; ", left_out)));
   }
-  if (const std::string left_out = other_meshes_message(heads); !left_out.empty()) {
+  if (const std::string left_out = left_out_meshes_message(heads); !left_out.empty()) {
     log_warning(left_out);
   }
   // Refuse to overwrite inputs or an existing config.
@@ -295,7 +295,7 @@ void init(const InitOptions& options) {
 
 }  // namespace
 
-Run add_init(CLI::App& program) {
+CommandAction add_init(CLI::App& program) {
   return add_command(program, "init", "Write a commented starter config for a folder of heads",
                      declare_init, init);
 }

@@ -71,7 +71,7 @@ int fail(ExitCode code, std::string_view message) {
 
 /// Runs a command and returns the exit code. Only this function translates exceptions to messages
 /// and exit codes.
-int run(const Run& command) {
+int run(const CommandAction& command) {
   try {
     command();
     if (is_out_of_memory()) throw std::bad_alloc();
@@ -174,14 +174,14 @@ int run_program(int argc, char** argv) {
   program.footer(kFooter);
   program.set_version_flag("--version", std::string("crowdface ") + kVersion);
   program.require_subcommand(1);
-  Run chosen;
-  for (Run (*add)(CLI::App&) :
+  CommandAction chosen;
+  for (CommandAction (*add)(CLI::App&) :
        {add_generate, add_check,      add_convert, add_init,   add_mask,   add_plan,
         add_prepare,  add_blend,      add_smooth,  add_gather, add_verify, add_sheet,
         add_synth,    add_import,     add_cache,   add_wrap,   add_edit,   add_submit,
         add_status,   add_completion, add_manual}) {
     const std::size_t before = program.get_subcommands({}).size();
-    Run command = add(program);
+    CommandAction command = add(program);
     program.get_subcommands({})[before]->final_callback(
         [&chosen, command = std::move(command)] { chosen = command; });
   }

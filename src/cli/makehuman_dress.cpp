@@ -206,11 +206,11 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
              eye, "newmtl eyelashes\nKd 0.02 0.015 0.012\nmap_d textures/eyelashes.png\n",
              "newmtl teeth\nKd 1 1 1\nmap_Kd textures/teeth.png\n",
              "newmtl tongue\nKd 1 1 1\nmap_Kd textures/tongue.png\n")));
-  files.push_back(
-      {folder / skin, [shares = makehuman_skin_shares(package_, person, seed, index),
-                       tone = makehuman_skin_density_factor(seed, index), most = max_texels_] {
-         return encoded(downsampled(blended_skin(shares, tone), most));
-       }});
+  files.push_back({folder / skin,
+                   [shares = makehuman_skin_shares(package_, person, seed, index),
+                    tone = makehuman_skin_optical_density_factor(seed, index), most = max_texels_] {
+                     return encoded(downsampled(blended_skin(shares, tone), most));
+                   }});
   const auto of_colour = [&](const FittedMesh::Picture& picture) { return picture.name == colour; };
   if (eye_texture_of_colour_.contains(colour)) return;
   eye_texture_of_colour_[colour] = std::ranges::find_if(parts_.eye_colours, of_colour)->path;
@@ -233,8 +233,8 @@ void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& fil
                    }});
 }
 
-void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
-                                std::vector<HeadFile>& files) {
+void MakeHumanDress::add_shared_files(const fs::path& folder, HeadFile average_head,
+                                      std::vector<HeadFile>& files) {
   const fs::path textures = folder / "textures", attachments = folder / "attachments";
   files.push_back({textures / "eyelashes.png", [from = parts_.lashes, most = max_texels_] {
                      return encoded_alpha(downsampled(read_picture(from), most));
@@ -252,8 +252,8 @@ void MakeHumanDress::add_common(const fs::path& folder, HeadFile base,
       "# For \"attachments: {from: THIS_FOLDER}\" in a config. The tags are those of tags.yaml.\n"
       "attachments:\n  fitted_to: base.obj\n";
   std::string items;
-  base.path = attachments / "base.obj";
-  files.push_back(std::move(base));
+  average_head.path = attachments / "base.obj";
+  files.push_back(std::move(average_head));
   std::set<std::string> kinds;
   for (const MakeHumanAttachment& item : makehuman_attachments(package_)) {
     const auto may_wear = [&](const std::set<std::string>& tags) {

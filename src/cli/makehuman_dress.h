@@ -33,8 +33,9 @@ class MakeHumanDress {
   /// Adds the files that all heads share: textures of lashes, teeth and tongue; `licences.txt`; and
   /// the folder `attachments`. This folder contains hair, brows and beards for the added persons,
   /// and the config section that lists these attachments.
-  /// \param base  the average head, with the same topology as the heads.
-  void add_common(const std::filesystem::path& folder, HeadFile base, std::vector<HeadFile>& files);
+  /// \param average_head  has the same topology as the heads.
+  void add_shared_files(const std::filesystem::path& folder, HeadFile average_head,
+                        std::vector<HeadFile>& files);
 
  private:
   void add_attachment(const std::filesystem::path& folder, const MakeHumanAttachment& item,

@@ -51,7 +51,7 @@ MaskInputs heads_of_folder(const fs::path& folder) {
 /// the mask file that the config names may not exist yet.
 MaskInputs heads_of_config(const fs::path& file) {
   Problems problems;
-  const ConfigReading reading = read_config_parts(file, {}, problems);
+  const ConfigReading reading = read_partial_config(file, {}, problems);
   if (!reading.heads_known) problems.throw_if_any();
   const Config::Faces& faces = reading.config.faces;
   return {faces, Orientation{faces.up, faces.front}};
@@ -90,7 +90,7 @@ void mask(const MaskOptions& options) {
   Problems problems;
   const auto faces = load_head_set(wanted.faces, options.cache.cache_path(), problems);
   problems.throw_if_any();
-  const HeadShape mean = shape_of_mean(*faces);
+  const HeadShape mean = mean_head_shape(*faces);
   const Orientation orientation = bearing_of(options, wanted, faces->topology, mean);
   const int size =
       options.size.empty()
@@ -130,7 +130,7 @@ void declare_mask(CLI::App& command, MaskOptions& options) {
 
 }  // namespace
 
-Run add_mask(CLI::App& program) {
+CommandAction add_mask(CLI::App& program) {
   return add_command(program, "mask",
                      "Propose a mask of the regions brow, nose and mouth from the heads' shape",
                      declare_mask, mask);

@@ -56,7 +56,7 @@ void pick(const WrapCommand& options) {
     FileMesh mesh = read_mesh(entry.scan_file);
     Scan scan = scan_of(mesh, entry.scan_file);
     ColourRows colours = colours_at_vertices(scan, ScanColours(std::move(mesh), entry.scan_file));
-    return PickInputs{inputs.shape,
+    return PickInputs{inputs.wrap_template,
                       inputs.file.positions * inputs.mm_per_unit,
                       inputs.file.positions,
                       std::move(scan),

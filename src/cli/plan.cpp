@@ -8,7 +8,7 @@
 
 namespace crowdface::cli {
 
-Run add_plan(CLI::App& program) {
+CommandAction add_plan(CLI::App& program) {
   struct Options : CommonOptions {
     ConfigOptions config;
     WriteOptions write;

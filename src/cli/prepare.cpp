@@ -41,7 +41,7 @@ void require_heads_in_cache(const Prepared& prepared, const std::vector<std::str
 
 }  // namespace
 
-Run add_prepare(CLI::App& program) {
+CommandAction add_prepare(CLI::App& program) {
   struct Options : CommonOptions {
     ConfigOptions config;
     std::string shard;

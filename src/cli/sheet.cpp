@@ -6,7 +6,7 @@
 
 namespace crowdface::cli {
 
-Run add_sheet(CLI::App& program) {
+CommandAction add_sheet(CLI::App& program) {
   struct Options : CommonOptions {
     CacheOption cache;
     std::string directory;

@@ -105,7 +105,7 @@ void declare_smooth(CLI::App& command, SmoothOptions& options) {
 
 }  // namespace
 
-Run add_smooth(CLI::App& program) {
+CommandAction add_smooth(CLI::App& program) {
   return add_command(program, "smooth", "Apply the Laplacian smoothing S_L (Eq. 1) to one mesh",
                      declare_smooth, smooth_file);
 }

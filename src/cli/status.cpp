@@ -50,14 +50,14 @@ void show(const StatusOptions& options) {
     if (renew) std::cout << "\033[H\033[2J";
     print(options.json ? format_status_json(status) : format_status_table(status));
     if (!std::cout.flush()) throw IoError("standard output: writing failed");
-    if (!options.watch || status.is_gathered) return;
+    if (!options.watch || status.is_report_written) return;
     wait(every);
   }
 }
 
 }  // namespace
 
-Run add_status(CLI::App& program) {
+CommandAction add_status(CLI::App& program) {
   return add_command(program, "status",
                      "Show the progress of a crowd that this or other machines are making",
                      declare_status, show);

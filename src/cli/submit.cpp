@@ -26,7 +26,7 @@ struct SubmitOptions : CommonOptions {
   ConfigOptions config;
   std::string engine = "slurm", shards, prepares, processors = "1", memory, scratch, program;
   std::string grace = "60";
-  EngineOptions of_engine;
+  JobEngineOptions of_engine;
   bool print = false;
 };
 
@@ -88,7 +88,7 @@ Engine engine_from(const std::string& name) {
 /// Checks the options.
 /// \throws UsageError if a given option does not apply to the chosen job engine.
 void refuse_inapplicable_options(const SubmitOptions& options, Engine engine) {
-  const EngineOptions& of_engine = options.of_engine;
+  const JobEngineOptions& of_engine = options.of_engine;
   const auto only_for = [&](const char* name, bool given, Engine wanted) {
     if (!given || engine == wanted) return;
     throw UsageError(concat(name, ": only --engine ", name_of(wanted), " supports this option"));
@@ -116,10 +116,11 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   tasks.program =
       options.program.empty() ? fs::read_symlink("/proc/self/exe") : full_path(options.program);
   tasks.config_arguments = config_arguments(options.config, tasks.directory.root);
-  tasks.limit_arguments = options.limit_arguments();
+  tasks.input_limit_arguments = options.input_limit_arguments();
   tasks.crowd_name = job.config.crowd.name;
-  tasks.cache = options.config.cache_folder.empty() ? tasks.directory.task_folder() / "cache"
-                                                    : full_path(options.config.cache_folder);
+  tasks.cache = options.config.cache_folder.empty()
+                    ? tasks.directory.cluster_task_folder() / "cache"
+                    : full_path(options.config.cache_folder);
   tasks.scratch_folder = options.scratch;
   tasks.processor_count = parse_whole_number("--processors", options.processors, 1, kMaxProcessors);
   tasks.memory_bytes = parse_byte_size("--memory", options.memory);
@@ -156,7 +157,7 @@ void run_script(const fs::path& script) {
 void submit(const SubmitOptions& options) {
   const Engine engine = engine_from(options.engine);
   refuse_inapplicable_options(options, engine);
-  EngineOptions of_engine = options.of_engine;
+  JobEngineOptions of_engine = options.of_engine;
   of_engine.grace_seconds = parse_whole_number("--grace", options.grace, 1, 65535);
   const Job job =
       load_job(options.config.config_file, options.config.overrides, options.config.cache_path());
@@ -176,7 +177,7 @@ void submit(const SubmitOptions& options) {
 
 }  // namespace
 
-Run add_submit(CLI::App& program) {
+CommandAction add_submit(CLI::App& program) {
   return add_command(program, "submit",
                      "Run the whole job as tasks on a farm: Slurm or GNU parallel", declare_submit,
                      submit);

@@ -170,7 +170,7 @@ void declare_synth(CLI::App& command, SynthOptions& options) {
 
 }  // namespace
 
-Run add_synth(CLI::App& program) {
+CommandAction add_synth(CLI::App& program) {
   return add_command(program, "synth",
                      "Make synthetic heads in one topology, with UVs and a region mask",
                      declare_synth, synth);

@@ -45,7 +45,7 @@ void verify(const VerifyOptions& options) {
 
 }  // namespace
 
-Run add_verify(CLI::App& program) {
+CommandAction add_verify(CLI::App& program) {
   return add_command(program, "verify",
                      "Check a finished crowd against its ledger: find missing and altered files",
                      declare_verify, verify);

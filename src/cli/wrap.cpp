@@ -92,7 +92,7 @@ void declare_wrap(CLI::App& command, WrapCommand& options) {
 
 }  // namespace
 
-Run add_wrap(CLI::App& program) {
+CommandAction add_wrap(CLI::App& program) {
   return add_command<WrapCommand>(
       program, "wrap", "Fit a template head to raw scans, so that all heads share one topology",
       declare_wrap, [](const WrapCommand& options) {

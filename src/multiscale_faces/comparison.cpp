@@ -63,8 +63,8 @@ double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims,
 
 namespace {
 
-/// For each edge between two triangles with both end points in the border between regions: the two
-/// triangles.
+/// Returns the pairs of adjacent triangles whose common edge lies in the border between regions
+/// (both end points of the edge are marked in `border`).
 std::vector<std::pair<std::size_t, std::size_t>> pairs_in(const FrontPatch& patch,
                                                           const std::vector<bool>& border) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> first;

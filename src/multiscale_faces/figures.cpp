@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr double kMmPerUnit = 10;  // the figures' heads are in centimetres
 constexpr double kScaleMm = 6;     // end of the colour scale
-// Level of the base surface: the coarsest level at which more than 99 % of the normals intersect
-// the face, on synthetic and ICT heads.
+// Level of the base surface: the coarsest level for which more than 99 % of the lines along its
+// normals meet the face, on synthetic and ICT heads.
 constexpr int kBase = 2;
 const std::vector<double> kBounds = {8, 16, 32, 64, 128};  // mm
 
@@ -113,8 +113,9 @@ std::vector<double> everywhere(int base, double weight) {
   return std::vector<double>(static_cast<std::size_t>(kLevelCount - 1 - base), weight);
 }
 
-/// The face by Yoon, Lewis and Rhee's method that is nearest to a given face of ours. The search
-/// covers base levels 0 to 3 and one weight w per level: each lender gets w, the target gets 1 − w.
+/// The face by Yoon, Lewis and Rhee's method that is nearest to a given face of crowdface. The
+/// search tries the base levels 0 to 3, and optimizes a weight w for each level above the base
+/// level: each lender gets the weight w, and the target gets 1 − w.
 /// \param regions  #lenders: the lender's weight at each vertex of the patch; or empty.
 struct Nearest {
   Positions face;
@@ -317,7 +318,7 @@ void how_exact_and_how_fast(Heads& heads, Report& report) {
   text << "front: " << patch.vertex_count() << " of " << heads.head(2).rows() << " vertices, "
        << patch.hole_rims.size() << " holes. A head from its own maps: " << d.rms_distance
        << " mm rms, " << d.rms_distance_to_surface << " to the surface, " << d.largest_distance
-       << " at most; normals that miss: " << 100 * face.missed_normal_share
+       << " at most; normals that miss: " << 100 * face.missed_sample_fraction
        << " %. Preparing a head: " << prepare << " s, a face: " << blend << " s";
   report.line(text.str());
 }

@@ -109,8 +109,8 @@ FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up,
   patch.hole_rims.assign(std::make_move_iterator(rims.begin() + 1),
                          std::make_move_iterator(rims.end()));
 
-  // Choose as corners of the square the border vertices that are farthest along the diagonals, seen
-  // from the front.
+  // The patch's border is mapped to a square. The square's corners are the border vertices that are
+  // farthest along the diagonals, seen from the front.
   const Positions points = patch.rows_of(mean);
   const int across = 3 - up.index - front.index;
   const auto along = [&](int axis, std::uint32_t v) {

@@ -135,7 +135,7 @@ void add_displacements(MultiscaleFace& face) {
         approximate_by_levels(kCoarsestSpans, surface.spans(), grid, distances - before).back());
     before = std::move(distances);
   }
-  face.missed_normal_share =
+  face.missed_sample_fraction =
       static_cast<double>(std::ranges::count(missed, 1)) / static_cast<double>(missed.size());
 }
 

@@ -33,8 +33,9 @@ struct MultiscaleFace {
   std::vector<SplineLattice> surfaces;  ///< by level, coarsest first; values are positions
   int base_level = 0;                   ///< the level of the base surface
   std::vector<SplineLattice>
-      displacements;               ///< by level from base_level + 1 on: added to the previous level
-  double missed_normal_share = 0;  ///< fraction of samples whose normals miss the finest surface
+      displacements;  ///< by level from base_level + 1 on: added to the previous level
+  /// fraction of samples at which the line along the normal misses the finest surface
+  double missed_sample_fraction = 0;
 };
 
 /// Computes the levels of a face.

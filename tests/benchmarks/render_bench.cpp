@@ -72,7 +72,7 @@ void BM_Scene(benchmark::State& state) {
     if (state.range(0) == 0) {
       benchmark::DoNotOptimize(RayScene(device, std::move(points), quads).point(0));
     } else {
-      moving.move_points(points);
+      moving.set_points(points);
     }
   }
 }

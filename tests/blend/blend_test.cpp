@@ -99,7 +99,7 @@ class Blend : public ::testing::Test {
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
       const RegionRecipe& r = recipe.regions[k];
       Positions face = Positions::Zero(head(0).rows(), 3);
-      for (const SourceWeight& part : target_shares(recipe)) {
+      for (const SourceWeight& part : target_head_weights(recipe)) {
         face += part.weight * level_of(static_cast<std::size_t>(part.head), r.iterations);
       }
       for (std::size_t b = 0; b <= r.finer_bands.size(); ++b) {

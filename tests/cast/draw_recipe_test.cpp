@@ -44,7 +44,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
   group.sampling.sources = {1, 3};
   for (RegionSampling& region : group.sampling.regions) region.extrapolation = {1.3, 1.3};
   casting.groups = {group};
-  const FaceKind kind = kind_of_group(casting, 0);
+  const FaceDistribution kind = distribution_of_group(casting, 0);
   for (std::uint64_t index = 1; index <= 50; ++index) {
     const FacePlan face = random_face(casting, index, 0, kind);
     EXPECT_EQ(face.group, "elderly");
@@ -55,7 +55,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
         EXPECT_TRUE(source.head == 1 || source.head == 3);
       }
     }
-    EXPECT_FALSE(random_face(casting, index, 0, kind_of_group(casting)).group)
+    EXPECT_FALSE(random_face(casting, index, 0, distribution_of_group(casting)).group)
         << "of none: by the numbers of the crowd";
   }
 }
@@ -63,7 +63,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
 TEST(Ageing, CanBeTakenBack) {
   CastingOptions casting = example();
   casting.sampling.old_heads = {1, 4};
-  const FacePlan young = random_face(casting, 7, 0, kind_of_group(casting));
+  const FacePlan young = random_face(casting, 7, 0, distribution_of_group(casting));
   FacePlan face = young;
   apply_age(face, 0.4, {casting.anchors, casting.tags}, casting.sampling);
   undo_age(face, {casting.anchors, casting.tags}, casting.sampling);

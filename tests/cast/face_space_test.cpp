@@ -61,7 +61,7 @@ class FaceSpaceTest : public ::testing::Test {
     samples_ = choose_face_samples(faces_.topology, find_components(adjacency_), mean, {2, 1}, 900);
     for (const Head& head : faces_.heads) {
       const NodeFields fields = filter_nodes(*filter_, nodes_, head.positions);
-      trajectories_.push_back(sample_trajectory(*filter_, nodes_, fields, samples_));
+      trajectories_.push_back(sample_smoothing_trajectory(*filter_, nodes_, fields, samples_));
     }
     mean_ = mean;
     const SampleCells cells = find_sample_cells(adjacency_, mean, samples_);
@@ -156,7 +156,7 @@ MirrorMap mirror_of_grid(std::uint32_t side, double next) {
                                  : column % 2 == 0 ? partner - 1
                                                    : partner + 1;
     map.corners.push_back({partner, next > 0 ? beside : partner, partner});
-    map.shares.push_back({1 - next, next, 0});
+    map.barycentric.push_back({1 - next, next, 0});
   }
   return map;
 }
@@ -172,7 +172,7 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
     trajectories_.clear();
     for (const Head& head : faces_.heads) {
       const NodeFields fields = filter_nodes(*filter_, nodes_, head.positions);
-      trajectories_.push_back(sample_trajectory(*filter_, nodes_, fields, traced));
+      trajectories_.push_back(sample_smoothing_trajectory(*filter_, nodes_, fields, traced));
     }
     SampledHeads heads =
         sample_heads(faces_, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit);
@@ -275,7 +275,8 @@ TEST_F(FaceSpaceTest, ExtrapolationAloneIsTheSamePerson) {
     return space_->point(recipe);
   };
   EXPECT_LT(FaceSpace::distance(point(0.8), point(1.3)), 1e-3);
-  EXPECT_GT((point(0.8).as_built - point(1.3).as_built).norm(), 0.5) << "though the meshes differ";
+  EXPECT_GT((point(0.8).with_extrapolation - point(1.3).with_extrapolation).norm(), 0.5)
+      << "though the meshes differ";
 }
 
 TEST_F(FaceSpaceTest, RigidMotionOfAHeadChangesNoDistance) {
@@ -387,7 +388,7 @@ TEST_F(FaceSpaceTest, SamplesAreSpreadOverTheSkin) {
 }
 
 TEST_F(FaceSpaceTest, TrajectoriesAreTheLevels) {
-  const auto levels = trajectory_levels(kMaxLevel);
+  const auto levels = stored_smoothing_levels(kMaxLevel);
   EXPECT_EQ(levels.front(), 0U);
   EXPECT_EQ(levels.back(), kMaxLevel);
   EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end()));

@@ -58,7 +58,7 @@ TEST_P(FloatKernelsDot, HasTheBitsOfSixteenPlainSumsAChunk) {
 
   std::vector<float> sums = a, expected = a;
   for (std::size_t i = 0; i < count; ++i) expected[i] += 0.3F * b[i];
-  EXPECT_EQ(add_scaled_and_square(0.3F, b.data(), count, sums.data()),
+  EXPECT_EQ(add_scaled_and_sum_squares(0.3F, b.data(), count, sums.data()),
             fixed_order_dot(expected.data(), expected.data(), count));
   EXPECT_EQ(sums, expected);
 }

@@ -63,15 +63,15 @@ TEST(Shares, AreScatteredExactly) {
                                             {0.05, 0.05, 0.05, 0.05, 0.7},
                                             {0.0, 1.0}}) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      const auto schedule = scatter_shares(shares, 300, seed, "test");
+      const auto schedule = schedule_shares_randomly(shares, 300, seed, "test");
       expect_between(schedule, shares, [](double due) {
         return std::pair(std::floor(due + 1e-9), std::ceil(due - 1e-9));
       });
-      const auto few = scatter_shares(shares, 77, seed, "test");
+      const auto few = schedule_shares_randomly(shares, 77, seed, "test");
       EXPECT_TRUE(std::equal(few.begin(), few.end(), schedule.begin()));
     }
   }
-  const auto fifth = scatter_shares({0.2}, 300, 1, "test");
+  const auto fifth = schedule_shares_randomly({0.2}, 300, 1, "test");
   int periodic = 0;
   for (std::size_t n = 5; n < 300; ++n) periodic += fifth[n] == 0 && fifth[n - 5] == 0 ? 1 : 0;
   EXPECT_LT(periodic, 30) << "of sixty: no row of a sheet is all red";

@@ -32,7 +32,7 @@ TEST_F(ConfigTest, CastingIsRead) {
   EXPECT_EQ(config->diversity.max_weight, 0.7);
   EXPECT_EQ(config->distance.area, FaceArea::kSkin);
   EXPECT_EQ(config->believability.max_stretch, 4);
-  EXPECT_EQ(config->believability.meshes, BelievabilityOptions::Meshes::kNone);
+  EXPECT_EQ(config->believability.meshes, BelievabilityOptions::MeshChecks::kNone);
   ASSERT_EQ(config->families.size(), 2U);
   EXPECT_EQ(config->families[0].target, 1);
   EXPECT_EQ(config->families[1].parents[0].head, 0);
@@ -152,7 +152,8 @@ TEST_F(ConfigTest, KeysThatOtherKeysOverrideAreTold) {
         "attachments:\n  items: [{name: hat, kind: hat, file: ../hat.obj}, {name: full, kind: "
         "beard, file: ../beard.obj}]\n  none: {hat: 0.9, beard: 0.5}\n");
   const auto warnings = [&](const std::string& more, const std::string& config = kTagged) {
-    const ConfigReading reading = read_config_parts(touch("c.yaml", config + more), {}, problems_);
+    const ConfigReading reading =
+        read_partial_config(touch("c.yaml", config + more), {}, problems_);
     EXPECT_TRUE(reading.is_complete) << told();
     return reading.warnings;
   };
@@ -301,8 +302,8 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   EXPECT_TRUE(top.bands[0].weights.empty());
   EXPECT_EQ(top.bands[2].weights[0].head, 1);
   EXPECT_THAT(config->families[0].inherited_parents, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
-  EXPECT_THAT(config->review.reviews[0].marks[0].locked_parts, ElementsAre(0, 1, 2));
-  EXPECT_THAT(config->review.reviews[0].marks[1].locked_parts, ElementsAre(2, 3, 5, 8));
+  EXPECT_THAT(config->review.reviews[0].marks[0].locked_bands, ElementsAre(0, 1, 2));
+  EXPECT_THAT(config->review.reviews[0].marks[1].locked_bands, ElementsAre(2, 3, 5, 8));
 
   const std::string written = effective_config(*config, folder_);
   const auto again = read(written);
@@ -436,7 +437,7 @@ TEST_F(ConfigTest, ReviewsAreReadAtTheirPlaces) {
   ASSERT_EQ(review.size(), 3U);
   EXPECT_EQ(review[0].verdict, ReviewMark::Verdict::kReject);
   EXPECT_EQ(review[1].verdict, ReviewMark::Verdict::kReject);
-  EXPECT_THAT(review[1].locked_parts, ElementsAre(0U));
+  EXPECT_THAT(review[1].locked_bands, ElementsAre(0U));
   EXPECT_EQ(review[1].note, "a: b");
   EXPECT_EQ(review[2].verdict, ReviewMark::Verdict::kKeep);
   std::ofstream(file) << "schema: 1\nfaces: {mob_0001: rejct, mob_0044: keep, mob_0002: {lock: "

@@ -320,7 +320,7 @@ TEST_F(ReadConfig, AttachmentsComeFromAFolder) {
                          "  quotas: {hair: 0.9}\n");
   ASSERT_TRUE(more) << told();
   EXPECT_EQ(more->attachments.items.size(), 3u);
-  EXPECT_EQ(more->attachments.head, Eigen::Index{0});
+  EXPECT_EQ(more->attachments.fitted_head, Eigen::Index{0});
   EXPECT_TRUE(more->attachments.file.empty());
   EXPECT_TRUE(more->attachments.none.empty()) << "the config's quotas replace them";
   EXPECT_EQ(more->attachments.quotas, (std::map<std::string, double>{{"hair", 0.9}}));

@@ -59,11 +59,11 @@ TEST(DirectoryHandle, ASecondFolderOfItsNameIsAnother) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "in");
   const DirectoryHandle held(folder / "in");
-  EXPECT_NO_THROW(held.require_same());
+  EXPECT_NO_THROW(held.require_still_at_path());
   fs::rename(folder / "in", folder / "moved");
-  EXPECT_THROW(held.require_same(), IoError);
+  EXPECT_THROW(held.require_still_at_path(), IoError);
   fs::create_directories(folder / "in");
-  EXPECT_THROW(held.require_same(), IoError);
+  EXPECT_THROW(held.require_still_at_path(), IoError);
   EXPECT_THROW(DirectoryHandle(folder / "none"), CannotCreate);
 }
 

@@ -55,7 +55,7 @@ TEST_F(Status, CountsEachShardsFacesInAllLedgers) {
   EXPECT_EQ(found.shards[2].face_count, 2U);
   EXPECT_EQ(found.shards[2].finished_face_count, 1U);
   EXPECT_EQ(found.shards[2].state, ShardState::kWaiting);
-  EXPECT_FALSE(found.is_gathered);
+  EXPECT_FALSE(found.is_report_written);
 }
 
 // A line that is being written has no end yet.

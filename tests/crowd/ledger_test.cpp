@@ -72,20 +72,20 @@ TEST_F(LedgerOfAFolder, ProvesWhatWasRecordedAndIsAsItWas) {
   folder_.write("a.txt", "text");
   {
     Ledger ledger = open();
-    EXPECT_FALSE(ledger.find_proven("a", key_));
+    EXPECT_FALSE(ledger.find_verified("a", key_));
     ledger.record("a", key_, {"a.txt"});
-    EXPECT_TRUE(ledger.find_proven("a", key_));
+    EXPECT_TRUE(ledger.find_verified("a", key_));
   }
-  EXPECT_TRUE(open().find_proven("a", key_)) << "by another run";
-  EXPECT_FALSE(open().find_proven("a", hash_bytes("other key")));
+  EXPECT_TRUE(open().find_verified("a", key_)) << "by another run";
+  EXPECT_FALSE(open().find_verified("a", hash_bytes("other key")));
   folder_.write("a.txt", "Text");
-  EXPECT_FALSE(open().find_proven("a", key_)) << "other bytes";
+  EXPECT_FALSE(open().find_verified("a", key_)) << "other bytes";
   folder_.write("a.txt", "text and more");
-  EXPECT_FALSE(open().find_proven("a", key_));
+  EXPECT_FALSE(open().find_verified("a", key_));
   fs::remove(folder_ / "a.txt");
-  EXPECT_FALSE(open().find_proven("a", key_));
+  EXPECT_FALSE(open().find_verified("a", key_));
   fs::create_directory(folder_ / "a.txt");
-  EXPECT_FALSE(open().find_proven("a", key_));
+  EXPECT_FALSE(open().find_verified("a", key_));
 }
 
 TEST_F(LedgerOfAFolder, ALineWithoutItsEndProvesNothingAndSpoilsNoOther) {
@@ -100,8 +100,8 @@ TEST_F(LedgerOfAFolder, ALineWithoutItsEndProvesNothingAndSpoilsNoOther) {
   for (std::size_t size = whole.find('\n') + 1; size < whole.size(); ++size) {
     folder_.write("ledger.jsonl", whole.substr(0, size));
     Ledger ledger = open();
-    EXPECT_TRUE(ledger.find_proven("a", key_));
-    EXPECT_FALSE(ledger.find_proven("b", key_)) << size;
+    EXPECT_TRUE(ledger.find_verified("a", key_));
+    EXPECT_FALSE(ledger.find_verified("b", key_)) << size;
     ledger.record("b", key_, {"b.txt"});
     EXPECT_EQ(read_text(path()), whole);
   }
@@ -130,8 +130,8 @@ TEST_F(LedgerOfAFolder, SettledHoldsWhatThisRunUsedInOneOrder) {
     ledger.record("old", key_, {"a"});
   }
   Ledger ledger(folder_.path(), path(), {shard});
-  EXPECT_TRUE(ledger.find_proven("c", key_));
-  EXPECT_TRUE(ledger.find_proven("b", key_)) << "the shard's";
+  EXPECT_TRUE(ledger.find_verified("c", key_));
+  EXPECT_TRUE(ledger.find_verified("b", key_)) << "the shard's";
   ledger.record("a", key_, {"a"});
   ledger.compact();
   EXPECT_FALSE(fs::exists(shard));
@@ -167,12 +167,13 @@ TEST_F(LedgerOfAFolder, NoLineOutdoesAnotherOfTheSameItem) {
   Ledger(folder_.path(), shard, {path()}).record("a", newer, {"a"});
   {
     Ledger ledger(folder_.path(), path(), {shard, path()});
-    EXPECT_FALSE(ledger.find_proven("a", key_)) << "its bytes are gone";
-    EXPECT_TRUE(ledger.find_proven("a", newer)) << "the shard's";
-    EXPECT_TRUE(ledger.find_proven("a", newer)) << "again";
+    EXPECT_FALSE(ledger.find_verified("a", key_)) << "its bytes are gone";
+    EXPECT_TRUE(ledger.find_verified("a", newer)) << "the shard's";
+    EXPECT_TRUE(ledger.find_verified("a", newer)) << "again";
   }
   folder_.write("a", "old bytes");
-  EXPECT_TRUE(Ledger(folder_.path(), shard, {path()}).find_proven("a", key_)) << "the whole run's";
+  EXPECT_TRUE(Ledger(folder_.path(), shard, {path()}).find_verified("a", key_))
+      << "the whole run's";
 }
 
 TEST(LedgerLine, DeepValuesAreLeftOut) {

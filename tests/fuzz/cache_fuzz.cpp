@@ -28,7 +28,7 @@ void read_all(const PreparedHead& head, const HeadCacheSizes& shape) {
   }
   for (const std::int16_t number : fields.quantized_values) all += number;
   all += head.levels.mixing.sum() + head.trajectory.sum();
-  if (fields.rank > shape.node_count) std::abort();
+  if (fields.rank > shape.level_node_count) std::abort();
   if (all == 1e300) std::abort();  // keeps the sum from being left out
 }
 
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     write(prepared_key(key));
     if (const auto head = find_prepared(folder, key, shape)) read_all(*head, shape);
   }
-  write(read_key(key));
+  write(key_of_read_head(key));
   ObjFile head;
   find_head(folder, key, head);
   write({"mesh", key});

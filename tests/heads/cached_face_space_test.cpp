@@ -66,16 +66,18 @@ class KeptFaceSpace : public ::testing::TestWithParam<bool> {
   static std::vector<float> places(const FaceSpace& space, std::size_t bands = 2) {
     std::vector<float> all;
     for (std::uint64_t i = 0; i < 20; ++i) {
-      const FaceSpace::Point at = space.point(training_recipe(space.sampled_heads(), bands, i));
-      all.insert(all.end(), at.as_built.data(), at.as_built.data() + at.as_built.size());
-      all.insert(all.end(), at.unextrapolated.data(),
-                 at.unextrapolated.data() + at.unextrapolated.size());
+      const FaceSpace::Point at =
+          space.point(random_training_recipe(space.sampled_heads(), bands, i));
+      all.insert(all.end(), at.with_extrapolation.data(),
+                 at.with_extrapolation.data() + at.with_extrapolation.size());
+      all.insert(all.end(), at.without_extrapolation.data(),
+                 at.without_extrapolation.data() + at.without_extrapolation.size());
     }
     const FaceSpace::Point one = space.head_point(0), other = space.head_point(1);
     for (Index k = 0; k < 2; ++k) {
       all.push_back(static_cast<float>(
           space.region_distance(space.region_point(one, k), space.region_point(other, k), k)));
-      all.push_back(static_cast<float>(space.region_share(k)));
+      all.push_back(static_cast<float>(space.region_area_fraction(k)));
     }
     return all;
   }

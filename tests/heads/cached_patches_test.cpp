@@ -39,9 +39,10 @@ class KeptPatchesTest : public ::testing::Test {
   static bool alike(const CachedPatches& a, const CachedPatches& b) {
     const PatchLists &x = a.patches.lists(), &y = b.patches.lists();
     return std::ranges::equal(x.vertices, y.vertices) &&
-           std::ranges::equal(x.skeleton_sizes, y.skeleton_sizes) &&
+           std::ranges::equal(x.stored_vertex_counts, y.stored_vertex_counts) &&
            std::ranges::equal(x.field_counts, y.field_counts) &&
-           std::ranges::equal(x.steps, y.steps) && std::ranges::equal(x.weights, y.weights) &&
+           std::ranges::equal(x.quantization_steps, y.quantization_steps) &&
+           std::ranges::equal(x.weights, y.weights) &&
            std::ranges::equal(x.quantized_values, y.quantized_values);
   }
 

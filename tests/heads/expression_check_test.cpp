@@ -27,7 +27,7 @@ HeadSet synthetic_heads(std::uint64_t count, Index vertices = 5000) {
 }
 
 std::string warnings_of(const HeadSet& head_set) {
-  return join(odd_expressions(head_set, shape_of_mean(head_set).is_skin, HeadAxes(), 10));
+  return join(odd_expressions(head_set, mean_head_shape(head_set).is_skin, HeadAxes(), 10));
 }
 
 /// Lets the jaw drop by 2 cm.
@@ -63,7 +63,7 @@ void close_lids(const FaceMarks& marks, Positions& head) {
 TEST(ExpressionCheck, TellsOneHeadThatGrimacesAmongNeutralOnes) {
   const HeadSet neutral = synthetic_heads(8);
   EXPECT_EQ(warnings_of(neutral), "");
-  const auto marks = find_face_marks(neutral.topology, shape_of_mean(neutral), HeadAxes());
+  const auto marks = find_face_marks(neutral.topology, mean_head_shape(neutral), HeadAxes());
   ASSERT_TRUE(marks);
   const auto warnings = [&](const auto& grimace) {
     HeadSet heads = neutral;
@@ -83,7 +83,7 @@ TEST(ExpressionCheck, TellsOneHeadThatGrimacesAmongNeutralOnes) {
 
 TEST(ExpressionCheck, ComparesNothingWithFewerThanFourHeads) {
   HeadSet heads = synthetic_heads(3);
-  const auto marks = find_face_marks(heads.topology, shape_of_mean(heads), HeadAxes());
+  const auto marks = find_face_marks(heads.topology, mean_head_shape(heads), HeadAxes());
   ASSERT_TRUE(marks);
   open_mouth(*marks, heads.heads[1].positions);
   EXPECT_EQ(warnings_of(heads), "");
@@ -97,7 +97,7 @@ TEST(ExpressionCheck, IgnoresTheNoiseOfDenseScans) {
     for (double& x : heads.heads[h].positions.reshaped()) x += noise(random);
   }
   EXPECT_EQ(warnings_of(heads), "");
-  const auto marks = find_face_marks(heads.topology, shape_of_mean(heads), HeadAxes());
+  const auto marks = find_face_marks(heads.topology, mean_head_shape(heads), HeadAxes());
   ASSERT_TRUE(marks);
   smile(*marks, heads.heads[3].positions);
   EXPECT_THAT(warnings_of(heads), ::testing::StartsWith("head_3: the skin around its mouth"));

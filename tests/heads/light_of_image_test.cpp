@@ -17,7 +17,7 @@ Image image_of(int channels) {
 }
 
 void expect_same_with_and_without_densities(const Image& image) {
-  ImageRows light = light_of(image);
+  ImageRows light = linear_light_of(image);
   ASSERT_TRUE(light.read_densities);
   const TextureMap quick = make_texture_map(image.width, image.height, light);
   light.read_densities = nullptr;
@@ -35,7 +35,7 @@ TEST(LightOfImage, WholeNumbersGiveTheDensitiesThatTheirLightHas) {
 
 TEST(LightOfImage, OfFloatsLightIsAsItStands) {
   const Image image{2, 1, 3, -1, std::vector<float>{0.25F, 0.5F, 1.5F, -1, 0, 0.125F}};
-  const ImageRows light = light_of(image);
+  const ImageRows light = linear_light_of(image);
   EXPECT_FALSE(light.read_densities);
   std::vector<Eigen::Array3f> row(2);
   light.read_row(0, row);

@@ -69,7 +69,8 @@ class KeptHeads : public ::testing::Test {
     return {};
   }
   fs::path entry_of(const std::string& head) const {
-    return cache_entry(folder_.cache(), read_key(hash_bytes(read_text(folder_.head(head)))));
+    return cache_entry(folder_.cache(),
+                       key_of_read_head(hash_bytes(read_text(folder_.head(head)))));
   }
   fs::path mesh() const {
     for (const fs::path& entry : list_cache(folder_.cache()).entries) {
@@ -88,8 +89,8 @@ TEST_F(KeptHeads, AreReadOnceAndGiveTheSameCrowd) {
   ASSERT_GE(fs::file_size(folder_.head("ann")), kMinCachedBytes);
   EXPECT_THAT(log(), ::testing::Not(::testing::HasSubstr("heads were read from the cache")));
   const CacheContents contents = list_cache(folder_.cache());
-  EXPECT_EQ(contents.read_count, 2U);
-  EXPECT_EQ(contents.prepared_count, 2U);
+  EXPECT_EQ(contents.loaded_head_count, 2U);
+  EXPECT_EQ(contents.prepared_head_count, 2U);
   EXPECT_EQ(contents.entries.size(), 7U) << "one mesh, patches and a face space of both";
   run();
   EXPECT_THAT(log(), ::testing::HasSubstr(kBoth));

@@ -217,11 +217,11 @@ TEST(MaterialFiles, LibrariesOfOtherMachinesAreFoundBesideTheMesh) {
     const MaterialFiles found = find_material_files(folder / "head.obj", {path});
     EXPECT_EQ(names(found), (std::vector<std::string>{"my head.mtl"})) << path;
     EXPECT_THAT(found.warnings, ::testing::IsEmpty()) << path;
-    EXPECT_TRUE(found.has_renamed_library) << path;
+    EXPECT_TRUE(found.has_library_at_other_path) << path;
   }
   EXPECT_EQ(names(find_material_files(folder / "head.obj", {"tex\\b.mtl"})),
             (std::vector<std::string>{"tex/b.mtl"}));
-  EXPECT_FALSE(find_material_files(folder / "head.obj", {"tex/b.mtl"}).has_renamed_library);
+  EXPECT_FALSE(find_material_files(folder / "head.obj", {"tex/b.mtl"}).has_library_at_other_path);
 }
 
 // The table SHIFT_JIS reads a backslash as ¥, so that the path had no folders.

@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 std::string written(double value) {
-  char buffer[kMaxSingleLength];
+  char buffer[kMaxFloatTextLength];
   return {buffer, write_single(buffer, value)};
 }
 
@@ -21,7 +21,7 @@ TEST(WriteSingle, IsNeverLongerThanItsRoom) {
   for (std::uint32_t bits = 1; bits < kInfinity; bits += 40'009) {
     const auto value = std::bit_cast<float>(bits | kSign);
     const std::string text = written(static_cast<double>(value));
-    ASSERT_LE(text.size(), kMaxSingleLength);
+    ASSERT_LE(text.size(), kMaxFloatTextLength);
     float back = 0;
     std::from_chars(text.data(), text.data() + text.size(), back);
     ASSERT_EQ(back, value);

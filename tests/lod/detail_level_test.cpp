@@ -146,7 +146,7 @@ TEST(LevelError, IsNotBelowTheDistanceToTheSurfaceNorFarAbove) {
   const std::array<double, 2> shares = {0.5, 0.1};
   double before = 0;
   for (const DetailLevel& level : detail_levels(set, looks, shares)) {
-    const LevelMap map =
+    const NearestLevelTriangles map =
         find_level_triangles(set.topology, build_adjacency(set.topology), level, mean_head(set));
     ASSERT_EQ(map.vertices.size() + level.vertices.size(),
               static_cast<std::size_t>(set.topology.vertex_count));

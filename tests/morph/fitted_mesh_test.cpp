@@ -128,8 +128,8 @@ TEST_F(Wardrobe, SkinsAreMixedByAgeAndAncestry) {
   int brown = 0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     brown += makehuman_eye_colour(person, 1, i) == "brown" ? 1 : 0;
-    EXPECT_GE(makehuman_skin_density_factor(1, i), 0.75);
-    EXPECT_LE(makehuman_skin_density_factor(1, i), 1.25);
+    EXPECT_GE(makehuman_skin_optical_density_factor(1, i), 0.75);
+    EXPECT_LE(makehuman_skin_optical_density_factor(1, i), 1.25);
   }
   EXPECT_NEAR(brown / 400.0, 0.25 * 0.9 + 0.75 * 0.25, 0.07);
 }

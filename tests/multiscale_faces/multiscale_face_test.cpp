@@ -26,7 +26,7 @@ TEST(MultiscaleFace, IsMadeAgainFromItsOwnMaps) {
   // In centimetres. Without displacements, only the base surface is left.
   EXPECT_LT(error(1), 0.05);
   EXPECT_GT(error(0), 4 * error(1));
-  EXPECT_LT(face.missed_normal_share, 0.01);
+  EXPECT_LT(face.missed_sample_fraction, 0.01);
 }
 
 TEST(MultiscaleFace, IsLinearInTheWeightsOfDetails) {

@@ -30,7 +30,7 @@ TEST(Bands, RunSoftlyIntoOneAnotherAndSumToOne) {
 
 TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {
   const HeadSet faces = synth_heads(5000);
-  const HeadShape head = shape_of_mean(faces);
+  const HeadShape head = mean_head_shape(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
   const auto alpha = propose_bands(faces.topology, head, *marks, kThree);
@@ -42,7 +42,7 @@ TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {
 
 TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
   const HeadSet faces = synth_heads(20000);
-  const HeadShape head = shape_of_mean(faces);
+  const HeadShape head = mean_head_shape(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
   const auto alpha = propose_bands(faces.topology, head, *marks, kFive);
@@ -70,7 +70,7 @@ TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
 
 TEST(Bands, AHeadWithoutEarsOrNeckHasNoSuchBands) {
   const HeadSet faces = synth_heads(5000);
-  HeadShape head = shape_of_mean(faces);
+  HeadShape head = mean_head_shape(faces);
   const auto marks = find_face_marks(faces.topology, head, {});
   ASSERT_TRUE(marks);
   for (Index v = 0; v < head.positions.rows(); ++v) {
@@ -96,7 +96,7 @@ TEST(Bands, NamesAreReadInTheirOrder) {
 
 TEST(Bands, HeadsThatCannotBePaintedAreRefusedWithTheWayOut) {
   HeadSet faces = synth_heads(5000);
-  const HeadShape head = shape_of_mean(faces);
+  const HeadShape head = mean_head_shape(faces);
   expect_error(ExitCode::kBadData, {"along +X", "look along +Z with +Y up"}, [&] {
     propose_masks(faces, head, {{1, 1}, {0, 1}}, kThree, 64);
   });

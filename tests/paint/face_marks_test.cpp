@@ -23,7 +23,7 @@ namespace {
 TEST(FaceMarks, LieWhereASyntheticHeadHasThemAtAnyResolution) {
   for (const Index vertices : {5000, 20000}) {
     const HeadSet faces = synth_heads(vertices);
-    HeadShape head = shape_of_mean(faces);
+    HeadShape head = mean_head_shape(faces);
     EXPECT_EQ(head.eyeball_centres.size(), 2U);
     const auto marks = find_face_marks(faces.topology, head, {});
     ASSERT_TRUE(marks);
@@ -79,7 +79,7 @@ HeadShape merged(Topology& topology, const HeadShape& head, double cell) {
 // The message said that the heads look along +Z although expected along +Z.
 TEST(FaceMarks, AReasonIsGivenIfNoFaceIsFound) {
   const HeadSet faces = synth_heads(5000);
-  const HeadShape head = shape_of_mean(faces);
+  const HeadShape head = mean_head_shape(faces);
   EXPECT_EQ(why_no_face_found(faces.topology, head, axes_of({{1, 1}, {0, 1}})),
             "the heads look along +Z with +Y up");
   Topology topology = faces.topology;
@@ -91,7 +91,7 @@ TEST(FaceMarks, AReasonIsGivenIfNoFaceIsFound) {
 
 TEST(FaceMarks, AHeadIsFoundHoweverItIsTurned) {
   HeadSet faces = synth_heads(5000);
-  HeadShape head = shape_of_mean(faces);
+  HeadShape head = mean_head_shape(faces);
   const Positions upright = head.positions;
   for (int up = 0; up < 3; ++up) {
     for (int front = 0; front < 3; ++front) {
@@ -114,7 +114,7 @@ TEST(FaceMarks, AHeadIsFoundHoweverItIsTurned) {
 
 TEST(FaceMarks, AreTheSameHoweverTheMeshIsCutOrTurned) {
   const HeadSet faces = synth_heads(20000);
-  HeadShape head = shape_of_mean(faces);
+  HeadShape head = mean_head_shape(faces);
   head.positions = faces.heads[1].positions;
   const std::vector<MarkError> errors = mark_errors(faces.topology, head);
   EXPECT_FALSE(errors.empty());
@@ -139,7 +139,7 @@ TEST(RealFaces, AreTheSameHoweverTheMeshIsCutOrTurned) {
     SCOPED_TRACE(entry.path().filename());
     ObjFile file = read_obj(entry.path());
     const HeadSet faces{file.topology, {}, {{"head", file.positions}}};
-    HeadShape head = shape_of_mean(faces);
+    HeadShape head = mean_head_shape(faces);
     EXPECT_EQ(find_orientation(faces.topology, head), (Orientation{{1, 1}, {2, 1}}));
     EXPECT_TRUE(put_at_origin(faces.topology, head));
     for (const MarkError& error : mark_errors(faces.topology, head)) {

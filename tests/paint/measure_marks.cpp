@@ -31,7 +31,7 @@ void measure(const std::filesystem::path& folder) {
   Tally all;
   for (const auto& path : files) {
     const FileMesh mesh = read_mesh(path);
-    HeadShape head = shape_of_mean({mesh.topology, {}, {{"", mesh.positions}}});
+    HeadShape head = mean_head_shape({mesh.topology, {}, {{"", mesh.positions}}});
     if (!put_at_origin(mesh.topology, head)) {
       std::cout << path.filename().string() << ": no face\n";
       continue;

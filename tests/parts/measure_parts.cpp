@@ -142,7 +142,7 @@ class Watch {
   const PartList& parts() const { return parts_; }
   /// Of the mouth's vertices: whether it is of a closed piece.
   bool is_tooth(std::size_t mouth, std::size_t i) const {
-    return parts_.shapes[component_[mouths_[mouth]->vertices[i]]].openness == 0;
+    return parts_.shapes[component_[mouths_[mouth]->vertices[i]]].isoperimetric_ratio == 0;
   }
 
  private:

@@ -103,8 +103,8 @@ TEST(Parts, HaveClosednessOfAnyResolution) {
     const Mesh mesh =
         testing::Shapes().ball({0, 0, 0}, 10, 32).strip({0, 0, 10}, {4, 0, 0}, {0, 1, 0}, n).mesh();
     const PartList list = parts_of(mesh);
-    EXPECT_EQ(list.shapes[0].openness, 0);
-    EXPECT_NEAR(list.shapes[1].openness, 10.0 * 10 / (4 * 3.14159265 * 4), 0.4) << n;
+    EXPECT_EQ(list.shapes[0].isoperimetric_ratio, 0);
+    EXPECT_NEAR(list.shapes[1].isoperimetric_ratio, 10.0 * 10 / (4 * 3.14159265 * 4), 0.4) << n;
   }
 }
 

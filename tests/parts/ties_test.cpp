@@ -11,7 +11,7 @@ struct TwoTeeth {
   Positions positions = Positions::Zero(7, 3);
   std::vector<std::uint32_t> first = {0}, second = {1}, bound = {2, 3, 4, 5, 6};
   TwoTeeth() { positions.col(0) << 0, 2, 0, 1, 2, -0.9, -3; }
-  Ties ties() const { return {positions, {first, second}, bound, 1.5}; }
+  PartWeights part_weights() const { return {positions, {first, second}, bound, 1.5}; }
 };
 
 RigidMotion shift(double y) {
@@ -20,11 +20,11 @@ RigidMotion shift(double y) {
   return motion;
 }
 
-TEST(Ties, CarryWhatIsAtAPartAndLeaveWhatIsFar) {
+TEST(PartWeights, CarryWhatIsAtAPartAndLeaveWhatIsFar) {
   const TwoTeeth scene;
   Positions result = scene.positions;
   const std::vector<RigidMotion> motions = {shift(1), shift(-1)};
-  scene.ties().pull(scene.positions, motions, result);
+  scene.part_weights().pull(scene.positions, motions, result);
   EXPECT_NEAR(result(2, 1), 1, 1e-12) << "at the first tooth";
   EXPECT_NEAR(result(4, 1), -1, 1e-12) << "at the second";
   EXPECT_NEAR(result(3, 1), 0, 1e-12) << "half way between both";
@@ -33,12 +33,12 @@ TEST(Ties, CarryWhatIsAtAPartAndLeaveWhatIsFar) {
   EXPECT_EQ(result(6, 1), 0);
 }
 
-TEST(Ties, LeaveEverythingToTheBitWhereNothingMoved) {
+TEST(PartWeights, LeaveEverythingToTheBitWhereNothingMoved) {
   const TwoTeeth scene;
   Positions head = scene.positions;
   head.array() += 0.1;
   Positions result = head;
-  scene.ties().pull(head, std::vector<RigidMotion>(2), result);
+  scene.part_weights().pull(head, std::vector<RigidMotion>(2), result);
   EXPECT_TRUE(result == head);
 }
 

@@ -54,9 +54,9 @@ TEST(LandmarkText, FirstCommentsAreTold) {
   EXPECT_EQ(opening_comments("template: {}\n# c\n"), "");
   EXPECT_EQ(opening_comments(""), "");
   EXPECT_EQ(opening_comments("# without an end"), "");
-  EXPECT_FALSE(has_more_comments("# a\ntemplate: {a: 1}\n"));
-  EXPECT_TRUE(has_more_comments("# a\ntemplate: {a: 1} # b\n"));
-  EXPECT_TRUE(has_more_comments("template: {a: 1}\n# b\n"));
+  EXPECT_FALSE(has_comments_after_opening("# a\ntemplate: {a: 1}\n"));
+  EXPECT_TRUE(has_comments_after_opening("# a\ntemplate: {a: 1} # b\n"));
+  EXPECT_TRUE(has_comments_after_opening("template: {a: 1}\n# b\n"));
 }
 
 TEST(LandmarkNames, SidesAreMirrored) {

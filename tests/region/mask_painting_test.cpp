@@ -38,11 +38,11 @@ TEST(MaskPainting, EveryPaintedTexelAddsUpAndTheFirstRowIsTheTop) {
   constexpr int kSize = 64;
   const PaintedMasks masks =
       paint_masks(two_tiles().topology, two_tiles().uvs, from_below(), {}, kSize);
-  ASSERT_EQ(masks.tiles.size(), 2U);
+  ASSERT_EQ(masks.images_by_tile.size(), 2U);
   EXPECT_TRUE(masks.is_tiled());
   const auto at = [&](int tile, int x, int y) {
     const auto i = static_cast<std::size_t>(3 * (y * kSize + x));
-    const auto& p = masks.tiles.at(tile).at(0);
+    const auto& p = masks.images_by_tile.at(tile).at(0);
     return std::array<int, 3>{p[i], p[i + 1], p[i + 2]};
   };
   for (const int tile : {1001, 1002}) {
@@ -101,7 +101,7 @@ TEST(MaskPainting, WhereFacesShareAPlaceTheFirstCounts) {
   const auto red_on_top = [&](const std::vector<bool>& first) {
     const PaintedMasks masks = paint_masks(mesh.topology, mesh.uvs, from_below(), first, 64);
     EXPECT_FALSE(masks.is_tiled());
-    return masks.tiles.at(1001)[0][3 * (64 * 10 + 5)];
+    return masks.images_by_tile.at(1001)[0][3 * (64 * 10 + 5)];
   };
   EXPECT_LT(red_on_top({true, true, true, true, false, false}), 100);
   EXPECT_EQ(encode_masks(paint_masks(mesh.topology, mesh.uvs, from_below(), {}, 8), "a/m.png")

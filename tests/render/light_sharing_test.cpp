@@ -46,7 +46,7 @@ class LightSharing : public ::testing::Test {
   }
   PointVisibility points(std::size_t first = 0) const {
     PointVisibility lights;
-    for (std::size_t f = 0; f < kFields; ++f) lights.lists[f] = lists_[f].data() + first;
+    for (std::size_t f = 0; f < kFields; ++f) lights.field_values[f] = lists_[f].data() + first;
     return lights;
   }
   struct Shares {

@@ -73,7 +73,7 @@ TEST(RayScene, MovedPointsKeepOutTheLightAsPointsOfANewSceneDo) {
   for (const auto& [size, right] : {std::pair{1.0F, 3.0F}, {2.0F, 0.0F}, {1.0F, 0.0F}}) {
     const RayScene anew(device, points(size, right), quads);
     auto moved = points(size, right);
-    moving.move_points(moved);
+    moving.set_points(moved);
     EXPECT_EQ(moving.occluded(rays), anew.occluded(rays)) << size << ' ' << right;
   }
 }

@@ -49,7 +49,7 @@ TEST(EyeCoordinates, AreRadiiOfEachEyeballAsSeenFromTheFront) {
     EXPECT_NEAR((*found)(i, 2), mesh.positions(i, 2) / (i < each ? 2 : 3), 0.01);
   }
   EXPECT_EQ((*found)(2 * each, 2), kNoEyeballCoordinate);
-  surfaces.face_colours.assign(surfaces.kinds.size(), Eigen::Array3f(1, 1, 1));
+  surfaces.polygon_colours.assign(surfaces.kinds.size(), Eigen::Array3f(1, 1, 1));
   EXPECT_FALSE(eye_coordinates(mesh.topology, surfaces, mesh.positions, {2, 1}))
       << "paints come first";
   EXPECT_FALSE(eye_coordinates(mesh.topology, {}, mesh.positions, {2, 1}));

@@ -162,7 +162,7 @@ class NeckCrowd : public ::testing::Test {
       }
     };
     Positions mean = inputs.mean_head;
-    inputs.neck->seam.bend_to_seam(mean);
+    inputs.heads_on_body->seam.bend_to_seam(mean);
     add(inputs.head_set.topology, mean, 1);
     add(body_.topology, body_.positions, body_sign_);
     Singles normals;

@@ -45,10 +45,10 @@ class NeckPlacing : public testing::NeckCrowd {
   }
   /// The angle of the best rotation of a face onto another above the bend, in degrees.
   static double degrees_between(const Job& job, const Positions& face, const Positions& other) {
-    const std::vector<std::uint32_t>& bent = job.inputs.neck->seam.neck_bend.vertices();
+    const std::vector<std::uint32_t>& bent = job.inputs.heads_on_body->seam.neck_bend.vertices();
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(face.rows());
     for (const std::uint32_t v : bent) weights[v] = 0;
-    for (const std::uint32_t v : job.inputs.neck->seam.rim) weights[v] = 0;
+    for (const std::uint32_t v : job.inputs.heads_on_body->seam.rim) weights[v] = 0;
     return fit_similarity(face, other, ScaleFit::kRigid, weights).angle_degrees();
   }
 };
@@ -61,7 +61,8 @@ TEST_F(NeckPlacing, HeadsAreMovedButNotTiltedScaledOrBent) {
   const Job plain = load_job(configure("", "", "", "plain"), {});
   const Job job = load_job(configure("{body: body.obj}", ""), {});
   for (std::size_t h = 0; h < kHeads; ++h) {
-    const auto& [placed, turn, shift_mm, rotation_degrees, max_bend_mm] = job.inputs.neck->heads[h];
+    const auto& [placed, turn, shift_mm, rotation_degrees, max_bend_mm] =
+        job.inputs.heads_on_body->heads[h];
     const Positions& head = job.inputs.head_set.heads[h].positions;
     const Positions by = head - plain.inputs.head_set.heads[h].positions;
     const Eigen::RowVector3d shift = (placed.moved_pivot - placed.pivot).transpose();
@@ -84,12 +85,12 @@ TEST_F(NeckPlacing, TurnedHeadsAreTurnedBackTogether) {
     change_head(h, [&](const Eigen::Vector3d& p) { return turn * p; });
   }
   const Job job = load_job(configure("{body: body.obj}", ""), {});
-  const Eigen::Matrix3d& rotation = job.inputs.neck->heads[2].placement.rotation;
+  const Eigen::Matrix3d& rotation = job.inputs.heads_on_body->heads[2].placement.rotation;
   EXPECT_LT(degrees_of(rotation * turn), 2) << "the wave of the body's ring tilts it a little";
   for (std::size_t h = 0; h < kHeads; ++h) {
-    EXPECT_EQ(job.inputs.neck->heads[h].placement.rotation, rotation);
-    EXPECT_TRUE(job.inputs.neck->heads[h].pose_rotation.isZero(0));
-    EXPECT_TRUE(straight.inputs.neck->heads[h].placement.rotation.isIdentity(1e-12));
+    EXPECT_EQ(job.inputs.heads_on_body->heads[h].placement.rotation, rotation);
+    EXPECT_TRUE(job.inputs.heads_on_body->heads[h].pose_rotation.isZero(0));
+    EXPECT_TRUE(straight.inputs.heads_on_body->heads[h].placement.rotation.isIdentity(1e-12));
   }
 }
 
@@ -102,9 +103,9 @@ TEST_F(NeckPlacing, TurnedHeadsAreTurnedBackToAHead) {
     change_head(h, [&](const Eigen::Vector3d& p) { return turn * p; });
   }
   const Job job = load_job(configure("{body: body.obj}", ""), {});
-  const Eigen::Matrix3d& rotation = job.inputs.neck->heads[2].placement.rotation;
+  const Eigen::Matrix3d& rotation = job.inputs.heads_on_body->heads[2].placement.rotation;
   EXPECT_LT(degrees_of(rotation * turn), 3) << "heads differ in form";
-  EXPECT_EQ(rotation, job.inputs.neck->heads[0].placement.rotation);
+  EXPECT_EQ(rotation, job.inputs.heads_on_body->heads[0].placement.rotation);
 }
 
 // A head in another pose than the others: its faces are turned back, and are the same faces as
@@ -145,7 +146,7 @@ TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
   std::vector<double> areas =
       face_vertex_areas(job.inputs.head_set.topology, job.inputs.skin_components,
                         job.inputs.mean_head, FaceArea::kFront, {2, 1});
-  for (const std::uint32_t v : job.inputs.neck->seam.neck_bend.vertices()) areas[v] = 0;
+  for (const std::uint32_t v : job.inputs.heads_on_body->seam.neck_bend.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   bool any_asymmetric = false;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -177,20 +178,21 @@ TEST_F(NeckPlacing, SlopingRingsTiltNoHead) {
   };
   for (const Index h : {1, 3}) change_head(h, bend);
   const Job job = load_job(configure("{body: body.obj}", ""), {});
-  for (const HeadsOnBody::Head& head : job.inputs.neck->heads) EXPECT_EQ(head.rotation_degrees, 0);
-  EXPECT_GT(job.inputs.neck->heads[1].max_bend_mm, 5);
+  for (const HeadsOnBody::Head& head : job.inputs.heads_on_body->heads)
+    EXPECT_EQ(head.rotation_degrees, 0);
+  EXPECT_GT(job.inputs.heads_on_body->heads[1].max_bend_mm, 5);
 }
 
 TEST_F(NeckPlacing, MayBeThatOfAHeadOrTheirMean) {
   const Positions head = read_obj(folder_ / "heads/head_3.obj").positions;
   const Job like = load_job(configure("{like: head_3}", ""), {});
   EXPECT_EQ(like.inputs.head_set.heads[3].positions, head);
-  EXPECT_EQ(like.inputs.neck->seam.positions, head(rim_, kAllColumns));
+  EXPECT_EQ(like.inputs.heads_on_body->seam.positions, head(rim_, kAllColumns));
   for (const char* neck : {"mean", "{like: mean, falloff: 4 cm}"}) {
     const Job mean = load_job(configure(neck, ""), {});
     Positions sum = Positions::Zero(seam_.rows(), 3);
     for (const Head& one : mean.inputs.head_set.heads) sum += one.positions(rim_, kAllColumns);
-    const Positions& ring = mean.inputs.neck->seam.positions;
+    const Positions& ring = mean.inputs.heads_on_body->seam.positions;
     EXPECT_LT((sum / double{kHeads} - ring).cwiseAbs().maxCoeff(), 1e-9);
   }
   EXPECT_EQ(testing::read_text(run("", "", "", "plain") / "config.yaml").find("neck"),

@@ -64,7 +64,7 @@ TEST_F(Neck, TheCrowdIsTheSame) {
   std::vector<double> areas =
       face_vertex_areas(job.inputs.head_set.topology, job.inputs.skin_components,
                         job.inputs.mean_head, FaceArea::kFront, {2, 1});
-  for (const std::uint32_t v : job.inputs.neck->seam.neck_bend.vertices()) areas[v] = 0;
+  for (const std::uint32_t v : job.inputs.heads_on_body->seam.neck_bend.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   const auto before = testing::plan_lines(plain), after = testing::plan_lines(fitted);
   ASSERT_EQ(before.size(), after.size());
@@ -130,8 +130,8 @@ Positions curvature(const Inputs& inputs, const Positions& positions) {
 double change_at_end(const Inputs& inputs, const Positions& head, const Positions& bent) {
   const Positions before = curvature(inputs, head), after = curvature(inputs, bent);
   std::vector<bool> moves(static_cast<std::size_t>(head.rows()), false);
-  for (const std::uint32_t v : inputs.neck->seam.neck_bend.vertices()) moves[v] = true;
-  for (const std::uint32_t v : inputs.neck->seam.rim) moves[v] = true;
+  for (const std::uint32_t v : inputs.heads_on_body->seam.neck_bend.vertices()) moves[v] = true;
+  for (const std::uint32_t v : inputs.heads_on_body->seam.rim) moves[v] = true;
   double change = 0, own = 0, at_end = 0, all = 0;
   for (Index v = 0; v < head.rows(); ++v) {
     const auto around = inputs.adjacency.items_of(v);
@@ -157,7 +157,7 @@ TEST_F(Neck, TheBendIsSmootherThanTheHeads) {
   double smooth = 0, linear = 0;
   for (const Head& head : inputs.head_set.heads) {
     Positions bent = head.positions, creased = head.positions;
-    inputs.neck->seam.bend_to_seam(bent);
+    inputs.heads_on_body->seam.bend_to_seam(bent);
     smooth += change_at_end(inputs, head.positions, bent) / kHeads;
     for (const std::uint32_t v : distances.reached()) {
       const std::uint32_t from = rim_[distances.nearest_source(v)];

@@ -68,7 +68,7 @@ TEST_F(Tasks, EachStageIsACommandWithItsPart) {
 TEST_F(Tasks, EndWithTheProgramsCodeAndSaySo) {
   write_task_scripts(job_, Engine::kParallel, {});
   EXPECT_EQ(run("CODE=74", "blend 3"), 74);
-  EXPECT_THAT(read_text(job_.directory.task_folder() / "log/blend-3.log"),
+  EXPECT_THAT(read_text(job_.directory.cluster_task_folder() / "log/blend-3.log"),
               ::testing::AllOf(::testing::HasSubstr("=== blend 3, attempt 1"),
                                ::testing::HasSubstr("=== ended with code 74\n")));
 }

@@ -69,7 +69,7 @@ class SkinOverPartsTest : public ::testing::Test {
 
   static constexpr std::uint32_t kInner = kSide * kSide;
   SkinTriangles skin_;
-  std::vector<ShapeRow> rows_;
+  std::vector<DisplacementRow> rows_;
 };
 
 TEST_F(SkinOverPartsTest, StaysOverThemOnAnotherFace) {

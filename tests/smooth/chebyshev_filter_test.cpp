@@ -165,9 +165,9 @@ TEST_P(Filter, ReadsPositionsWhereTheyAre) {
   const std::vector<std::uint64_t> levels = {3, 20};
   Positions more(200, 3);
   more.middleRows(40, 155) = positions_;
-  EXPECT_EQ(smooth_view(filter_, more.middleRows(40, 155), levels),
+  EXPECT_EQ(smooth_without_copy(filter_, more.middleRows(40, 155), levels),
             smooth(filter_, positions_, levels));
-  EXPECT_THROW(smooth_view(filter_, more, levels), BrokenPrecondition);
+  EXPECT_THROW(smooth_without_copy(filter_, more, levels), BrokenPrecondition);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllOperators, Filter,
@@ -214,7 +214,7 @@ TEST(FilterProbes, HoldEveryTermOfTheRecurrence) {
   const ChebyshevFilter filter(smoothing, positions);
   const FilterInput<double> input = {filter.rows_of<double>(positions),
                                      {power_series(filter.kind(), 100)}};
-  Probes probes{{0, 77, 9000, 18270}, {}};
+  RecordedTerms probes{{0, 77, 9000, 18270}, {}};
   filter.run<double>({&input, 1}, &probes);
   const ChebyshevSeries series = power_series(filter.kind(), 57);  // a level nobody asked for
   const Positions expected = iterate(smoothing, positions, 57);

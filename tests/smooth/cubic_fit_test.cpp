@@ -45,7 +45,8 @@ TEST(CubicFit, EqualsLeastSquaresOverStoredLevels) {
     for (Index i = 0; i < positions.size(); ++i) {
       const std::size_t tile = static_cast<std::size_t>(i / 3) / kTileVertices;
       const double half_a_step =
-          0.5 * static_cast<double>(fit.fields.steps[4 * tile + static_cast<std::size_t>(p)]);
+          0.5 * static_cast<double>(
+                    fit.fields.quantization_steps[4 * tile + static_cast<std::size_t>(p)]);
       EXPECT_NEAR(fit.fields.value(p, i / 3, i % 3), expected(p, i), half_a_step + 2e-6) << p;
     }
   }
@@ -58,7 +59,8 @@ TEST(CubicFit, IsExactWhereFourLevelsAreAll) {
   const Positions positions = testing::random_positions(topology.vertex_count, 2);
   const CubicFit fit = fit_cubic(ChebyshevFilter(smoothing, positions), positions, 3);
   double rounding = 0;  // t, t², t³ are at most 1
-  for (const float step : fit.fields.steps) rounding += 0.5 * static_cast<double>(step);
+  for (const float step : fit.fields.quantization_steps)
+    rounding += 0.5 * static_cast<double>(step);
   for (std::uint64_t level = 0; level <= 3; ++level) {
     EXPECT_LT((testing::evaluate(fit, positions, level) - iterate(smoothing, positions, level))
                   .cwiseAbs()

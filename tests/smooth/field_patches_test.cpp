@@ -39,13 +39,13 @@ std::vector<std::uint32_t> rows_of_grid() {
 /// What a field is at a patch's vertex, told from the skeleton.
 double interpolated(const FieldPatch& patch, std::size_t row, std::size_t vertex, std::size_t c) {
   const std::int16_t* numbers =
-      patch.quantized_values + row * patch.values_per_field() + c * patch.skeleton_size;
+      patch.quantized_values + row * patch.values_per_field() + c * patch.stored_vertex_count;
   const auto at = [&](std::size_t j) {
-    return static_cast<double>(patch.steps[row]) * static_cast<double>(numbers[j]);
+    return static_cast<double>(patch.quantization_steps[row]) * static_cast<double>(numbers[j]);
   };
   if (patch.is_whole()) return at(vertex);
   double sum = 0;
-  for (std::size_t j = 0; j < patch.skeleton_size; ++j) {
+  for (std::size_t j = 0; j < patch.stored_vertex_count; ++j) {
     sum += static_cast<double>(patch.weights[j * kPatchVertices + vertex]) * at(j);
   }
   return sum;
@@ -83,7 +83,7 @@ double missed(const std::vector<HeadLevels>& heads, const FieldPatches& patches)
 }
 
 double mean_skeleton(const FieldPatches& patches) {
-  const auto& skeletons = patches.lists().skeleton_sizes;
+  const auto& skeletons = patches.lists().stored_vertex_counts;
   return std::accumulate(skeletons.begin(), skeletons.end(), 0.0) /
          static_cast<double>(patches.size());
 }
@@ -91,9 +91,10 @@ double mean_skeleton(const FieldPatches& patches) {
 bool same_lists(const FieldPatches& a, const FieldPatches& b) {
   const PatchLists &x = a.lists(), &y = b.lists();
   return std::ranges::equal(x.vertices, y.vertices) &&
-         std::ranges::equal(x.skeleton_sizes, y.skeleton_sizes) &&
+         std::ranges::equal(x.stored_vertex_counts, y.stored_vertex_counts) &&
          std::ranges::equal(x.field_counts, y.field_counts) &&
-         std::ranges::equal(x.steps, y.steps) && std::ranges::equal(x.weights, y.weights) &&
+         std::ranges::equal(x.quantization_steps, y.quantization_steps) &&
+         std::ranges::equal(x.weights, y.weights) &&
          std::ranges::equal(x.quantized_values, y.quantized_values);
 }
 
@@ -130,7 +131,7 @@ TEST(FieldPatches, AreOfStretchesThatLieSideBySide) {
   for (Index v = 0; v < kVertices; ++v) {
     grid.row(v) << static_cast<double>(v % kColumns), static_cast<double>(v / kColumns), 0;
   }
-  const std::vector<std::uint32_t> order = patch_order(grid, 1.5);
+  const std::vector<std::uint32_t> order = vertex_order_for_patches(grid, 1.5);
   std::vector<std::uint32_t> sorted = order;
   std::ranges::sort(sorted);
   EXPECT_EQ(sorted, rows_of_grid());
@@ -138,7 +139,7 @@ TEST(FieldPatches, AreOfStretchesThatLieSideBySide) {
   for (std::size_t i = 1; i < order.size(); ++i) breaks += order[i] == order[i - 1] + 1 ? 0 : 1;
   EXPECT_LT(breaks, 2 * kRows) << "each row in two stretches of 32 and 18";
   // Where no vertex is near the next in the mesh, the curve alone decides.
-  EXPECT_EQ(patch_order(grid, 0.5), hilbert_order(grid));
+  EXPECT_EQ(vertex_order_for_patches(grid, 0.5), hilbert_order(grid));
 }
 
 TEST(FieldPatches, KeepAllVerticesWhereNoneIsLikeAnother) {
@@ -165,7 +166,7 @@ TEST(FieldPatches, AVertexThatNothingMovesIsMovedByNothing) {
     for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
       if (patch.vertices[v] % kColumns != 0) continue;
       ++still;
-      for (std::size_t j = 0; j < patch.skeleton_size; ++j) {
+      for (std::size_t j = 0; j < patch.stored_vertex_count; ++j) {
         EXPECT_EQ(patch.weights[j * kPatchVertices + v], 0);
       }
     }
@@ -216,13 +217,14 @@ TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { v[3] = v[4]; }));
   EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { std::swap(v[3], v[4]); }));
   EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { v.pop_back(); }));
-  EXPECT_FALSE(with(&PatchLists::skeleton_sizes, [](auto& v) { v[0] = 129; }));
-  EXPECT_FALSE(with(&PatchLists::skeleton_sizes, [](auto& v) { ++v[0]; }));
-  EXPECT_FALSE(with(&PatchLists::skeleton_sizes, [](auto& v) { v.pop_back(); }));
+  EXPECT_FALSE(with(&PatchLists::stored_vertex_counts, [](auto& v) { v[0] = 129; }));
+  EXPECT_FALSE(with(&PatchLists::stored_vertex_counts, [](auto& v) { ++v[0]; }));
+  EXPECT_FALSE(with(&PatchLists::stored_vertex_counts, [](auto& v) { v.pop_back(); }));
   EXPECT_FALSE(with(&PatchLists::field_counts, [](auto& v) { --v[0]; }));
   EXPECT_FALSE(with(&PatchLists::field_counts, [&](auto& v) { v[0] = 1000; }));
-  EXPECT_FALSE(with(&PatchLists::steps, [](auto& v) { v[0] = 3; })) << "no power of two";
-  EXPECT_FALSE(with(&PatchLists::steps, [](auto& v) { v[0] = HUGE_VALF; }));
+  EXPECT_FALSE(with(&PatchLists::quantization_steps, [](auto& v) { v[0] = 3; }))
+      << "no power of two";
+  EXPECT_FALSE(with(&PatchLists::quantization_steps, [](auto& v) { v[0] = HUGE_VALF; }));
   EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v[0] = NAN; }));
   EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v.pop_back(); }));
   EXPECT_FALSE(with(&PatchLists::quantized_values, [](auto& v) { v.push_back(0); }));

@@ -129,7 +129,7 @@ TEST(LevelBasis, StaysWithinItsToleranceAtEveryLevelOfALongRun) {
   Columns level = fitted.positions;  // by plain iteration
   for (std::uint64_t l = 1; l <= kMaxLevel; ++l) {
     level = iterate(fitted.smoothing, level, 1);
-    const std::vector<double> phi = basis_values(fitted.nodes, basis.mixing, l);
+    const std::vector<double> phi = level_function_values(fitted.nodes, basis.mixing, l);
     for (Index v = static_cast<Index>(l % 7); v < level.rows(); v += 7) {
       Eigen::RowVector3d found = fitted.positions.row(v);
       for (Index p = 0; p < basis.rank(); ++p) {
@@ -209,7 +209,8 @@ TEST(LevelBasis, HasTheSameBitsOnAnyMachine) {
     EXPECT_EQ(basis.mixing, expected.mixing);
     EXPECT_TRUE(
         std::ranges::equal(basis.fields.first_field_of_tile, expected.fields.first_field_of_tile));
-    EXPECT_TRUE(std::ranges::equal(basis.fields.steps, expected.fields.steps));
+    EXPECT_TRUE(
+        std::ranges::equal(basis.fields.quantization_steps, expected.fields.quantization_steps));
     EXPECT_TRUE(
         std::ranges::equal(basis.fields.quantized_values, expected.fields.quantized_values));
     EXPECT_EQ(basis.error.max, expected.error.max);

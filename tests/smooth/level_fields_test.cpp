@@ -35,7 +35,8 @@ TEST(LevelFields, AreOffByHalfAStepAtMost) {
       const std::size_t p = i / static_cast<std::size_t>(3 * vertices);
       const auto tile = static_cast<std::size_t>(at / 3) / kTileVertices;
       const double half =
-          0.5 * static_cast<double>(fields.steps[fields.first_field_of_tile[tile] + p]);
+          0.5 *
+          static_cast<double>(fields.quantization_steps[fields.first_field_of_tile[tile] + p]);
       EXPECT_LE(std::abs(fields.value(static_cast<Index>(p), at / 3, at % 3) -
                          static_cast<double>(exact[i])),
                 half);
@@ -154,7 +155,7 @@ TEST(LevelFields, AreTheSameOnEveryInstructionSet) {
   for (const std::string& name : instruction_sets()) {
     use_instruction_set(name);
     const LevelFields fields = quantize(exact, 500);
-    EXPECT_TRUE(std::ranges::equal(fields.steps, expected.steps)) << name;
+    EXPECT_TRUE(std::ranges::equal(fields.quantization_steps, expected.quantization_steps)) << name;
     EXPECT_TRUE(std::ranges::equal(fields.quantized_values, expected.quantized_values)) << name;
   }
   use_instruction_set(instruction_sets().front());

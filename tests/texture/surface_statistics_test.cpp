@@ -25,7 +25,7 @@ void for_each_texel(const SurfaceTexels& texels, const Visit& visit) {
         const auto share = [&](const std::array<float, 3>& of) {
           return of[0] + static_cast<float>(x) * of[1] + static_cast<float>(y) * of[2];
         };
-        const float b = share(triangle.second_coefficients), c = share(triangle.third_coefficients);
+        const float b = share(triangle.second_barycentric), c = share(triangle.third_barycentric);
         std::array<Index, 3> vertices{};
         for (std::size_t i = 0; i < 3; ++i) vertices[i] = texels.vertices()[triangle.corners[i]];
         visit(static_cast<std::size_t>(y * texels.width() + x), vertices,

@@ -24,12 +24,12 @@ TEST(SurfaceTexels, CoverEachChartOnceWithSharesThatSumToThePlace) {
       covered += static_cast<std::size_t>(span.end - span.begin);
       const SurfaceTexels::Triangle& triangle = texels.triangle(span.triangle);
       for (int x = span.begin; x < span.end; ++x) {
-        const double b = double{triangle.second_coefficients[0]} +
-                         x * double{triangle.second_coefficients[1]} +
-                         y * double{triangle.second_coefficients[2]};
-        const double c = double{triangle.third_coefficients[0]} +
-                         x * double{triangle.third_coefficients[1]} +
-                         y * double{triangle.third_coefficients[2]};
+        const double b = double{triangle.second_barycentric[0]} +
+                         x * double{triangle.second_barycentric[1]} +
+                         y * double{triangle.second_barycentric[2]};
+        const double c = double{triangle.third_barycentric[0]} +
+                         x * double{triangle.third_barycentric[1]} +
+                         y * double{triangle.third_barycentric[2]};
         const auto place = [&](std::size_t corner) -> Eigen::RowVector2d {
           const std::uint32_t v = texels.vertices()[triangle.corners[corner]];
           return Eigen::RowVector2d(v % (TwoCharts::kSide + 1), v / (TwoCharts::kSide + 1)) /

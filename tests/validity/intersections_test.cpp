@@ -172,12 +172,12 @@ TEST(SkinCheck, MeasuresSkinThatShowsItsBack) {
   ASSERT_LT(flap, 200);
   const ViewSetup above{{{0, 0, 1}}, 10};
   const SkinCheck check(sheet.topology, sheet.components, heads, {0, 1}, above);
-  EXPECT_EQ(check.compare(heads[0].positions, 0).exposed_back_mm2, 0);
-  EXPECT_NEAR(check.compare(heads[1].positions, 0).exposed_back_mm2, 100 * flap, 6 * flap);
-  EXPECT_EQ(check.compare(heads[1].positions, 1).exposed_back_mm2, 0) << "the target's own";
+  EXPECT_EQ(check.compare(heads[0].positions, 0).exposed_back_face_mm2, 0);
+  EXPECT_NEAR(check.compare(heads[1].positions, 0).exposed_back_face_mm2, 100 * flap, 6 * flap);
+  EXPECT_EQ(check.compare(heads[1].positions, 1).exposed_back_face_mm2, 0) << "the target's own";
   const ViewSetup nobody{{}, 10};
   const SkinCheck unseen(sheet.topology, sheet.components, heads, {0}, nobody);
-  EXPECT_EQ(unseen.compare(heads[1].positions, 0).exposed_back_mm2, 0);
+  EXPECT_EQ(unseen.compare(heads[1].positions, 0).exposed_back_face_mm2, 0);
 }
 
 TEST(TriangleScene, RaysMeetWhatTryingAllTrianglesMeets) {

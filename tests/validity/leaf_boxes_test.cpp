@@ -34,7 +34,7 @@ class LeafBoxesTest : public ::testing::Test {
 
   Positions positions_;
   std::vector<Triangle> triangles_;
-  SingleRows points_;
+  FloatPositions points_;
 };
 
 TEST_F(LeafBoxesTest, HoldTheirTrianglesWithTheMargin) {

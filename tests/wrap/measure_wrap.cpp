@@ -96,7 +96,7 @@ Regions regions_of(const WrapTemplate& head, const std::map<std::string, std::ui
   Regions regions;
   for (std::size_t i = 0; i < head.skin.vertices.size(); ++i) {
     const Eigen::Vector3d p = head.positions.row(head.skin.vertices[i]).transpose();
-    const bool seen = head.skin.openness[i] > 0.12;
+    const bool seen = head.skin.ambient_visibility[i] > 0.12;
     regions.skin.push_back(seen);
     regions.face.push_back(seen && (p - middle).norm() < 90);
     regions.eyes.push_back(seen && std::min((p - right).norm(), (p - left).norm()) < 22);

@@ -72,7 +72,7 @@ TEST_F(ScanFaults, LipsThatPartAreAnOpenMouth) {
   const SkinContacts lips(faces, shape_.adjacency, shape_.skin.vertices);
   ASSERT_GT(lips.size(), 0U);
   for (std::size_t i = 0; i < lips.size(); ++i) {
-    for (const EdgePoint& point : lips.section(i).low) {
+    for (const EdgePoint& point : lips.section(i).low_profile) {
       for (const std::uint32_t v : {point.a, point.b}) {
         result_.positions(v, 1) = shape_.positions(v, 1) - 9;
       }

@@ -38,7 +38,7 @@ std::string encode_scan(const Scan& scan) {
   const auto append = [&](const void* raw, std::size_t size) {
     bytes.append(static_cast<const char*>(raw), size);
   };
-  const SingleRows points = scan.positions.cast<float>();
+  const FloatPositions points = scan.positions.cast<float>();
   append(points.data(), sizeof(float) * static_cast<std::size_t>(points.size()));
   for (const Triangle& t : scan.triangles) {
     bytes += '\3';
@@ -121,10 +121,10 @@ std::vector<Eigen::RowVector3d> corners_of(const Scan& scan) {
 
 TEST(MissingShare, IsOfTheSurfaceThatWouldCloseTheScan) {
   Scan scan = cube();
-  EXPECT_NEAR(unclosed_fraction(scan), 0, 1e-12);
+  EXPECT_NEAR(net_area_fraction(scan), 0, 1e-12);
   const auto count = scan.triangles.size();
   scan.triangles.resize(count - 2);  // five of six sides
-  EXPECT_NEAR(unclosed_fraction(scan), 0.2, 1e-12);
+  EXPECT_NEAR(net_area_fraction(scan), 0.2, 1e-12);
 }
 
 // Programs that wind triangles the other way, or mirror a scan, leave it inside out.
@@ -219,13 +219,13 @@ TEST(ScanFile, LashesOfAHeadWithEyesAreLeftOut) {
     for (std::uint32_t& v : t) v += static_cast<std::uint32_t>(rows);
     dressed.triangles.push_back(t);
   }
-  EXPECT_EQ(remove_shells(dressed).triangles, head.triangles);
+  EXPECT_EQ(remove_covering_layers(dressed).triangles, head.triangles);
   std::erase_if(dressed.triangles, [&](const Triangle& t) {
     return std::ranges::any_of(shape.parts.parts, [&](const Part& part) {
       return part.is_eyeball && std::ranges::binary_search(part.vertices, t[0]);
     });
   });
-  EXPECT_EQ(remove_shells(dressed).triangles, dressed.triangles) << "a scan in pieces";
+  EXPECT_EQ(remove_covering_layers(dressed).triangles, dressed.triangles) << "a scan in pieces";
 }
 
 TEST(ScanFile, GlbNodesStandWhereTheirParentsPutThem) {

@@ -39,7 +39,7 @@ TEST(ShapeModel, MirrorImagesOfItsHeadsAreHeadsToo) {
   MirrorMap map;  // two points each are partners
   for (std::uint32_t v = 0; v < 60; ++v) {
     map.corners.push_back({v ^ 1U, v, v});
-    map.shares.push_back({1, 0, 0});
+    map.barycentric.push_back({1, 0, 0});
   }
   const ShapeModel both = add_mirror_images(model, map);
   EXPECT_EQ(both.mean, model.mean);
@@ -59,7 +59,7 @@ TEST(ShapeRegression, WhereAPlaceLiesAlongTheSurfaceFollowsFromHowHeadsDiffer) {
   for (std::uint32_t v = 0; v < kSide * kSide; ++v) {
     const std::uint32_t column = v % kSide, row = v / kSide;
     skin.vertices.push_back(v);
-    skin.openness.push_back(1);
+    skin.ambient_visibility.push_back(1);
     // A dome, so that moving along it is not the same as staying.
     const double x = 8.0 * column - 48, y = 8.0 * row - 48;
     model.mean.row(v) << x, y, -(x * x + y * y) / 200;

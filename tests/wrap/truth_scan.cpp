@@ -29,8 +29,8 @@ std::vector<Triangle> visible_triangles(const WrapTemplate& head) {
   std::vector<Triangle> solid = occluding_triangles(head);
   std::vector<std::uint32_t> all(static_cast<std::size_t>(head.positions.rows()));
   std::iota(all.begin(), all.end(), 0U);
-  const std::vector<double> open =
-      vertex_openness(head.positions, vertex_normals(head.topology, head.positions), solid, all);
+  const std::vector<double> open = vertex_ambient_visibility(
+      head.positions, vertex_normals(head.topology, head.positions), solid, all);
   std::erase_if(solid, [&](const Triangle& t) {
     return open[t[0]] < kOpenness || open[t[1]] < kOpenness || open[t[2]] < kOpenness;
   });

@@ -33,7 +33,7 @@ std::vector<WrapLandmark> spread_landmarks(const WrapTemplate& head, std::size_t
   const Positions skin = head.skin.rows_of(head.positions);
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(skin.rows(), 1e300);
   for (Index v = 0; v < skin.rows(); ++v) {
-    if (head.skin.openness[static_cast<std::size_t>(v)] < 0.4) distances(v) = -1;
+    if (head.skin.ambient_visibility[static_cast<std::size_t>(v)] < 0.4) distances(v) = -1;
   }
   Index next = 0;
   skin.col(2).maxCoeff(&next);
@@ -60,7 +60,7 @@ std::vector<double> errors_of(const WrapTemplate& head, const TruthScan& truth,
   std::vector<double> errors;
   for (std::size_t i = 0; i < head.skin.vertices.size(); ++i) {
     const auto v = static_cast<Index>(head.skin.vertices[i]);
-    if (head.skin.openness[i] > 0.12) {
+    if (head.skin.ambient_visibility[i] > 0.12) {
       errors.push_back((found.row(v) - head.positions.row(v)).norm());
     }
   }
@@ -191,7 +191,8 @@ TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
   const Positions normals = vertex_normals_or_zero(head.skin.triangles, skin);
   std::vector<double> edges;
   for (const Triangle& t : head.skin.triangles) {
-    if (head.skin.openness[t[0]] > 0.3) edges.push_back((skin.row(t[0]) - skin.row(t[1])).norm());
+    if (head.skin.ambient_visibility[t[0]] > 0.3)
+      edges.push_back((skin.row(t[0]) - skin.row(t[1])).norm());
   }
   // Pits and bumps two edges across, and so four from pit to pit.
   const double wave = 1.57 / percentile(edges, 0.5);
@@ -209,7 +210,7 @@ TEST(Wrap, ReliefOfTwiceTheEdgesSurvives) {
   const WrapResult result = wrap(shape, nullptr, scan, landmarks, std::nullopt);
   double missed = 0, count = 0;
   for (std::size_t v = 0; v < shape.skin.vertices.size(); ++v) {
-    if (shape.skin.openness[v] < 0.3 || result.lacks_data[v]) continue;
+    if (shape.skin.ambient_visibility[v] < 0.3 || result.lacks_data[v]) continue;
     missed += std::pow(result.distance_mm(static_cast<Index>(v)), 2);
     ++count;
   }

@@ -21,10 +21,10 @@ namespace {
 /// kReachSpacings vertex spacings. The reach grows by kReachGrowth per unit of distance from the
 /// skin.
 constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
-/// The reach of a patch grows until at least kMinVertices vertices lie within the reach divided by
-/// kMinReach.
+/// The reach of a patch is at least kReachFactor times the distance to the kMinVertices-th nearest
+/// vertex of the skin.
 constexpr std::size_t kMinVertices = 12;
-constexpr double kMinReach = 1.4;
+constexpr double kReachFactor = 1.4;
 /// If the reach of a patch is at most kSpacings vertex spacings of a level, the patch uses only
 /// this level. Between kSpacings and 2 · kSpacings, the patch mixes this level with the next
 /// coarser level.
@@ -141,7 +141,7 @@ double FittedSkin::reach_at(const Eigen::Vector3d& point, double min_reach) cons
     }
     if (distances.size() >= fewest) break;
   }
-  return std::max(reach, kMinReach * nth_smallest(std::move(distances), fewest - 1));
+  return std::max(reach, kReachFactor * nth_smallest(std::move(distances), fewest - 1));
 }
 
 void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, double share,

@@ -18,8 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// Removes textures that the skin does not use. For each material and tile of untextured skin, adds
-/// a texture file without a path.
+/// Removes textures that the skin does not use. Adds placeholders for skin that has no texture: for
+/// each material and tile, an entry of `files` whose path is empty.
 /// \param is_skin  #F: whether the polygon belongs to the skin
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      FoundTextureFiles& found) {
@@ -96,8 +96,9 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& wrap_templat
   maps_ = read_mesh_maps(own, TextureKind::kColour, topology, file.uvs);
   for (std::uint32_t p = 0; p < pictures.size(); ++p) {
     texels_.emplace_back(topology, file.uvs, layout, p);
-    textures_.push_back(
-        pictures[p].row < maps_.textures.size() ? maps_.textures[pictures[p].row].get() : nullptr);
+    textures_.push_back(pictures[p].file_index < maps_.textures.size()
+                            ? maps_.textures[pictures[p].file_index].get()
+                            : nullptr);
   }
   find_picture_vertices(file, layout);
 }

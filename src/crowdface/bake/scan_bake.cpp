@@ -84,7 +84,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
       normals_(vertex_normals_or_zero(bake_template.wrap_template().skin.triangles, positions_)),
       scan_spacing_mm_(spacing_of(surface.scan())) {
   Positions densities = Positions::Zero(positions_.rows(), 3);
-  const std::vector<double> confidence = measure_vertices(densities);
+  const std::vector<double> confidence = measure_scan_densities(densities);
   compute_edge_weights(confidence);
   if (options.remove_shading) {
     estimate_shading(confidence, densities);
@@ -95,7 +95,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
     if (place.picture == kNoIndex) continue;
     const double side = place.uv_per_mm * mean_edge_length(v);
     densities.row(v) -=
-        template_density(place.picture, place.uv, {side, 0}, {0, -side}).transpose();
+        template_optical_density(place.picture, place.uv, {side, 0}, {0, -side}).transpose();
   }
   compute_tone_differences(confidence, densities);
 }
@@ -132,25 +132,26 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
   seen.confidence =
       (1 - smooth_step(0.6 * kMaxDistanceMm, kMaxDistanceMm, distance)) *
       smooth_step(kMinNormalCosine, kMinNormalCosine + 0.15, place.normal.dot(skin_point.normal)) *
-      smooth_step(0.5 * kVisibleOpenness, 1.5 * kVisibleOpenness, skin_point.openness);
+      smooth_step(0.5 * kVisibleSkinThreshold, 1.5 * kVisibleSkinThreshold,
+                  skin_point.ambient_visibility);
   return seen;
 }
 
-std::optional<Eigen::Vector3d> ScanBake::mean_density(const ScanArea& area) const {
+std::optional<Eigen::Vector3d> ScanBake::mean_optical_density(const ScanArea& area) const {
   const auto light = colours_.mean_at(surface_.scan(), area);
   if (!light) return std::nullopt;
   return density_of(*light);
 }
 
-Eigen::Vector3d ScanBake::template_density(std::size_t picture, const Eigen::Vector2d& uv,
-                                           const Eigen::Vector2d& right_step,
-                                           const Eigen::Vector2d& lower_step) const {
+Eigen::Vector3d ScanBake::template_optical_density(std::size_t picture, const Eigen::Vector2d& uv,
+                                                   const Eigen::Vector2d& right_step,
+                                                   const Eigen::Vector2d& lower_step) const {
   const FilteredTexture* texture = template_.texture(picture);
   if (texture == nullptr) return Eigen::Vector3d::Zero();
   return density_of(texture->mean_at(uv, right_step, lower_step));
 }
 
-std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
+std::vector<double> ScanBake::measure_scan_densities(Positions& scan_densities) const {
   const SkinMesh& skin = template_.wrap_template().skin;
   std::vector<double> confidence(skin.vertices.size(), 0.0);
   parallel_blocks(positions_.rows(), kVertexBlock, [&](Index begin, Index end) {
@@ -159,15 +160,16 @@ std::vector<double> ScanBake::measure_vertices(Positions& densities) const {
       const auto row = static_cast<std::size_t>(v);
       const Eigen::Vector3d normal = row3(normals_, v);
       if (normal.isZero()) continue;
-      ScanPoint seen = find_scan_point({row3(positions_, v), normal, skin.openness[row]}, guess);
+      ScanPoint seen =
+          find_scan_point({row3(positions_, v), normal, skin.ambient_visibility[row]}, guess);
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
       const auto [one, other] = tangents_of(normal);
       seen.area.right_step = mean_edge_length(v) * one;
       seen.area.lower_step = mean_edge_length(v) * other;
-      const auto density = mean_density(seen.area);
+      const auto density = mean_optical_density(seen.area);
       if (!density) continue;
-      densities.row(v) = density->transpose();
+      scan_densities.row(v) = density->transpose();
       confidence[row] = seen.confidence;
     }
   });
@@ -181,7 +183,8 @@ void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   const SkinMesh& skin = template_.wrap_template().skin;
   std::vector<std::uint32_t> without;
   for (std::uint32_t v = 0; v < confidence.size(); ++v) {
-    if (confidence[v] < kNone && skin.openness[v] > kUnfoldedOpenness) without.push_back(v);
+    if (confidence[v] < kNone && skin.ambient_visibility[v] > kUnfoldedSkinThreshold)
+      without.push_back(v);
   }
   EdgeDistances distances(skin.adjacency, positions_);
   distances.search(without, kFeatherMm);
@@ -204,7 +207,7 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
   for (Index v = 0; v < positions_.rows(); ++v) {
     const auto row = static_cast<std::size_t>(v);
     basis.push_back(harmonics_of(row3(normals_, v)));
-    given.push_back(skin.openness[row] > kUnfoldedOpenness
+    given.push_back(skin.ambient_visibility[row] > kUnfoldedSkinThreshold
                         ? areas(v) * confidence[row] * edge_weights_[row]
                         : 0);
   }
@@ -243,14 +246,15 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
 
 void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
                                         const Positions& differences) {
-  const WrapTemplate& shape = template_.wrap_template();
+  const WrapTemplate& wrap_template = template_.wrap_template();
   // For templates with many vertices, solve on the reduced skin.
-  std::vector<std::uint32_t> rows(shape.skin.vertices.size());
+  std::vector<std::uint32_t> rows(wrap_template.skin.vertices.size());
   for (std::uint32_t v = 0; v < rows.size(); ++v) rows[v] = v;
   const std::vector<std::uint32_t>& used =
-      shape.reduced_skin ? shape.reduced_skin->mesh.vertices : rows;
-  const std::vector<Triangle>& triangles =
-      shape.reduced_skin ? shape.reduced_skin->mesh.triangles : shape.skin.triangles;
+      wrap_template.reduced_skin ? wrap_template.reduced_skin->mesh.vertices : rows;
+  const std::vector<Triangle>& triangles = wrap_template.reduced_skin
+                                               ? wrap_template.reduced_skin->mesh.triangles
+                                               : wrap_template.skin.triangles;
   const auto count = static_cast<Index>(used.size());
   Positions places(count, 3);
   for (Index v = 0; v < count; ++v)
@@ -271,23 +275,25 @@ void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
   Positions tone = mean.replicate(count, 1);
   const SparseMatrix stiffness = -kMinToneSizeMm * kMinToneSizeMm * laplacian(triangles, places);
   ElasticSolver(stiffness, areas).solve(data, {.max_steps = 300, .tolerance = 1e-6}, tone);
-  tone_differences_ = shape.reduced_skin ? shape.reduced_skin->interpolate(tone, shape.skin) : tone;
+  tone_differences_ = wrap_template.reduced_skin
+                          ? wrap_template.reduced_skin->interpolate(tone, wrap_template.skin)
+                          : tone;
 }
 
 ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, int x, int y,
                                      std::uint32_t& guess) const {
   const SurfaceTexels::Triangle& triangle = *texel.triangle;
-  const std::vector<double>& openness = template_.wrap_template().skin.openness;
+  const std::vector<double>& ambient_visibility = template_.wrap_template().skin.ambient_visibility;
   const auto mix = [&](const Positions& values, const std::array<double, 3>& shares) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) sum += shares[k] * row3(values, texel.rows[k]);
     return sum;
   };
   const auto shares_at = [&](double column, double row) -> std::array<double, 3> {
-    const double b = triangle.second_coefficients[0] + column * triangle.second_coefficients[1] +
-                     row * triangle.second_coefficients[2];
-    const double c = triangle.third_coefficients[0] + column * triangle.third_coefficients[1] +
-                     row * triangle.third_coefficients[2];
+    const double b = triangle.second_barycentric[0] + column * triangle.second_barycentric[1] +
+                     row * triangle.second_barycentric[2];
+    const double c = triangle.third_barycentric[0] + column * triangle.third_barycentric[1] +
+                     row * triangle.third_barycentric[2];
     return {1 - b - c, b, c};
   };
   const std::array<double, 3> middle = shares_at(x, y);
@@ -295,7 +301,7 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
   double trust = 0, open = 0, found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     trust += middle[k] * edge_weights_[texel.rows[k]];
-    open += middle[k] * openness[texel.rows[k]];
+    open += middle[k] * ambient_visibility[texel.rows[k]];
   }
   // Textures are filtered over the area of the texel; vertex colours are sampled at several points
   // of this area.
@@ -313,7 +319,7 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
       if (seen.confidence == 0) continue;
       seen.area.right_step = texel.right_step / samples;
       seen.area.lower_step = texel.lower_step / samples;
-      const auto density = mean_density(seen.area);
+      const auto density = mean_optical_density(seen.area);
       if (!density) continue;
       scan += seen.confidence * *density;
       found += seen.confidence;
@@ -324,10 +330,10 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
   if (share < 1) {
     const double width = template_.texels(picture).width(),
                  height = template_.texels(picture).height();
-    colour.density =
-        (1 - share) * (mix(tone_differences_, middle) +
-                       template_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
-                                        {1 / width, 0}, {0, -1 / height}));
+    colour.density = (1 - share) *
+                     (mix(tone_differences_, middle) +
+                      template_optical_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
+                                               {1 / width, 0}, {0, -1 / height}));
   }
   if (share > 0) {
     scan /= found;
@@ -368,18 +374,19 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
           const Eigen::Vector3d first = row3(positions_, texel.rows[0]);
           const Eigen::Vector3d one = row3(positions_, texel.rows[1]) - first;
           const Eigen::Vector3d other = row3(positions_, texel.rows[2]) - first;
-          texel.right_step = texel.triangle->second_coefficients[1] * one +
-                             texel.triangle->third_coefficients[1] * other;
-          texel.lower_step = texel.triangle->second_coefficients[2] * one +
-                             texel.triangle->third_coefficients[2] * other;
+          texel.right_step = texel.triangle->second_barycentric[1] * one +
+                             texel.triangle->third_barycentric[1] * other;
+          texel.lower_step = texel.triangle->second_barycentric[2] * one +
+                             texel.triangle->third_barycentric[2] * other;
         }
         for (int x = span.begin; x < span.end; ++x) {
           Colour colour;
           if (is_skin) {
             colour = colour_of(texel, picture, x, y, guess);
           } else {
-            colour.density = template_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
-                                              {1.0 / width, 0}, {0, -1.0 / height});
+            colour.density =
+                template_optical_density(picture, {(x + 0.5) / width, 1 - (y + 0.5) / height},
+                                         {1.0 / width, 0}, {0, -1.0 / height});
           }
           const std::size_t at = row + static_cast<std::size_t>(x);
           for (Index c = 0; c < 3; ++c) {

@@ -57,21 +57,23 @@ class ScanBake {
   /// A point of the wrapped skin: a vertex or a sample point of a texel.
   struct SkinPoint {
     Eigen::Vector3d position, normal;
-    double openness = 1;  ///< see SkinMesh::openness
+    double ambient_visibility = 1;  ///< 1 − ambient occlusion, see vertex_ambient_visibility
   };
   /// Mean length in mm of the edges at a vertex of the skin.
   double mean_edge_length(Index vertex) const;
   ScanPoint find_scan_point(const SkinPoint& skin_point, std::uint32_t guess) const;
   /// The mean optical density of each colour channel over an area of the scan; nothing if the area
   /// has no colour.
-  std::optional<Eigen::Vector3d> mean_density(const ScanArea& area) const;
-  /// The optical densities of the template over a texel; zero if the template has no texture.
-  Eigen::Vector3d template_density(std::size_t picture, const Eigen::Vector2d& uv,
-                                   const Eigen::Vector2d& right_step,
-                                   const Eigen::Vector2d& lower_step) const;
-  /// Measures the scan at each skin vertex. Sets `densities`, #skin by 3; returns #skin confidences
-  /// from 0 to 1.
-  std::vector<double> measure_vertices(Positions& densities) const;
+  std::optional<Eigen::Vector3d> mean_optical_density(const ScanArea& area) const;
+  /// The mean optical density of each colour channel of the template's texture over a texel; zero
+  /// if the template has no texture.
+  Eigen::Vector3d template_optical_density(std::size_t picture, const Eigen::Vector2d& uv,
+                                           const Eigen::Vector2d& right_step,
+                                           const Eigen::Vector2d& lower_step) const;
+  /// Measures the scan's optical density at each skin vertex.
+  /// \param scan_densities  receives one row for each skin vertex, one column for each channel.
+  /// \return  #skin: confidence of each row, 0 to 1.
+  std::vector<double> measure_scan_densities(Positions& scan_densities) const;
   void compute_edge_weights(const std::vector<double>& confidence);
   void estimate_shading(const std::vector<double>& confidence, const Positions& densities);
   /// Computes tone_differences_ from the differences at the vertices.
@@ -101,7 +103,8 @@ class ScanBake {
   double scan_spacing_mm_;            ///< mean distance between neighbouring vertices of the scan
   std::vector<double> edge_weights_;  ///< #skin: 0 at the edge of the scan, 1 away from it
   Positions tone_differences_;   ///< #skin by 3: density of the scan minus that of the template
-  Positions shading_densities_;  ///< #skin by 3: densities to remove; or no rows
+  Positions shading_densities_;  ///< #skin by 3: optical density of the scan's baked-in shading;
+                                 ///< no rows if the shading is kept
 };
 
 }  // namespace crowdface

@@ -25,9 +25,10 @@ namespace fs = std::filesystem;
 
 TextureMap map_of(const Image& image, TextureKind kind) {
   if (kind == TextureKind::kColour) {
-    return make_texture_map(image.width, image.height, light_of(image));
+    return make_texture_map(image.width, image.height, linear_light_of(image));
   }
-  return make_texture_map(image.width, image.height, slopes_of(image), MapCoding::slope_coding());
+  return make_texture_map(image.width, image.height, normal_slopes_of(image),
+                          MapCoding::slope_coding());
 }
 
 /// #texels of a picture: whether a polygon that uses this file covers the texel's centre.

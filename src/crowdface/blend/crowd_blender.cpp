@@ -128,7 +128,7 @@ class CrowdBlender::Crowd {
       }
     }
     for (const Recipe* recipe : recipes) {
-      for (const SourceWeight& part : target_shares(*recipe)) targets_.insert(part.head);
+      for (const SourceWeight& part : target_head_weights(*recipe)) targets_.insert(part.head);
     }
   }
   std::size_t size() const { return recipes_.size(); }
@@ -178,7 +178,7 @@ class CrowdBlender::PatchBlender {
     fetch_targets();
     vertex_sums_ = added_values_.zeros(crowd_.size() * kPatchValues);
     skeleton_sums_ = skeleton_values_.resize(kMaxColumns * patch_.values_per_field());
-    if (patch_.skeleton_size > 0) {
+    if (patch_.stored_vertex_count > 0) {
       find_fields();
       if (crowd_.size() == 1) {
         add_to_single_face();
@@ -218,11 +218,11 @@ class CrowdBlender::PatchBlender {
         columns_[k] = scaled;
         products_[k] = skeleton_sums_ + k * patch_.values_per_field();
         for (const std::uint32_t row : used_) {
-          scaled[row] = coefficients[fields_[row]] * patch_.steps[row];
+          scaled[row] = coefficients[fields_[row]] * patch_.quantization_steps[row];
         }
       }
-      multiply(ProductRows<std::int16_t>{patch_.quantized_values, patch_.values_per_field(),
-                                         patch_.values_per_field(), used_},
+      multiply(MatrixRows<std::int16_t>{patch_.quantized_values, patch_.values_per_field(),
+                                        patch_.values_per_field(), used_},
                std::span(columns_).first(regions.size()),
                std::span(products_).first(regions.size()));
       for (std::size_t k = 0; k < regions.size(); ++k) {
@@ -240,7 +240,7 @@ class CrowdBlender::PatchBlender {
       const auto uses = [&](std::uint32_t k) { return crowd_.uses(k, fields_[row]); };
       if (std::ranges::none_of(regions_, uses)) continue;
       unpack(patch_.quantized_values + row * patch_.values_per_field(), patch_.values_per_field(),
-             patch_.steps[row], unpacked + fields_[row] * patch_.values_per_field());
+             patch_.quantization_steps[row], unpacked + fields_[row] * patch_.values_per_field());
     }
     for (const std::uint32_t region : regions_) {
       copy_alpha(region);
@@ -255,8 +255,8 @@ class CrowdBlender::PatchBlender {
           columns_[face] = crowd_.coefficients(region, first + face);
           products_[face] = skeleton_sums_ + face * patch_.values_per_field();
         }
-        multiply(ProductRows<float>{unpacked, patch_.values_per_field(), patch_.values_per_field(),
-                                    used_},
+        multiply(MatrixRows<float>{unpacked, patch_.values_per_field(), patch_.values_per_field(),
+                                   used_},
                  std::span(columns_).first(count), std::span(products_).first(count));
         add_at_vertices(skeleton_sums_, first, count);
       }
@@ -281,7 +281,7 @@ class CrowdBlender::PatchBlender {
     // face follows
     const auto coordinate = [&](std::size_t i) {
       return at_skeleton + i / kCoordinates * patch_.values_per_field() +
-             i % kCoordinates * patch_.skeleton_size;
+             i % kCoordinates * patch_.stored_vertex_count;
     };
     for (std::size_t first = 0; first < kCoordinates * count; first += kMaxColumns) {
       const std::size_t here = std::min(kMaxColumns, kCoordinates * count - first);
@@ -291,13 +291,13 @@ class CrowdBlender::PatchBlender {
       }
       if (patch_.is_whole()) {
         for (std::size_t i = 0; i < here; ++i) {
-          for (std::size_t v = 0; v < patch_.skeleton_size; ++v) {
+          for (std::size_t v = 0; v < patch_.stored_vertex_count; ++v) {
             products_[i][v] += alpha_[v] * columns_[i][v];
           }
         }
       } else {
         add_product({patch_.weights, kPatchVertices, kPatchVertices,
-                     std::span(all_of_skeleton_).first(patch_.skeleton_size)},
+                     std::span(all_of_skeleton_).first(patch_.stored_vertex_count)},
                     std::span(columns_).first(here), alpha_.data(),
                     std::span(products_).first(here));
       }

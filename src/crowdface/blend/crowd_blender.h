@@ -62,7 +62,8 @@ class CrowdBlender {
     return std::span(patch_regions_)
         .subspan(first_region_[patch], first_region_[patch + 1] - first_region_[patch]);
   }
-  /// Returns the coefficients Σ_L s_kLh φ_hp(L) of all heads' fields in one region of a face.
+  /// Returns the coefficient Σ_L s_kLh φ_hp(L) of each field c_hp of each head, in region k of a
+  /// face (see the formula of the class).
   std::vector<float> coefficients(const Recipe& recipe, std::size_t region) const;
   /// Blends only those patches for which wanted(patch) is true.
   template <class Wanted>

@@ -47,7 +47,7 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
 /// \param alpha  null: stores the products in `products`; otherwise adds alpha·product to
 ///               `products`.
 template <std::size_t kOfColumns, std::size_t kVectors, class Number>
-HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* const* columns,
+HWY_INLINE void multiply_some(const MatrixRows<Number>& rows, const float* const* columns,
                               const float* alpha, std::size_t begin, float* const* products) {
   const hn::CappedTag<float, kPatchPadding> lanes;
   using V = hn::VFromD<decltype(lanes)>;
@@ -81,7 +81,7 @@ HWY_INLINE void multiply_some(const ProductRows<Number>& rows, const float* cons
 }
 
 template <std::size_t kOfColumns, class Number>
-void multiply_columns(const ProductRows<Number>& rows, const float* const* columns,
+void multiply_columns(const MatrixRows<Number>& rows, const float* const* columns,
                       const float* alpha, float* const* products) {
   const hn::CappedTag<float, kPatchPadding> lanes;
   const std::size_t width = hn::Lanes(lanes);
@@ -99,10 +99,10 @@ void multiply_columns(const ProductRows<Number>& rows, const float* const* colum
 }
 
 template <class Number>
-void multiply_any(const ProductRows<Number>& rows, const float* const* columns, std::size_t count,
+void multiply_any(const MatrixRows<Number>& rows, const float* const* columns, std::size_t count,
                   const float* alpha, float* const* products) {
   using Multiply =
-      void (*)(const ProductRows<Number>&, const float* const*, const float*, float* const*);
+      void (*)(const MatrixRows<Number>&, const float* const*, const float*, float* const*);
   constexpr Multiply kMultiply[kMaxColumns] = {
       multiply_columns<1, Number>, multiply_columns<2, Number>, multiply_columns<3, Number>,
       multiply_columns<4, Number>, multiply_columns<5, Number>, multiply_columns<6, Number>};
@@ -110,11 +110,11 @@ void multiply_any(const ProductRows<Number>& rows, const float* const* columns, 
 }
 
 // Highway's dispatch table needs non-template functions.
-void multiply_floats(const ProductRows<float>& rows, const float* const* columns, std::size_t count,
+void multiply_floats(const MatrixRows<float>& rows, const float* const* columns, std::size_t count,
                      const float* alpha, float* const* products) {
   multiply_any(rows, columns, count, alpha, products);
 }
-void multiply_numbers(const ProductRows<std::int16_t>& rows, const float* const* columns,
+void multiply_numbers(const MatrixRows<std::int16_t>& rows, const float* const* columns,
                       std::size_t count, const float* alpha, float* const* products) {
   multiply_any(rows, columns, count, alpha, products);
 }
@@ -176,19 +176,19 @@ void unpack(const std::int16_t* numbers, std::size_t count, float step, float* v
   HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, values);
 }
 
-void multiply(const ProductRows<float>& rows, std::span<const float* const> columns,
+void multiply(const MatrixRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products) {
   HWY_DYNAMIC_DISPATCH(multiply_floats)
   (rows, columns.data(), columns.size(), nullptr, products.data());
 }
 
-void multiply(const ProductRows<std::int16_t>& rows, std::span<const float* const> columns,
+void multiply(const MatrixRows<std::int16_t>& rows, std::span<const float* const> columns,
               std::span<float* const> products) {
   HWY_DYNAMIC_DISPATCH(multiply_numbers)
   (rows, columns.data(), columns.size(), nullptr, products.data());
 }
 
-void add_product(const ProductRows<float>& rows, std::span<const float* const> columns,
+void add_product(const MatrixRows<float>& rows, std::span<const float* const> columns,
                  const float* alpha, std::span<float* const> sums) {
   HWY_DYNAMIC_DISPATCH(multiply_floats)(rows, columns.data(), columns.size(), alpha, sums.data());
 }

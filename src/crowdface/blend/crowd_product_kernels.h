@@ -16,9 +16,9 @@ inline constexpr std::size_t kMaxColumns = 6;
 /// \param count  a multiple of kPatchPadding.
 void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values);
 
-/// The left matrix of a product. Its rows contain quantized (int16) or unpacked (float) values.
+/// The matrix whose rows `multiply` adds up. The values are quantized (int16) or unpacked (float).
 template <class Number>
-struct ProductRows {
+struct MatrixRows {
   const Number* values;
   /// distance from the start of one row to the start of the next row, in elements
   std::size_t stride;
@@ -31,13 +31,13 @@ struct ProductRows {
 /// is over the used rows r.
 ///
 /// \param columns, products  1 to kMaxColumns; as many columns as products.
-void multiply(const ProductRows<float>& rows, std::span<const float* const> columns,
+void multiply(const MatrixRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
-void multiply(const ProductRows<std::int16_t>& rows, std::span<const float* const> columns,
+void multiply(const MatrixRows<std::int16_t>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 
 /// Computes sums[c][i] += alpha[i]·products[c][i], where `products` are the results of `multiply`.
-void add_product(const ProductRows<float>& rows, std::span<const float* const> columns,
+void add_product(const MatrixRows<float>& rows, std::span<const float* const> columns,
                  const float* alpha, std::span<float* const> sums);
 
 /// A range of vertices of the mesh with consecutive numbers.

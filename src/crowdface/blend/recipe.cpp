@@ -58,7 +58,7 @@ std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
   std::vector<LevelShares> levels;
   // For the first band, the weights of the heads in B; for every later band b, the weights in
   // e_{b−1} C̄_{b−1}.
-  std::vector<SourceWeight> coarser = target_shares(recipe);
+  std::vector<SourceWeight> coarser = target_head_weights(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);
     const double e = extrapolation == Extrapolation::kNone ? 1 : band.extrapolation;
@@ -72,7 +72,7 @@ std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
   return levels;
 }
 
-std::vector<SourceWeight> target_shares(const Recipe& recipe) {
+std::vector<SourceWeight> target_head_weights(const Recipe& recipe) {
   if (recipe.mixture.empty()) return {{recipe.target, 1}};
   return recipe.mixture;
 }

@@ -51,7 +51,8 @@ const BandRecipe& band_of(const RegionRecipe& region, std::size_t band);
 /// The parameters of one new face. Together with the heads and the regions, a recipe determines the
 /// face's mesh to the bit.
 struct Recipe {
-  /// The head B. If B is a mixture: the head of the mixture whose file and parts the face uses.
+  /// Index of the head B of Eq. 2, on which the face is built. If B is a mixture of heads, the face
+  /// takes its parts and the layout of its file from this head of the mixture.
   Index target = 0;
   std::vector<RegionRecipe> regions;  ///< one recipe for each region of the mask
   /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, not zero, summing to one. If
@@ -99,10 +100,11 @@ std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
 
 /// Returns the weights τ_h of the heads in B: the weights of the mixture or, without a mixture,
 /// weight 1 for the target.
-std::vector<SourceWeight> target_shares(const Recipe& recipe);
+std::vector<SourceWeight> target_head_weights(const Recipe& recipe);
 
-/// Sets B to a mixture of heads, or to a single head. The target becomes the head with the largest
-/// weight; if several heads have the largest weight, the first of these.
+/// Builds a recipe's face on a mixture of heads, or on a single head (B in Eq. 2): sets the
+/// recipe's `target` and `mixture`. The target is the head with the largest weight; if several
+/// heads have the largest weight, the first of these.
 ///
 /// \param shares  weights by ascending head, above zero, summing to one.
 void set_target(Recipe& recipe, std::vector<SourceWeight> shares);

@@ -56,7 +56,7 @@ class Redrawing {
         cast_(cast),
         unrelated_(casting, judge.space()),
         half_median_mm_(0.5 * quartiles(pair_distances(cast.points)).median),
-        kinds_(face_kinds(casting)) {}
+        kinds_(face_distributions(casting)) {}
 
   /// Casts a new face to replace a rejected face.
   ///
@@ -79,7 +79,7 @@ class Redrawing {
     }
     const FamilySeparation family_separation = family_separation_without(family, is_final);
     const AvoidedFaces changes(cast_, casting_.diversity.min_distance_mm, is_final);
-    FaceSearch::Generate generate;
+    FaceSearch::GenerateCandidate generate;
     const std::vector<FaceSpace::Point> rejected = reject(at);
     FaceSearch::RejectionCheck rejection_reason;
     std::optional<FamilySampler> family_draws;
@@ -95,7 +95,7 @@ class Redrawing {
       };
     } else {
       generate = [&](std::uint32_t attempt) {
-        return random_face(casting_, *old.index, attempt, kind_of(*old.index));
+        return random_face(casting_, *old.index, attempt, distribution_of_face(*old.index));
       };
       rejection_reason = [&](const FaceSpace::Point& point) {
         return family_separation.rejection_reason(point);
@@ -143,9 +143,9 @@ class Redrawing {
     return points;
   }
 
-  /// Returns the minimum distances between the new face and the rejected face's versions, largest
-  /// first. The redraw tries each distance in turn, because a family or locked parts may make the
-  /// largest distance impossible.
+  /// Returns possible minimum distances between the new face and the face that is rejected (in this
+  /// review and in earlier reviews), largest first. The redraw tries each distance in turn, because
+  /// a family or locked bands may make the largest distance impossible.
   ///
   /// \param own  Points of the face's family.
   std::vector<double> distances_to_rejected(const FamilyPlan* family,
@@ -154,11 +154,11 @@ class Redrawing {
     if (casting_.diversity.min_distance_to_rejected_mm) {
       return {*casting_.diversity.min_distance_to_rejected_mm};
     }
-    if (family == nullptr && mark.locked_parts.empty()) return {half_median_mm_};
+    if (family == nullptr && mark.locked_bands.empty()) return {half_median_mm_};
     double free = 1;
     const std::size_t bands = band_count(casting_.sampling);
-    for (const std::size_t part : mark.locked_parts) {
-      free -= judge_.space().region_share(static_cast<Index>(part / bands)) /
+    for (const std::size_t part : mark.locked_bands) {
+      free -= judge_.space().region_area_fraction(static_cast<Index>(part / bands)) /
               static_cast<double>(bands);
     }
     const double all = family == nullptr
@@ -172,20 +172,20 @@ class Redrawing {
     return *std::ranges::find(casting_.families, family.name, &FamilyOptions::name);
   }
 
-  const FaceKind& kind_of(std::uint64_t index) const {
+  const FaceDistribution& distribution_of_face(std::uint64_t index) const {
     return kinds_[static_cast<std::size_t>(cast_.group_indices[index - 1] + 1)];
   }
 
-  /// Copies the locked parts of the old face. Also copies the old face's target, mirroring and
-  /// asymmetry, because the locked parts would look different without these values.
+  /// Copies the locked bands of the old face. Also copies the old face's target, mirroring and
+  /// asymmetry, because the locked bands would look different without these values.
   FacePlan with_locked(FacePlan face, const FacePlan& old, const ReviewMark& mark) const {
-    if (mark.locked_parts.empty()) return face;
+    if (mark.locked_bands.empty()) return face;
     if (face.recipe.target != old.recipe.target && old.index) {
-      FaceKind kind = kind_of(*old.index);
+      FaceDistribution kind = distribution_of_face(*old.index);
       kind.targets = {{old.recipe.target, 1}};
       face = random_face(casting_, *old.index, face.notes.attempt, kind);
     }
-    copy_locked_bands(mark.locked_parts, old.recipe, face.recipe);
+    copy_locked_bands(mark.locked_bands, old.recipe, face.recipe);
     return face;
   }
 
@@ -228,7 +228,7 @@ class Redrawing {
   CastingResult& cast_;
   UnrelatedFaces unrelated_;
   double half_median_mm_;
-  std::vector<FaceKind> kinds_;
+  std::vector<FaceDistribution> kinds_;
 };
 
 }  // namespace
@@ -243,11 +243,11 @@ void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge,
   std::vector<FaceChange> changes;
   std::erase_if(redraws, [&](const Redraw& redraw) {
     const auto changed = cast.changed.find(static_cast<std::size_t>(redraw.face));
-    const bool acts_as_change = !redraw.mark->locked_parts.empty() &&
+    const bool acts_as_change = !redraw.mark->locked_bands.empty() &&
                                 changed != cast.changed.end() && changed->second.is_other_person;
     if (acts_as_change) {
       changes.emplace_back().id = redraw.mark->id;
-      changes.back().locked_parts = redraw.mark->locked_parts;
+      changes.back().locked_bands = redraw.mark->locked_bands;
     }
     return acts_as_change;
   });

@@ -24,7 +24,7 @@ struct AttachmentItem {
 };
 
 /// Returns whether `word` is the item's kind, name or colour.
-inline bool matches_word(const AttachmentItem& item, const std::string& word) {
+inline bool matches_kind_name_or_colour(const AttachmentItem& item, const std::string& word) {
   return item.kind == word || item.name == word || item.colour == word;
 }
 

@@ -44,8 +44,9 @@ bool says_colour(const std::string& tag, const std::string& colour) {
 /// Maps the name of each item to the number of faces that wear the item.
 using WearerCounts = std::map<std::string, int>;
 
-/// If n faces wear one of the items so far: keeps only the items that fewer faces wear than the
-/// item's share of n + 1 faces.
+/// Removes the items that already have their share. An item with share s (relative to the sum of
+/// all shares in `items`) stays if fewer than s·(n + 1) faces wear this item, where n is the number
+/// of faces that wear any of `items`. At least one item stays.
 void keep_underused(const WearerCounts& counts, Items& items) {
   constexpr double kRounding = 1e-9;
   const auto given = [&](const AttachmentItem* item) {
@@ -103,8 +104,9 @@ class AttachmentChooser {
     for (const int group : groups) group_indices_.emplace_back(group, sizes_[group]++);
     for (const auto& quota : options.quotas) {
       const std::string& word = quota.first;
-      const auto first = std::find_if(options.items.begin(), options.items.end(),
-                                      [&](const auto& item) { return matches_word(item, word); });
+      const auto first =
+          std::find_if(options.items.begin(), options.items.end(),
+                       [&](const auto& item) { return matches_kind_name_or_colour(item, word); });
       if (first == options.items.end()) continue;
       quotas_[first->kind].words.push_back(word);
       quotas_[first->kind].shares.push_back(quota.second);
@@ -123,8 +125,8 @@ class AttachmentChooser {
     }
     for (auto& [kind, quotas] : quotas_) {
       for (const auto& [group, faces] : sizes_) {
-        quotas.schedules[group] = scatter_shares(quotas.shares, faces, options.seed,
-                                                 concat("attachment quotas/", kind, '/', group));
+        quotas.schedules[group] = schedule_shares_randomly(
+            quotas.shares, faces, options.seed, concat("attachment quotas/", kind, '/', group));
       }
     }
   }
@@ -183,7 +185,7 @@ class AttachmentChooser {
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
     const auto drawn = random_pair({options_.seed, face.index.value_or(0), purpose});
-    if (!serve_quotas(kind, face, drawn[0], items)) return nullptr;
+    if (!apply_quotas(kind, face, drawn[0], items)) return nullptr;
     match_colours(kind, face, placed, items);
     if (items[0]->tint == Tint::kNone) return random_underused_item(items, face, drawn[1]);
     avoid_neighbours(face, items);
@@ -196,9 +198,9 @@ class AttachmentChooser {
     return weighted_choice(items, drawn[1], &AttachmentItem::share);
   }
 
-  /// Returns whether the second of two successive faces must not look like the first. A sampled
-  /// face is compared only with sampled faces, because further sampled faces may come between this
-  /// face and other faces when the crowd grows.
+  /// Returns whether the second of two successive faces must not look like the first. Sampled faces
+  /// are compared only with sampled faces: if the crowd grows, new sampled faces can separate a
+  /// sampled face from an adjacent face that is not sampled.
   static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
@@ -224,10 +226,9 @@ class AttachmentChooser {
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
   }
 
-  /// Chooses at random one of the items that have not yet reached their share among similar faces.
-  /// If several items remain and `face` is not hand-written, only items are left that have not
-  /// reached their share among all sampled faces either, if there are any. Probabilities are
-  /// proportional to the items' shares.
+  /// Chooses an item at random, with probabilities proportional to the items' shares. First
+  /// excludes the items that have reached their share among similar faces. If `face` is a sampled
+  /// face, then also excludes the items that have reached their share among all sampled faces.
   const AttachmentItem* random_underused_item(const Items& items, const FacePlan& face,
                                               double drawn) const {
     Items next = items;
@@ -237,13 +238,13 @@ class AttachmentChooser {
     return weighted_choice(next, drawn, &AttachmentItem::share);
   }
 
-  /// Keeps the items that the quotas allow for a face.
+  /// Removes from `items` the items that the quotas do not allow for a face.
   ///
   /// \return  Whether the face wears an item of the kind.
-  bool serve_quotas(const std::string& kind, const FacePlan& face, double drawn,
+  bool apply_quotas(const std::string& kind, const FacePlan& face, double drawn,
                     Items& items) const {
-    const auto none = options_.fractions_without_item.find(kind);
-    const bool bare = none != options_.fractions_without_item.end() && drawn < none->second;
+    const auto none = options_.fraction_without_item_by_kind.find(kind);
+    const bool bare = none != options_.fraction_without_item_by_kind.end() && drawn < none->second;
     const auto found = quotas_.find(kind);
     if (found == quotas_.end()) return !bare;
     const KindQuotas& quotas = found->second;
@@ -252,12 +253,14 @@ class AttachmentChooser {
     if (quotas.of_kind(kind)) return asked >= 0;
     if (asked >= 0) {
       const std::string& word = quotas.words[static_cast<std::size_t>(asked)];
-      if (keep_matching(items, [&](const auto& item) { return matches_word(item, word); }))
+      if (keep_matching(items,
+                        [&](const auto& item) { return matches_kind_name_or_colour(item, word); }))
         return true;
     }
     keep_matching(items, [&](const AttachmentItem& item) {
-      return std::none_of(quotas.words.begin(), quotas.words.end(),
-                          [&](const std::string& word) { return matches_word(item, word); });
+      return std::none_of(quotas.words.begin(), quotas.words.end(), [&](const std::string& word) {
+        return matches_kind_name_or_colour(item, word);
+      });
     });
     return !bare;
   }
@@ -398,25 +401,26 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     face.hair = drawn.hair;
   };
   // all versions of a redrawn face, by id: the rejected versions in order, then the final version
-  std::map<std::string, std::vector<const FacePlan*>> before;
+  std::map<std::string, std::vector<const FacePlan*>> versions_by_id;
   for (const FacePlan& face : rejected) {
-    if (face.index) before[face.id].push_back(&face);
+    if (face.index) versions_by_id[face.id].push_back(&face);
   }
   for (FacePlan& face : crowd) {
-    const auto found = before.find(face.id);
-    if (found != before.end()) found->second.push_back(&face);
+    const auto found = versions_by_id.find(face.id);
+    if (found != versions_by_id.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
+  // by face id: index in `versions_by_id` of the version that got attachments last
+  std::map<std::string, std::size_t> version_indices;
+  std::size_t next = 0;
   // Process the replacements of rejected faces in the order of the reviews: each replacement comes
   // after all faces of the crowd that was reviewed.
-  std::map<std::string, std::size_t> times;
-  std::size_t next = 0;
   const auto replace_up_to = [&](std::size_t size) {
     for (; next < rejected.size(); ++next) {
       if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;
       const std::string& id = rejected[next].id;
       if (!redrawn.contains(id)) continue;
-      dress(*redrawn[id], drawing.choose(*before[id][++times[id]]));
+      dress(*redrawn[id], drawing.choose(*versions_by_id[id][++version_indices[id]]));
     }
   };
   // First choose attachments for the original version of each face, so that a redraw does not
@@ -424,8 +428,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (!crowd_size_at_rejection.empty()) replace_up_to(i);
     FacePlan& face = crowd[i];
-    const auto found = before.find(face.id);
-    if (found == before.end()) {
+    const auto found = versions_by_id.find(face.id);
+    if (found == versions_by_id.end()) {
       dress(face, drawing.choose(face));
       continue;
     }
@@ -435,9 +439,9 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   replace_up_to(crowd.size());
 }
 
-void choose_attachments_independently(const AttachmentOptions& options,
-                                      const std::vector<int>& groups,
-                                      const std::vector<FacePlan>& crowd, FacePlan& face) {
+void choose_attachments_of_changed_face(const AttachmentOptions& options,
+                                        const std::vector<int>& groups,
+                                        const std::vector<FacePlan>& crowd, FacePlan& face) {
   AttachmentChooser drawing(options, groups, crowd, {});
   for (const FacePlan& earlier : crowd) {
     if (earlier.index || earlier.id == face.id) break;

@@ -17,8 +17,8 @@ namespace crowdface {
 struct AttachmentOptions {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
-  /// by kind: fraction of the faces that wear no item of this kind
-  std::map<std::string, double> fractions_without_item;
+  /// by kind of attachment: fraction of the faces that wear no item of this kind
+  std::map<std::string, double> fraction_without_item_by_kind;
   HeadTags tags;  ///< the tags of each head
   /// By kind, name or colour of items: the fraction of each group's sampled faces that wear an item
   /// of this kind, name or colour. A kind has either a quota of its own or quotas for some of its
@@ -45,7 +45,7 @@ struct AttachmentOptions {
 /// that requires the tag `old` (grey) only if the child itself is old.
 /// - Quotas: each quota determines in advance which of a group's sampled faces wear the item,
 ///   independently of all other choices. If such a face may not wear the item, its items are chosen
-///   as if there were no quota.
+///   as for the faces that wear no quota's item.
 /// - Equal use: among the sampled faces on one head, and among the members of one family, an item
 ///   is skipped once it has reached its share of the earlier faces. If several items are left,
 ///   sampled faces also skip items that have reached their share of all sampled faces.
@@ -57,8 +57,8 @@ struct AttachmentOptions {
 ///   `hair_colours` or the colour that the head's tags name (`brown_hair`). Age makes hair grey.
 /// - A sampled face gets an item that the fewest earlier sampled faces wear. A member of a family
 /// gets an item that the fewest earlier members wear.
-/// - If a face may wear several items, it does not wear the same item as the previous face in a
-/// similar colour.
+/// - If the previous face has a similar hair colour, the face does not wear the item that the
+///   previous face wears, unless no other item is allowed.
 ///
 /// Finally, each item in turn removes the items that it excludes.
 ///
@@ -76,8 +76,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
 /// neither depends on the other sampled faces nor affects the attachments of these faces.
 ///
 /// \param crowd  In the order of the plan; may contain the face as it was before the change.
-void choose_attachments_independently(const AttachmentOptions& options,
-                                      const std::vector<int>& groups,
-                                      const std::vector<FacePlan>& crowd, FacePlan& face);
+void choose_attachments_of_changed_face(const AttachmentOptions& options,
+                                        const std::vector<int>& groups,
+                                        const std::vector<FacePlan>& crowd, FacePlan& face);
 
 }  // namespace crowdface

@@ -21,8 +21,8 @@ void restore_level_order(RegionRecipe& region) {
   }
 }
 
-void copy_bands(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
-  const std::set<std::size_t> taken(parts.begin(), parts.end());
+void copy_bands(std::span<const std::size_t> band_indices, const Recipe& from, Recipe& recipe) {
+  const std::set<std::size_t> taken(band_indices.begin(), band_indices.end());
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     RegionRecipe& region = recipe.regions[k];
     const std::size_t bands = band_count(region);
@@ -40,12 +40,13 @@ void copy_bands(std::span<const std::size_t> parts, const Recipe& from, Recipe& 
   }
 }
 
-void copy_locked_bands(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe) {
+void copy_locked_bands(std::span<const std::size_t> band_indices, const Recipe& from,
+                       Recipe& recipe) {
   recipe.target = from.target;
   recipe.mixture = from.mixture;
   recipe.asymmetry = from.asymmetry;
   recipe.mirrored = from.mirrored;
-  copy_bands(parts, from, recipe);
+  copy_bands(band_indices, from, recipe);
 }
 
 }  // namespace crowdface

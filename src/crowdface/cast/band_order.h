@@ -16,11 +16,12 @@ void restore_level_order(RegionRecipe& region);
 /// Copies bands from one recipe to another. Then restores the order of the bands' levels (see
 /// restore_level_order) by changing only bands that were not copied.
 ///
-/// \param parts  Bands to copy, each given as region · #bands + band.
-void copy_bands(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe);
+/// \param band_indices  Bands to copy, each given as region · #bands + band.
+void copy_bands(std::span<const std::size_t> band_indices, const Recipe& from, Recipe& recipe);
 
 /// Like copy_bands, but also copies the target, the mirroring and the asymmetry, because the shape
 /// of the bands depends on these values.
-void copy_locked_bands(std::span<const std::size_t> parts, const Recipe& from, Recipe& recipe);
+void copy_locked_bands(std::span<const std::size_t> band_indices, const Recipe& from,
+                       Recipe& recipe);
 
 }  // namespace crowdface

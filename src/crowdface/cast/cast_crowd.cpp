@@ -20,13 +20,13 @@ namespace {
 ///
 /// \param diversity  options whose `min_distance_mm` applies to all these faces.
 void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diversity,
-                    const FaceJudge& judge, const std::vector<FaceKind>& kinds,
+                    const FaceJudge& judge, const std::vector<FaceDistribution>& kinds,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
                     CrowdSoFar& crowd, PopulationBalance& population,
                     const FaceJoinedCallback& on_face_joined, CastingResult& result) {
   const AvoidedFaces changes(result, diversity.min_distance_mm);
   FaceSearch::Cost cost;
-  if (!casting.population.empty()) {
+  if (!casting.trait_targets.empty()) {
     cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
   }
   for (std::uint64_t first = from; first <= to; first += kFacesCastInParallel) {
@@ -34,7 +34,8 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
     const std::uint64_t last = std::min(to, first + kFacesCastInParallel - 1);
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
-      const FaceKind& kind = kinds[static_cast<std::size_t>(result.group_indices[index - 1] + 1)];
+      const FaceDistribution& kind =
+          kinds[static_cast<std::size_t>(result.group_indices[index - 1] + 1)];
       searches.emplace_back(
           [&casting, &kind, index](std::uint32_t attempt) {
             return random_face(casting, index, attempt, kind);
@@ -67,10 +68,10 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
 /// Casts the sampled faces `from` … `to`. Their minimum distances may differ, see
 /// DiversityOptions::min_distance_of_first_mm.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
-                    const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
-                    std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd,
-                    PopulationBalance& population, const FaceJoinedCallback& on_face_joined,
-                    CastingResult& result) {
+                    const std::vector<FaceDistribution>& kinds,
+                    const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
+                    CrowdSoFar& crowd, PopulationBalance& population,
+                    const FaceJoinedCallback& on_face_joined, CastingResult& result) {
   const auto& distances = casting.diversity.min_distance_of_first_mm;
   while (from <= to && !result.shortfall) {
     const auto same = distances.lower_bound(from);
@@ -131,9 +132,10 @@ void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result
 }
 
 /// Casts more sampled faces after a review has been applied: up to and including face `to`.
-void grow(const CastingOptions& casting, const FaceJudge& judge, const std::vector<FaceKind>& kinds,
-          std::uint64_t from, std::uint64_t to, PopulationBalance& population,
-          const FaceJoinedCallback& on_face_joined, CastingResult& result) {
+void grow(const CastingOptions& casting, const FaceJudge& judge,
+          const std::vector<FaceDistribution>& kinds, std::uint64_t from, std::uint64_t to,
+          PopulationBalance& population, const FaceJoinedCallback& on_face_joined,
+          CastingResult& result) {
   auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   const std::size_t others = result.crowd.size() - (from - 1);
   for (std::size_t i = 0; i < result.crowd.size(); ++i) {
@@ -181,9 +183,9 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   }
   crowd.mark_first_sampled();
   result.group_indices = schedule_groups(casting.groups, casting.count);
-  const std::vector<FaceKind> kinds = face_kinds(casting);
+  const std::vector<FaceDistribution> kinds = face_distributions(casting);
   const std::vector<std::uint64_t> before = faces_before_reviews(casting);
-  PopulationBalance population(casting.population);
+  PopulationBalance population(casting.trait_targets);
   std::uint64_t sampled = before.empty() ? casting.count : before.front();
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
     cast_spread(casting, judge, kinds, family_separation, crowd, on_face_joined, result);

@@ -17,20 +17,20 @@ class ColourDrawing {
  public:
   explicit ColourDrawing(const ColourOptions& draw) : draw_(draw) {
     for (const auto& all : draw.tags) {
-      std::vector<std::string> counted = all;
-      std::erase_if(counted, [&](const std::string& tag) {
+      std::vector<std::string> compared = all;
+      std::erase_if(compared, [&](const std::string& tag) {
         return draw.tags_to_match && !contains(*draw.tags_to_match, tag);
       });
-      std::ranges::sort(counted);
-      counted_.push_back(std::move(counted));
+      std::ranges::sort(compared);
+      compared_tags_.push_back(std::move(compared));
     }
   }
 
   /// Returns whether two heads have the same tags. Compares only the tags that
   /// ColourOptions::tags_to_match lists.
   bool alike(Index a, Index b) const {
-    return counted_.empty() ||
-           counted_[static_cast<std::size_t>(a)] == counted_[static_cast<std::size_t>(b)];
+    return compared_tags_.empty() || compared_tags_[static_cast<std::size_t>(a)] ==
+                                         compared_tags_[static_cast<std::size_t>(b)];
   }
 
   /// Returns random colours for a face.
@@ -62,8 +62,8 @@ class ColourDrawing {
 
  private:
   const ColourOptions& draw_;
-  /// #heads: the head's tags that must match, sorted
-  std::vector<std::vector<std::string>> counted_;
+  /// #heads: the tags that `alike` compares, sorted
+  std::vector<std::vector<std::string>> compared_tags_;
 };
 
 /// Maps the id of each parent to the colours that its children inherit.

@@ -36,7 +36,7 @@ constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kTraits) + 1;
 struct Constraint {
   Reason reason;
   std::string_view section;  ///< section of the config that contains the key of the limit
-  /// key of the limit in this section; casting.json and logs use this name, too
+  /// key of the limit in `section`; casting.json and logs use this name, too
   std::string_view key;
   /// the option that holds the limit, if it is a diversity option
   double DiversityOptions::*diversity_limit = nullptr;

@@ -19,9 +19,9 @@ struct DiversityOptions {
   };
   Mode mode = Mode::kFirstFit;
   double min_distance_mm = 0;  ///< smallest distance between any two faces
-  /// kFirstFit: other values of `min_distance_mm` for the first sampled faces, by the number of the
-  /// last face that a value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and families have 1.2
-  /// mm, faces 25 … 40 have 1 mm.
+  /// kFirstFit: values that replace `min_distance_mm` for the first sampled faces. The key is the
+  /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and
+  /// families have 1.2 mm, faces 25 … 40 have 1 mm, and later faces have `min_distance_mm`.
   std::map<std::uint64_t, double> min_distance_of_first_mm = {};
   double min_distance_to_faces_mm = 0;  ///< smallest distance from every input head
   /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
@@ -32,20 +32,21 @@ struct DiversityOptions {
   int max_attempts = 1000;
   /// A face whose distance from a head is smaller than this counts as the same person.
   static constexpr double kSamePersonMm = 0.5;
-  /// Casting rejects candidates that are the same person as a head, but only among this many first
-  /// candidates for a face. It accepts later candidates, because some configs yield only faces near
-  /// heads.
-  static constexpr std::uint32_t kCandidatesUnlikeHeads = 100;
+  /// Casting rejects a candidate that is the same person as a head (see kSamePersonMm) if it is one
+  /// of this many first candidates for a face. Casting accepts such a candidate later, because some
+  /// configs yield only faces near heads.
+  static constexpr std::uint32_t kCandidatesCheckedForSamePerson = 100;
   /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;
 
-  /// Number of acceptable candidates that kFirstFit generates for one face. kFirstFit keeps the
-  /// candidate that is farthest from the crowd. Must not depend on the size of the crowd.
+  /// Number of candidates that kFirstFit generates for one face. All of these candidates are far
+  /// enough from the crowd; kFirstFit keeps the farthest one. The number must not depend on the
+  /// size of the crowd, because the first faces stay the same if the crowd is made larger.
   ///
   /// \param index  Index of the face, from 1.
   static int candidate_count(std::uint64_t index) { return index <= 1000 ? 32 : 8; }
 
-  /// Smallest distance of a sampled face from all earlier faces.
+  /// Returns the smallest distance in mm that a sampled face may have from any earlier face.
   ///
   /// \param index  number of the sampled face, from 1; 0: a face of a family.
   double min_distance_mm_of(std::uint64_t index) const {
@@ -67,7 +68,7 @@ struct BelievabilityOptions {
   /// Whether whole meshes are checked in addition to the coarse samples. With kJudge, casting
   /// itself checks. With the other values, whole meshes are checked later, when they are built, and
   /// the results only appear in the report.
-  enum class Meshes {
+  enum class MeshChecks {
     kAuto,  ///< check whole meshes if they have at most 200,000 polygons
     kAll,
     kNone,
@@ -75,7 +76,7 @@ struct BelievabilityOptions {
     /// results, too
     kJudge,
   };
-  Meshes meshes = Meshes::kAuto;
+  MeshChecks meshes = MeshChecks::kAuto;
   bool check = true;  ///< whether candidates are checked for believability
   /// largest Plausibility score of a face: how far the face deviates from the heads' mean
   double max_deviation = 2.5;
@@ -89,7 +90,8 @@ struct BelievabilityOptions {
   /// how much the gap between the lips may exceed the largest gap between any head's lips, in mm;
   /// see SkinContacts
   double max_gap_mm = 0.5;
-  /// how much more skin may show its back side than on the target, in mm²; see skin_check.h
+  /// Largest increase, relative to the target, of the skin area that shows its back side, in mm²;
+  /// see skin_check.h.
   double max_exposed_mm2 = 3;
 };
 

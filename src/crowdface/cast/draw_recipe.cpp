@@ -31,8 +31,9 @@ class FaceRandom {
 
   std::array<double, 2> pair(std::string_view what, std::string_view region,
                              std::uint32_t lane = 0) const {
-    const std::string purpose =
-        key_.owner.empty() ? concat(what, '/', region) : concat(key_.owner, '/', what, '/', region);
+    const std::string purpose = key_.purpose_prefix.empty()
+                                    ? concat(what, '/', region)
+                                    : concat(key_.purpose_prefix, '/', what, '/', region);
     return random_pair({seed_, key_.index, purpose, key_.attempt}, lane);
   }
   double unit(std::string_view what, std::string_view region) const {
@@ -100,7 +101,7 @@ PlanePoint random_position(const CastingOptions& casting, const PositionDistribu
   return anchor + step * (random_in_hull(casting, sources, draws, region, first) - anchor);
 }
 
-void draw_smoothness(const SmoothnessDistribution& distribution, const LevelScale& scale,
+void draw_smoothness(const SmoothnessDistribution& distribution, const SmoothingLevelScale& scale,
                      const FaceRandom& draws, const std::string& region, BandRecipe& recipe) {
   const double drawn = draws.in(distribution.range, "smoothness", region);
   switch (distribution.unit) {
@@ -160,10 +161,10 @@ BandDistributions band_draw(const CastingOptions& casting, const SamplingOptions
 
 /// Returns a band with the values of the hand-written recipe, and with random values where the
 /// recipe has none. For a sampled face, all values are random.
-BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Index target,
-                       const FaceRandom& draws, const BandDistributions& draw) {
-  const SamplingOptions& all = *kind.sampling;
-  const std::vector<Index>& sources = sources_of(kind, draw.band);
+BandRecipe random_band(const CastingOptions& casting, const FaceDistribution& distribution,
+                       Index target, const FaceRandom& draws, const BandDistributions& draw) {
+  const SamplingOptions& all = *distribution.sampling;
+  const std::vector<Index>& sources = sources_of(distribution, draw.band);
   const ManualRecipe::Band& manual = draw.manual;
   BandRecipe recipe;
   const auto take = [&](const PlanePoint& position) {
@@ -176,7 +177,7 @@ BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Inde
         random_position(casting, draw.sampling.position, sources, target, draws, draw.name, retry));
   };
   if (!manual.weights.empty()) {
-    recipe.weights = written_weights(manual.weights);
+    recipe.weights = normalized_source_weights(manual.weights);
   } else if (manual.position) {
     take(*manual.position);
   } else {
@@ -194,15 +195,15 @@ BandRecipe random_band(const CastingOptions& casting, const FaceKind& kind, Inde
   return recipe;
 }
 
-RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, std::size_t k,
-                         Index target, const FaceRandom& draws,
+RegionRecipe draw_region(const CastingOptions& casting, const FaceDistribution& distribution,
+                         std::size_t k, Index target, const FaceRandom& draws,
                          const ManualRecipe::Region& manual) {
-  const SamplingOptions& all = *kind.sampling;
+  const SamplingOptions& all = *distribution.sampling;
   RegionRecipe recipe;
   recipe.finer_bands.resize(band_count(all) - 1);
   for (std::size_t b = 0; b < band_count(all); ++b) {
     band_of(recipe, b) =
-        random_band(casting, kind, target, draws, band_draw(casting, all, k, b, manual));
+        random_band(casting, distribution, target, draws, band_draw(casting, all, k, b, manual));
   }
   restore_level_order(recipe);
   return recipe;
@@ -210,11 +211,11 @@ RegionRecipe draw_region(const CastingOptions& casting, const FaceKind& kind, st
 
 }  // namespace
 
-std::uint64_t iterations_of(double smoothness, const LevelScale& scale) {
+std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale) {
   return static_cast<std::uint64_t>(std::round(smoothness * static_cast<double>(scale.max_level)));
 }
 
-std::vector<SourceWeight> written_weights(const std::vector<WeightedHead>& written) {
+std::vector<SourceWeight> normalized_source_weights(const std::vector<WeightedHead>& written) {
   std::vector<SourceWeight> weights;
   for (const WeightedHead& source : written) weights.push_back({source.head, source.weight});
   return normalized_weights(std::move(weights));
@@ -224,37 +225,40 @@ std::string face_id(const std::string& crowd, std::uint64_t index) {
   return concat(crowd, '_', zero_padded(index, 4));
 }
 
-const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band) {
-  const bool own = band < kind.sources.size() && !kind.sources[band].empty();
-  return own ? kind.sources[band] : sources_of(*kind.sampling, band);
+const std::vector<Index>& sources_of(const FaceDistribution& distribution, std::size_t band) {
+  const bool own = band < distribution.sources.size() && !distribution.sources[band].empty();
+  return own ? distribution.sources[band] : sources_of(*distribution.sampling, band);
 }
 
-FaceKind kind_of_group(const CastingOptions& casting, std::optional<std::size_t> group) {
+FaceDistribution distribution_of_group(const CastingOptions& casting,
+                                       std::optional<std::size_t> group) {
   if (!group) return {&casting.sampling, casting.sampling.targets, std::nullopt};
   const Group& own = casting.groups[*group];
   return {&own.sampling, own.sampling.targets, own.name};
 }
 
 FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
-                          const FaceRandomKey& key, const FaceKind& kind) {
+                          const FaceRandomKey& key, const FaceDistribution& distribution) {
   const FaceRandom draws(casting.seed, key);
-  const SamplingOptions& sampling = *kind.sampling;
+  const SamplingOptions& sampling = *distribution.sampling;
   FacePlan face;
   face.id = manual.id;
-  face.group = kind.group;
+  face.group = distribution.group;
   face.notes.attempt = key.attempt;
-  require(manual.target || !kind.targets.empty(),
+  require(manual.target || !distribution.targets.empty(),
           "a recipe is drawn on targets, and there is none");
   face.recipe.target =
       manual.target
           ? *manual.target
-          : weighted_choice(kind.targets, draws.unit("target", ""), &WeightedHead::weight).head;
+          : weighted_choice(distribution.targets, draws.unit("target", ""), &WeightedHead::weight)
+                .head;
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
     const ManualRecipe::Region& region =
         k < manual.regions.size() ? manual.regions[k] : ManualRecipe::Region{};
-    face.recipe.regions.push_back(draw_region(casting, kind, k, face.recipe.target, draws, region));
+    face.recipe.regions.push_back(
+        draw_region(casting, distribution, k, face.recipe.target, draws, region));
   }
-  if (!manual.colours.empty()) face.recipe.colours = written_weights(manual.colours);
+  if (!manual.colours.empty()) face.recipe.colours = normalized_source_weights(manual.colours);
   apply_age(face, draws.in(manual.age.value_or(sampling.age), "age", ""),
             {casting.anchors, casting.tags}, sampling);
   face.recipe.asymmetry = draws.in(manual.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
@@ -264,10 +268,10 @@ FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& man
 }
 
 FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
-                     const FaceKind& kind) {
+                     const FaceDistribution& distribution) {
   ManualRecipe open;
   open.id = face_id(casting.name, index);
-  FacePlan face = random_face_plan(casting, open, {index, attempt}, kind);
+  FacePlan face = random_face_plan(casting, open, {index, attempt}, distribution);
   face.index = index;
   return face;
 }
@@ -275,7 +279,7 @@ FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::ui
 FacePlan completed_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
                              std::uint32_t attempt) {
   return random_face_plan(casting, manual, {0, attempt, concat("recipe/", manual.id)},
-                          kind_of_group(casting));
+                          distribution_of_group(casting));
 }
 
 }  // namespace crowdface

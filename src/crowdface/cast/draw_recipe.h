@@ -16,7 +16,7 @@
 namespace crowdface {
 
 /// Converts a smoothness (0 … 1) to a number of smoothing iterations.
-struct LevelScale {
+struct SmoothingLevelScale {
   OperatorKind operator_kind = OperatorKind::kUmbrella;
   std::uint64_t max_level = 1;  ///< L_max: number of iterations at smoothness 1
   /// root mean square edge length of the skin, averaged over the heads
@@ -33,20 +33,20 @@ struct CastingOptions {
   SamplingOptions sampling;
   std::vector<ManualRecipe> recipes;
   Normalization normalization = Normalization::kPartition;
-  LevelScale level_scale;
+  SmoothingLevelScale level_scale;
   DiversityOptions diversity = {};
   std::vector<FamilyOptions> families = {};
   std::vector<Review> reviews = {};  ///< reviews, which are applied one after the other
   std::vector<Group> groups = {};    ///< groups of the sampled faces
   HeadTags tags = {};                ///< #heads: the tags of each head; or empty
   /// distributions that the measurements of the crowd should have
-  std::vector<TraitTarget> population = {};
+  std::vector<TraitTarget> trait_targets = {};
   std::vector<FaceChange> changes = {};  ///< changes of single faces by the config
 };
 
 /// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the
 /// possible targets.
-struct FaceKind {
+struct FaceDistribution {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
@@ -54,17 +54,18 @@ struct FaceKind {
   /// `sampling`.
   std::vector<std::vector<Index>> sources = {};
 };
-/// Returns the heads that lend detail to a band of a face of this kind.
-const std::vector<Index>& sources_of(const FaceKind& kind, std::size_t band);
-/// Returns the parameters of a group's faces, or the parameters of the crowd if `group` is empty.
-FaceKind kind_of_group(const CastingOptions& casting,
-                       std::optional<std::size_t> group = std::nullopt);
+/// Returns the heads that lend detail to a band of a face from this distribution.
+const std::vector<Index>& sources_of(const FaceDistribution& distribution, std::size_t band);
+/// Returns the distribution of a group's faces. If `group` is empty, returns the distribution of
+/// the faces that have no group.
+FaceDistribution distribution_of_group(const CastingOptions& casting,
+                                       std::optional<std::size_t> group = std::nullopt);
 
 /// Returns smoothness · L_max, rounded to whole smoothing iterations.
-std::uint64_t iterations_of(double smoothness, const LevelScale& scale);
+std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale);
 
-/// Returns the weights of a hand-written recipe, scaled so that they sum to one.
-std::vector<SourceWeight> written_weights(const std::vector<WeightedHead>& written);
+/// Scales the weights of a hand-written recipe so that they sum to one.
+std::vector<SourceWeight> normalized_source_weights(const std::vector<WeightedHead>& written);
 
 /// Returns the id of sampled face `index`: the crowd's name and at least four digits.
 std::string face_id(const std::string& crowd, std::uint64_t index);
@@ -73,19 +74,20 @@ std::string face_id(const std::string& crowd, std::uint64_t index);
 struct FaceRandomKey {
   std::uint64_t index = 0;    ///< index of the face, from 1
   std::uint32_t attempt = 0;  ///< number of earlier attempts at this face, which were rejected
-  /// Empty for a sampled face. Otherwise a text that is unique to this face, such as "recipe/ID".
-  std::string owner = {};
+  /// Text that precedes the purpose of each random number: "recipe/ID" for a hand-written recipe,
+  /// "family/NAME" for a member of a family. Empty for a sampled face.
+  std::string purpose_prefix = {};
 };
 
 /// Chooses at random all values that `manual` does not specify; for a sampled face, `manual`
 /// specifies nothing. A pure function of its arguments: a face depends neither on the size of the
 /// crowd nor on the order of the calls.
 FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
-                          const FaceRandomKey& key, const FaceKind& kind);
+                          const FaceRandomKey& key, const FaceDistribution& distribution);
 
 /// Returns candidate number `attempt` for sampled face number `index`, which counts from 1.
 FacePlan random_face(const CastingOptions& casting, std::uint64_t index, std::uint32_t attempt,
-                     const FaceKind& kind);
+                     const FaceDistribution& distribution);
 
 /// Chooses at random all values that a hand-written recipe does not specify. The random numbers
 /// depend on the recipe's id.

@@ -18,7 +18,7 @@ constexpr std::uint64_t kPoolPerFace = 5;
 /// Returns how many candidates of the pool, taken in order, first-fit casting keeps at this minimum
 /// distance. Stops counting at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
-  NearestFaceSearch kept(pool.points[0].as_built.size());
+  NearestFaceSearch kept(pool.points[0].with_extrapolation.size());
   for (const FaceSpace::Point& point : pool.points) {
     if (static_cast<std::uint64_t>(kept.size()) >= enough) break;
     if (kept.nearest(point, mm).face < 0) kept.add(point);
@@ -34,7 +34,7 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
   // The estimate ignores the crowd's groups, because each group would need a separate pass.
   CastingOptions free = casting;
   free.groups.clear();
-  const CandidatePool pool = sample_pool(free, judge, face_kinds(free), pool_size);
+  const CandidatePool pool = sample_pool(free, judge, face_distributions(free), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
   FarthestPoints points(pool, nobody);
   // for each n: the distance of the closest pair among the first n picks
@@ -61,7 +61,7 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
   for (const std::uint64_t count : counts) {
     if (count < 2 || count > closest.size()) continue;
     EstimateRow row{count, closest[count - 1], 0};
-    double works = 0, fails = 1.2 * row.spread_distance_mm;
+    double works = 0, fails = 1.2 * row.spread_mode_distance_mm;
     for (int i = 0; i < kCountHalvings; ++i) {
       throw_if_interrupted();
       const double mm = 0.5 * (works + fails);

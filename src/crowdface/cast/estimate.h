@@ -13,14 +13,14 @@ namespace crowdface {
 struct EstimateRow {
   std::uint64_t face_count = 0;
   /// smallest distance between two faces if the crowd is cast in spread mode
-  double spread_distance_mm = 0;
+  double spread_mode_distance_mm = 0;
   /// largest min_distance at which first-fit casting finds this many faces
   double first_fit_distance_mm = 0;
 };
 
 /// Estimates, for crowds of several sizes, the minimum distance that the faces can keep. Uses a
-/// pool of candidates, which are sampled as in casting. One greedy pass gives the spread crowds of
-/// all sizes; first-fit casting is tried at a few distances for each size.
+/// pool of candidates, which are sampled as in casting. For spread mode, one greedy pass gives the
+/// distances of all crowd sizes. For first-fit casting, tries a few distances for each crowd size.
 ///
 /// \param counts     Crowd sizes, ascending. Sizes that are too large for the pool are left out of
 ///                   the result.

@@ -35,10 +35,11 @@ std::shared_ptr<const ChangedFace> current(std::size_t face, const CastingResult
                                                  : changed->second);
 }
 
-FaceKind kind_called(const std::optional<std::string>& group, const CastingOptions& casting) {
-  if (!group) return kind_of_group(casting);
+FaceDistribution distribution_of_named_group(const std::optional<std::string>& group,
+                                             const CastingOptions& casting) {
+  if (!group) return distribution_of_group(casting);
   const auto found = std::ranges::find(casting.groups, *group, &Group::name);
-  return kind_of_group(casting, static_cast<std::size_t>(found - casting.groups.begin()));
+  return distribution_of_group(casting, static_cast<std::size_t>(found - casting.groups.begin()));
 }
 
 /// Returns the names of the config keys that a change sets.
@@ -47,7 +48,7 @@ std::vector<std::string> changed_keys(const AppliedChange& applied) {
   const std::pair<const char*, bool> keys[] = {{"age", change.age || change.age_step},
                                                {"variant_of", change.variant_of.has_value()},
                                                {"group", change.group.has_value()},
-                                               {"lock", !change.locked_parts.empty()},
+                                               {"lock", !change.locked_bands.empty()},
                                                {"traits", !change.traits.empty()},
                                                {"wears", change.attachments.has_value()},
                                                {"takes_off", !change.removed_attachments.empty()},
@@ -76,7 +77,7 @@ double least_share(const Holds& holds) {
 /// Whether a change requires a redraw of the face only because the change sets limits on
 /// measurements.
 bool limits_only(const FaceChange& change) {
-  return !change.group && change.locked_parts.empty();
+  return !change.group && change.locked_bands.empty();
 }
 
 class Changing {
@@ -128,7 +129,7 @@ class Changing {
   }
 
   const SamplingOptions& sampling_of(const FacePlan& face) const {
-    return *kind_called(face.group, casting_).sampling;
+    return *distribution_of_named_group(face.group, casting_).sampling;
   }
 
   /// Returns the faces before this face in the plan, as they were before any review.
@@ -145,7 +146,7 @@ class Changing {
     return faces;
   }
 
-  FaceSearch::Generate vary(const FaceChange& change) const {
+  FaceSearch::GenerateCandidate vary(const FaceChange& change) const {
     FacePlan other = changed_.variant_of->face;
     const FaceSpace::Point point = judge_.space().point(other.recipe);
     const double age = other.age.value_or(0);
@@ -156,8 +157,8 @@ class Changing {
       open.id = changed_.face.id;
       open.target = other.recipe.target;
       open.age = Range{0, 0};
-      const FacePlan drawn =
-          random_face_plan(casting_, open, key(attempt), kind_called(other.group, casting_));
+      const FacePlan drawn = random_face_plan(casting_, open, key(attempt),
+                                              distribution_of_named_group(other.group, casting_));
       const auto at = [&](double share) {
         FacePlan face = drawn;
         face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.level_scale);
@@ -175,19 +176,20 @@ class Changing {
     };
   }
 
-  FaceSearch::Generate make_redraw(const FaceChange& change) const {
+  FaceSearch::GenerateCandidate make_redraw(const FaceChange& change) const {
     const FacePlan& now = changed_.face;
-    FaceKind kind = kind_called(change.group ? change.group : now.group, casting_);
+    FaceDistribution kind =
+        distribution_of_named_group(change.group ? change.group : now.group, casting_);
     ManualRecipe open;
     open.id = now.id;
-    if (!change.locked_parts.empty()) open.target = now.recipe.target;
+    if (!change.locked_bands.empty()) open.target = now.recipe.target;
     if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
     const bool only_traits = limits_only(change);
     return [=, this](std::uint32_t attempt) {
       FacePlan drawn = random_face_plan(casting_, open, key(attempt), kind);
       drawn.index = now.index;
-      if (!change.locked_parts.empty())
-        copy_locked_bands(change.locked_parts, now.recipe, drawn.recipe);
+      if (!change.locked_bands.empty())
+        copy_locked_bands(change.locked_bands, now.recipe, drawn.recipe);
       if (!only_traits || !meets_limits(drawn)) return drawn;
       const auto at = [&](double share) {
         FacePlan face = drawn;
@@ -207,7 +209,7 @@ class Changing {
     return measurer.meets(changed_.traits, measurer.landmarks(face.recipe));
   }
 
-  std::optional<FaceSearch::FoundFace> search(const FaceSearch::Generate& generate,
+  std::optional<FaceSearch::FoundFace> search(const FaceSearch::GenerateCandidate& generate,
                                               const CrowdSoFar& others) {
     FaceJudge judge = judge_;
     CastingOptions limited;
@@ -309,10 +311,10 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
 }
 
 AvoidedFaces::AvoidedFaces(const CastingResult& cast, double min_distance_mm,
-                           const std::vector<bool>& avoid_if_changed)
+                           const std::vector<bool>& is_considered)
     : min_distance_mm_(min_distance_mm) {
   for (const auto& [face, changed] : cast.changed) {
-    if (avoid_if_changed.empty() || avoid_if_changed[face]) points_.push_back(changed.point);
+    if (is_considered.empty() || is_considered[face]) points_.push_back(changed.point);
   }
 }
 

@@ -36,10 +36,10 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
 class AvoidedFaces {
  public:
   /// \param cast  the crowd with the changes of the reviews so far.
-  /// \param avoid_if_changed  #crowd: whether to avoid the face if it was changed; false for faces
-  ///                          that are being redrawn. Empty: avoids all changed faces.
+  /// \param is_considered  #crowd: false for the faces of the crowd that are ignored, because they
+  ///                       are being redrawn. Empty: no face is ignored.
   AvoidedFaces(const CastingResult& cast, double min_distance_mm,
-               const std::vector<bool>& avoid_if_changed = {});
+               const std::vector<bool>& is_considered = {});
   /// Returns why a point of the face space is rejected; nothing if it is accepted.
   std::optional<Reason> rejection_reason(const FaceSpace::Point& point) const;
 

@@ -19,7 +19,7 @@ std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
     return Reason::kIntersecting;
   }
   if (defects.gap_excess_mm > limits.max_gap_mm) return Reason::kGap;
-  if (defects.exposed_back_mm2 > limits.max_exposed_mm2) return Reason::kExposed;
+  if (defects.exposed_back_face_mm2 > limits.max_exposed_mm2) return Reason::kExposed;
   return std::nullopt;
 }
 
@@ -70,7 +70,7 @@ std::optional<Reason> FaceJudge::check_candidate(const Recipe& recipe,
                                                  std::uint32_t earlier_candidate_count) const {
   if (const auto why = check_recipe(recipe, point)) return why;
   const bool is_same_person_as_head =
-      earlier_candidate_count < DiversityOptions::kCandidatesUnlikeHeads &&
+      earlier_candidate_count < DiversityOptions::kCandidatesCheckedForSamePerson &&
       head_search_.nearest(point, same_person_mm_).face >= 0;
   return is_same_person_as_head ? std::optional(Reason::kMinDistanceToFaces) : std::nullopt;
 }

@@ -45,8 +45,8 @@ class FaceJudge {
   /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;
 
-  /// Like `check_recipe`, but also rejects the first candidates for a face if they count as the
-  /// same person as a head; see DiversityOptions::kCandidatesUnlikeHeads.
+  /// Like `check_recipe`, but also rejects a candidate that counts as the same person as a head, if
+  /// `earlier_candidate_count` is less than DiversityOptions::kCandidatesCheckedForSamePerson.
   ///
   /// \param earlier_candidate_count  Number of earlier candidates for the same face.
   std::optional<Reason> check_candidate(const Recipe& recipe, const FaceSpace::Point& point,

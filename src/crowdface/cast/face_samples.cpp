@@ -101,13 +101,13 @@ FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mir
   return samples;
 }
 
-std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level) {
+std::vector<std::uint64_t> stored_smoothing_levels(std::uint64_t max_level) {
   return levels_dense_at_start(max_level, kTrajectorySteps);
 }
 
-Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
-                             const NodeFields& fields, const FaceSamples& samples) {
-  const std::vector<std::uint64_t> levels = trajectory_levels(nodes.max_level());
+Trajectory sample_smoothing_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
+                                       const NodeFields& fields, const FaceSamples& samples) {
+  const std::vector<std::uint64_t> levels = stored_smoothing_levels(nodes.max_level());
   Trajectory trajectory =
       Trajectory::Zero(static_cast<Index>(levels.size()), 3 * static_cast<Index>(samples.size()));
   for (std::size_t l = 0; l < levels.size(); ++l) {
@@ -126,7 +126,8 @@ Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& no
   return trajectory;
 }
 
-std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level) {
+std::vector<WeightedTrajectoryRow> interpolation_rows(const std::vector<std::uint64_t>& levels,
+                                                      std::uint64_t level) {
   const auto upper = std::upper_bound(levels.begin(), levels.end(), level);
   const Index high = std::min<Index>(upper - levels.begin(), static_cast<Index>(levels.size()) - 1);
   const Index low = std::max<Index>(high - 1, 0);

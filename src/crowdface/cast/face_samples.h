@@ -33,28 +33,29 @@ FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mir
 
 /// Returns the smoothing levels at which trajectories are stored: round(L_max·(j/63)²), without
 /// duplicates.
-std::vector<std::uint64_t> trajectory_levels(std::uint64_t max_level);
+std::vector<std::uint64_t> stored_smoothing_levels(std::uint64_t max_level);
 
 /// How far smoothing displaces the samples of a head, #levels by 3·#samples. Row l holds S_{L_l} x
-/// − x, where L_l is entry l of `trajectory_levels`.
+/// − x, where L_l is entry l of `stored_smoothing_levels`.
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Computes the trajectory of a head from the smoothing filter's displacements at the nodes.
-Trajectory sample_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
-                             const NodeFields& fields, const FaceSamples& samples);
+/// Computes the trajectory of a head (the samples' displacements at all stored smoothing levels)
+/// from the smoothing filter's displacements at the nodes.
+Trajectory sample_smoothing_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
+                                       const NodeFields& fields, const FaceSamples& samples);
 
-/// Index of a row of a trajectory, and the row's coefficient in a linear combination.
-struct LevelTerm {
-  Index row = 0;
-  double row_coefficient = 0;
+/// A row of a trajectory, and the row's weight in an interpolation between rows.
+struct WeightedTrajectoryRow {
+  Index row = 0;  ///< index of the row in the trajectory
+  double weight = 0;
 };
 
-/// Returns the displacements at any level as a linear combination: rows of a trajectory with their
-/// coefficients. Between stored levels, the interpolation is linear in √L, because trajectories are
-/// nearly straight in √L. All of casting uses this function, so no other code knows how levels are
-/// stored.
+/// Returns the one or two rows of a trajectory whose weighted sum is the displacement at `level`.
+/// Between stored levels, the interpolation is linear in √L, because trajectories are nearly
+/// straight in √L. All of casting uses this function, so no other code knows how levels are stored.
 ///
 /// \param levels  Levels of the rows, ascending.
-std::vector<LevelTerm> level_terms(const std::vector<std::uint64_t>& levels, std::uint64_t level);
+std::vector<WeightedTrajectoryRow> interpolation_rows(const std::vector<std::uint64_t>& levels,
+                                                      std::uint64_t level);
 
 }  // namespace crowdface

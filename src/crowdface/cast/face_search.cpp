@@ -6,20 +6,21 @@
 
 namespace crowdface {
 
-FaceSearch::FaceSearch(Generate generate, const FaceJudge& judge, const DiversityOptions& diversity,
-                       int wanted_candidate_count, std::uint32_t first_attempt)
-    : generate_(std::move(generate)),
+FaceSearch::FaceSearch(GenerateCandidate generate_candidate, const FaceJudge& judge,
+                       const DiversityOptions& diversity, int wanted_candidate_count,
+                       std::uint32_t first_attempt)
+    : generate_candidate_(std::move(generate_candidate)),
       judge_(judge),
       diversity_(diversity),
       wanted_candidate_count_(static_cast<std::size_t>(wanted_candidate_count)),
       first_attempt_(first_attempt),
       next_attempt_(first_attempt),
-      last_attempt_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
-      last_usual_attempt_(last_attempt_) {}
+      attempts_end_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
+      attempts_end_without_limits_(attempts_end_) {}
 
-/// Returns whether a candidate is far enough from all faces. If another candidate is farther from
-/// the crowd than this candidate, stores only an upper bound of this candidate's distance from the
-/// crowd.
+/// Returns whether a candidate is far enough from all faces of the crowd. Also stores the
+/// candidate's distance from the crowd. If another candidate is farther, stores only an upper bound
+/// of this distance, because the bound is faster to compute and usually sufficient.
 bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.nearest_search().nearest(candidate.point, least).face >= 0) return false;
@@ -40,8 +41,8 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
 /// more attempts than otherwise. So after the usual number of attempts, one acceptable candidate is
 /// enough.
 bool FaceSearch::needs_candidates() const {
-  if (candidates_.size() >= wanted_candidate_count_ || next_attempt_ >= last_attempt_) return false;
-  return candidates_.empty() || next_attempt_ < last_usual_attempt_;
+  if (candidates_.size() >= wanted_candidate_count_ || next_attempt_ >= attempts_end_) return false;
+  return candidates_.empty() || next_attempt_ < attempts_end_without_limits_;
 }
 
 /// If measurements are limited, measures a candidate and checks the limits. Each candidate that
@@ -55,7 +56,8 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
   if (!reason) return true;
   rejections_.add(*reason);
   const auto usual = static_cast<std::uint32_t>(diversity_.max_attempts);
-  if (last_attempt_ - last_usual_attempt_ < (kAttemptFactorWithTraits - 1) * usual) ++last_attempt_;
+  if (attempts_end_ - attempts_end_without_limits_ < (kAttemptFactorWithTraits - 1) * usual)
+    ++attempts_end_;
   return false;
 }
 
@@ -64,7 +66,7 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   while (needs_candidates()) {
     Candidate candidate;
     const std::uint32_t earlier = next_attempt_ - first_attempt_;
-    candidate.face = generate_(next_attempt_++);
+    candidate.face = generate_candidate_(next_attempt_++);
     if (!meets_limits(candidate)) continue;
     candidate.point = judge_.space().point(candidate.face.recipe);
     if (const auto reason =
@@ -141,8 +143,9 @@ std::optional<FaceSearch::FoundFace> FaceSearch::choose_face(const CrowdSoFar& c
     compare_with_added_faces(crowd);
     find_candidates(crowd);
     if (candidates_.empty()) return std::nullopt;
-    // Take the first candidate that passes all checks, beginning with the farthest or cheapest.
-    // If no candidate passes, generate more candidates.
+    // Take the first candidate that passes all checks. With `cost`, check the candidate with the
+    // smallest cost first; otherwise the candidate farthest from the crowd. If no candidate passes,
+    // generate more candidates.
     while (!candidates_.empty()) {
       Candidate& candidate = cost ? cheapest_candidate(cost) : farthest_candidate(crowd);
       auto why = rejection_reason ? rejection_reason(candidate.point) : std::nullopt;

@@ -20,7 +20,7 @@ class FaceSearch {
  public:
   /// Generates candidate number `attempt`. The result must depend only on `attempt` (a pure
   /// function).
-  using Generate = std::function<FacePlan(std::uint32_t attempt)>;
+  using GenerateCandidate = std::function<FacePlan(std::uint32_t attempt)>;
   /// An additional check of a candidate's point in the face space. Returns why the point is
   /// rejected; nothing if it is accepted.
   using RejectionCheck = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
@@ -29,8 +29,9 @@ class FaceSearch {
   /// comparing candidates.
   using Cost = std::function<double(const Positions& landmarks)>;
 
-  FaceSearch(Generate generate, const FaceJudge& judge, const DiversityOptions& diversity,
-             int wanted_candidate_count, std::uint32_t first_attempt = 0);
+  FaceSearch(GenerateCandidate generate_candidate, const FaceJudge& judge,
+             const DiversityOptions& diversity, int wanted_candidate_count,
+             std::uint32_t first_attempt = 0);
 
   /// Generates candidates in advance and compares them with the current crowd. Different searches
   /// may run in parallel.
@@ -75,11 +76,15 @@ class FaceSearch {
   Candidate& cheapest_candidate(const Cost& cost);
   void judge_skin(Candidate& candidate) const;
 
-  Generate generate_;
+  GenerateCandidate generate_candidate_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
   std::size_t wanted_candidate_count_;
-  std::uint32_t first_attempt_, next_attempt_, last_attempt_, last_usual_attempt_;
+  std::uint32_t first_attempt_, next_attempt_;
+  /// The attempt after the last allowed attempt. Each candidate that violates limits on
+  /// measurements raises `attempts_end_` by one.
+  std::uint32_t attempts_end_;
+  std::uint32_t attempts_end_without_limits_;  ///< initial value of `attempts_end_`
   /// number of faces of the crowd with which the candidates have been compared
   Index compared_count_ = 0;
   std::vector<Candidate> candidates_;

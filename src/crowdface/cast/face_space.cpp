@@ -15,8 +15,9 @@ namespace {
 
 /// How far a displacement field may lie outside the span of the basis: rms over the face in mm.
 constexpr double kFieldTolerance = 0.004;
-/// largest number of functions for each orientation (unmirrored and mirrored)
-constexpr Index kMaxFunctions = 400;
+/// largest number of basis functions (FaceSpaceTables::functions) for each orientation (unmirrored
+/// and mirrored)
+constexpr Index kMaxBasisFunctions = 400;
 /// How far a training face may lie outside the span of the principal directions, in millimetres.
 /// The distance from the span is stored as an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
@@ -37,7 +38,7 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 
 /// The order of the rows that hold functions: first the mean head, then each head's deviation from
 /// the mean head, then the fields, sorted by region, head and mode.
-struct FaceSpace::FunctionRows {
+struct FaceSpace::FunctionRowOrder {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
   Index of_field(Index region_and_head, Index mode) const {
@@ -48,29 +49,29 @@ struct FaceSpace::FunctionRows {
 
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands)
     : heads_(std::move(heads)) {
-  choose_weighted_samples(weights);
+  choose_nonzero_weight_samples(weights);
   const FloatRows basis = find_functions();
   compute_head_shapes_and_fields();
-  find_directions(bands);
+  find_principal_directions(bands);
   directions_transposed_ = tables_.directions.transpose();
   if (heads_.region_weights.cols() == 1) return;
-  find_region_shares();
+  compute_region_area_fractions();
   find_region_metrics(basis);
 }
 
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables)
     : heads_(std::move(heads)), tables_(std::move(tables)) {
   require(tables_fit(tables_, heads_), "face space: tables of other heads");
-  choose_weighted_samples(weights);
+  choose_nonzero_weight_samples(weights);
   compute_head_shapes_and_fields();
   directions_transposed_ = tables_.directions.transpose();
-  if (heads_.region_weights.cols() > 1) find_region_shares();
+  if (heads_.region_weights.cols() > 1) compute_region_area_fractions();
 }
 
 bool FaceSpace::tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
   const std::size_t orientation_count = heads.mirror_images == nullptr ? 1 : 2;
-  const FunctionRows rows{static_cast<Index>(orientation_count * heads.heads.size()),
-                          tables.levels.cols()};
+  const FunctionRowOrder rows{static_cast<Index>(orientation_count * heads.heads.size()),
+                              tables.levels.cols()};
   const Index regions = heads.region_weights.cols(), rank = tables.directions.rows();
   return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
          tables.functions.rows() == rows.count(regions) &&
@@ -81,11 +82,11 @@ bool FaceSpace::tables_fit(const FaceSpaceTables& tables, const SampledHeads& he
          });
 }
 
-void FaceSpace::choose_weighted_samples(const std::vector<double>& weights) {
+void FaceSpace::choose_nonzero_weight_samples(const std::vector<double>& weights) {
   for (Index s = 0; s < heads_.mean.rows(); ++s) {
-    if (weights[static_cast<std::size_t>(s)] > 0) weighted_samples_.push_back(s);
+    if (weights[static_cast<std::size_t>(s)] > 0) nonzero_weight_samples_.push_back(s);
   }
-  weight_square_roots_.resize(static_cast<Index>(weighted_samples_.size()));
+  weight_square_roots_.resize(static_cast<Index>(nonzero_weight_samples_.size()));
   for (Index i = 0; i < weight_square_roots_.size(); ++i) {
     weight_square_roots_[i] =
         static_cast<float>(std::sqrt(weights[static_cast<std::size_t>(sample_at(i))]));
@@ -95,12 +96,12 @@ void FaceSpace::choose_weighted_samples(const std::vector<double>& weights) {
 /// Finds a few modes whose linear combinations give the levels of all heads. Fields are then
 /// computed for these modes only. The modes are a basis of the rows of a matrix: each row is a
 /// level; the columns are heads, coordinates and samples, scaled by the samples' √w.
-SpanBasis FaceSpace::level_modes() const {
+SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const Index heads = head_point_count(), size = weight_square_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
   parallel_for_each(heads, [&](Index h) {
-    const Trajectory& trajectory = heads_in_orientation_of(h).trajectories[unmirrored_index(h)];
+    const Trajectory& trajectory = heads_with_same_mirroring(h).trajectories[unmirrored_index(h)];
     for (Index l = 0; l < level_count; ++l) {
       for (Index i = 0; i < size; ++i) {
         for (Index c = 0; c < 3; ++c) {
@@ -117,7 +118,7 @@ SpanBasis FaceSpace::level_modes() const {
 /// Writes the values of a scalar function at the samples, minus the function's mean over the face.
 /// (Rigid alignment would remove the mean anyway.)
 template <class Value>
-void FaceSpace::write_function(const Value& value, float* row) const {
+void FaceSpace::write_centred_values(const Value& value, float* row) const {
   double mean = 0;
   for (Index i = 0; i < weight_square_roots_.size(); ++i) {
     const double scaled = static_cast<double>(weight_square_roots_[i]) * value(i);
@@ -131,35 +132,40 @@ void FaceSpace::write_function(const Value& value, float* row) const {
 /// Returns, one per row, the scalar functions whose linear combinations give the coordinates of
 /// faces: three rows (x, y, z) each for the mean head, each head and each field.
 ///
-/// \param peaks  #modes: largest coefficient of each mode at any level. Modes have unit length, so
-///               each mode's rows are multiplied by the mode's peak.
-FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>& peaks,
-                               const FunctionRows& rows) const {
+/// \param max_coefficients  #modes: largest absolute coefficient of each mode at any level. Modes
+///                          have unit length, so each mode's rows are multiplied by this
+///                          coefficient.
+FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
+                                          const std::vector<float>& max_coefficients,
+                                          const FunctionRowOrder& rows) const {
   const Index size = weight_square_roots_.size(), regions = heads_.region_weights.cols();
   FloatRows functions(rows.count(regions), size);
   for (Index c = 0; c < 3; ++c) {
-    write_function([&](Index i) { return heads_.mean(sample_at(i), c); }, functions.row(c).data());
+    write_centred_values([&](Index i) { return heads_.mean(sample_at(i), c); },
+                         functions.row(c).data());
     for (Index h = 0; h < rows.heads; ++h) {
-      const Positions& head = heads_in_orientation_of(h).heads[unmirrored_index(h)];
-      write_function([&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
-                     functions.row(rows.of_head(h) + c).data());
+      const Positions& head = heads_with_same_mirroring(h).heads[unmirrored_index(h)];
+      write_centred_values(
+          [&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
+          functions.row(rows.of_head(h) + c).data());
     }
   }
   parallel_for_each(regions * rows.heads, [&](Index kh) {
     const Index k = kh / rows.heads, h = kh % rows.heads;
-    const Columns& alpha = heads_in_orientation_of(h).region_weights;
+    const Columns& alpha = heads_with_same_mirroring(h).region_weights;
     for (Index r = 0; r < rows.modes; ++r) {
       float* const first = functions.row(rows.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {
         const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
-        write_function(
+        write_centred_values(
             [&](Index i) {  // divide by √w, because the values of a mode already contain √w
               return alpha(sample_at(i), k) * static_cast<double>(mode[i]) /
                      static_cast<double>(weight_square_roots_[i]);
             },
             first + c * size);
       }
-      for (Index i = 0; i < 3 * size; ++i) first[i] *= peaks[static_cast<std::size_t>(r)];
+      for (Index i = 0; i < 3 * size; ++i)
+        first[i] *= max_coefficients[static_cast<std::size_t>(r)];
     }
   });
   return functions;
@@ -172,22 +178,23 @@ FloatRows FaceSpace::functions(const SpanBasis& modes, const std::vector<float>&
 ///
 /// \return  The functions, #P by #S.
 FloatRows FaceSpace::find_functions() {
-  const SpanBasis modes = level_modes();
+  const SpanBasis modes = smoothing_displacement_modes();
   tables_.levels = modes.coordinates;
-  std::vector<float> peaks;
+  std::vector<float> max_coefficients;
   for (Index r = 0; r < modes.directions.rows(); ++r) {
-    peaks.push_back(modes.coordinates.col(r).cwiseAbs().maxCoeff());
-    for (Index l = 0; l < tables_.levels.rows(); ++l) tables_.levels(l, r) /= peaks.back();
+    max_coefficients.push_back(modes.coordinates.col(r).cwiseAbs().maxCoeff());
+    for (Index l = 0; l < tables_.levels.rows(); ++l)
+      tables_.levels(l, r) /= max_coefficients.back();
   }
-  const FunctionRows rows{head_point_count(), modes.directions.rows()};
-  SpanBasis basis = span_basis(functions(modes, peaks, rows), kFieldTolerance,
-                               orientation_count() * kMaxFunctions);
+  const FunctionRowOrder rows{head_point_count(), modes.directions.rows()};
+  SpanBasis basis = span_basis(coordinate_functions(modes, max_coefficients, rows), kFieldTolerance,
+                               orientation_count() * kMaxBasisFunctions);
   tables_.functions = std::move(basis.coordinates);
   return std::move(basis.directions);
 }
 
 void FaceSpace::compute_head_shapes_and_fields() {
-  const FunctionRows rows{head_point_count(), tables_.levels.cols()};
+  const FunctionRowOrder rows{head_point_count(), tables_.levels.cols()};
   const auto shape_at = [&](Index row) -> Shape {
     return tables_.functions.middleRows<3>(row).transpose();
   };
@@ -235,10 +242,10 @@ FaceSpace::Shape FaceSpace::shape_in_orientation(const Recipe& recipe, Extrapola
   });
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     for (const LevelShares& at : level_shares(recipe, k, extrapolation)) {
-      for (const LevelTerm& term : level_terms(heads_.levels, at.level)) {
+      for (const WeightedTrajectoryRow& level : interpolation_rows(heads_.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
-          const auto f = static_cast<float>(part.weight * term.row_coefficient);
-          add_scaled(f, field(k, first + part.head, term.row),
+          const auto f = static_cast<float>(part.weight * level.weight);
+          add_scaled(f, field(k, first + part.head, level.row),
                      static_cast<std::size_t>(shape.size()), shape.data());
         }
       }
@@ -248,7 +255,7 @@ FaceSpace::Shape FaceSpace::shape_in_orientation(const Recipe& recipe, Extrapola
 }
 
 /// Returns the given shape, rotated onto the mean head, minus the mean head.
-std::vector<float> FaceSpace::aligned(const Shape& shape) const {
+std::vector<float> FaceSpace::aligned_deviation(const Shape& shape) const {
   std::vector<double> covariance(9, 0.0);
   for (Index p = 0; p < shape.rows(); ++p) {
     for (Index a = 0; a < 3; ++a) {
@@ -273,15 +280,16 @@ std::vector<float> FaceSpace::aligned(const Shape& shape) const {
   return turned;
 }
 
-void FaceSpace::find_directions(std::size_t bands) {
+void FaceSpace::find_principal_directions(std::size_t bands) {
   const Index heads = head_point_count();
   FloatRows rows(heads + static_cast<Index>(kTrainingFaces), mean_shape_.size());
   parallel_for_each(rows.rows(), [&](Index n) {
     const std::vector<float> at =
-        n < heads ? aligned(head_shapes_[static_cast<std::size_t>(n)])
-                  : aligned(shape_of(
-                        training_recipe(heads_, bands, static_cast<std::uint64_t>(n - heads)),
-                        Extrapolation::kAsGiven));
+        n < heads
+            ? aligned_deviation(head_shapes_[static_cast<std::size_t>(n)])
+            : aligned_deviation(shape_of(
+                  random_training_recipe(heads_, bands, static_cast<std::uint64_t>(n - heads)),
+                  Extrapolation::kAsGiven));
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
   tables_.directions =
@@ -289,7 +297,7 @@ void FaceSpace::find_directions(std::size_t bands) {
 }
 
 Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
-  const std::vector<float> at = aligned(shape);
+  const std::vector<float> at = aligned_deviation(shape);
   const Index rank = tables_.directions.rows();
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
@@ -305,7 +313,7 @@ Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
 
 FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
   Point point;
-  point.as_built = coordinates(shape_of(recipe, Extrapolation::kAsGiven));
+  point.with_extrapolation = coordinates(shape_of(recipe, Extrapolation::kAsGiven));
   const auto is_unextrapolated_band = [](const BandRecipe& band) {
     return band.extrapolation == 1;
   };
@@ -315,8 +323,9 @@ FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
                std::all_of(region.finer_bands.begin(), region.finer_bands.end(),
                            is_unextrapolated_band);
       });
-  point.unextrapolated =
-      is_unextrapolated ? point.as_built : coordinates(shape_of(recipe, Extrapolation::kNone));
+  point.without_extrapolation = is_unextrapolated
+                                    ? point.with_extrapolation
+                                    : coordinates(shape_of(recipe, Extrapolation::kNone));
   return point;
 }
 
@@ -326,11 +335,11 @@ FaceSpace::Point FaceSpace::head_point(Index head) const {
 }
 
 double FaceSpace::distance(const Point& a, const Point& b) {
-  return std::sqrt(std::min(squared_distance(a.as_built, b.as_built),
-                            squared_distance(a.unextrapolated, b.unextrapolated)));
+  return std::sqrt(std::min(squared_distance(a.with_extrapolation, b.with_extrapolation),
+                            squared_distance(a.without_extrapolation, b.without_extrapolation)));
 }
 
-void FaceSpace::find_region_shares() {
+void FaceSpace::compute_region_area_fractions() {
   for (Index k = 0; k < heads_.region_weights.cols(); ++k) {
     double share = 0;
     for (Index i = 0; i < weight_square_roots_.size(); ++i) {
@@ -338,13 +347,15 @@ void FaceSpace::find_region_shares() {
                static_cast<double>(weight_square_roots_[i]) *
                heads_.region_weights(sample_at(i), k);
     }
-    region_shares_.push_back(share);
+    region_area_fractions_.push_back(share);
   }
 }
 
-/// Finds the metric of each region. For region k, the metric is Σ_s w_s α_k(s) (…)²/Σ_s w_s α_k(s),
-/// transformed to the principal directions: G_k = U diag(α_k) Uᵀ on the functions, where U holds
-/// the values of the basis at the samples, then V G_k Vᵀ.
+/// Finds the metric M_k of each region k. For two points x and y of faces in the span of the
+/// principal directions, (x − y)ᵀ M_k (x − y) = Σ_s w_s α_k(s) d(s)², where d(s) is the distance
+/// between the two faces at sample s. M_k = V G_k Vᵀ, where the rows of V are the principal
+/// directions, G_k = U diag(α_k) Uᵀ, and U holds the values of the basis functions at the samples,
+/// times √w_s.
 void FaceSpace::find_region_metrics(const FloatRows& basis) {
   const FloatRows& directions = tables_.directions;
   const Index functions = basis.rows(), rank = directions.rows();
@@ -395,14 +406,14 @@ FaceSpace::RegionPoint FaceSpace::region_point(const Point& point, Index region)
     }
     return product;
   };
-  result.as_built = times(point.as_built);
-  result.unextrapolated = times(point.unextrapolated);
+  result.product_with_extrapolation = times(point.with_extrapolation);
+  result.product_without_extrapolation = times(point.without_extrapolation);
   return result;
 }
 
 double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const {
   if (tables_.region_metrics.empty()) return distance(*a.point, *b.point);
-  const double share = region_shares_[static_cast<std::size_t>(region)];
+  const double share = region_area_fractions_[static_cast<std::size_t>(region)];
   if (!(share > 0)) return 0;
   // Computes (x − y)ᵀ M (x − y) from M x and M y.
   const auto squared = [](const Eigen::VectorXf& x, const Eigen::VectorXf& y,
@@ -414,10 +425,11 @@ double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, In
     }
     return std::max(sum, 0.0);
   };
-  return std::sqrt(std::min(squared(a.point->as_built, b.point->as_built, a.as_built, b.as_built),
-                            squared(a.point->unextrapolated, b.point->unextrapolated,
-                                    a.unextrapolated, b.unextrapolated)) /
-                   share);
+  const double with = squared(a.point->with_extrapolation, b.point->with_extrapolation,
+                              a.product_with_extrapolation, b.product_with_extrapolation);
+  const double without = squared(a.point->without_extrapolation, b.point->without_extrapolation,
+                                 a.product_without_extrapolation, b.product_without_extrapolation);
+  return std::sqrt(std::min(with, without) / share);
 }
 
 Eigen::MatrixXd FaceSpace::head_distances() const {

@@ -25,13 +25,13 @@ struct FaceSpaceTables {
 /// between two points is the root mean square distance over the face in millimetres.
 class FaceSpace {
  public:
-  /// The point of a face in two variants: as built, and with all extrapolation factors 1. The
-  /// second variant is needed because two faces that differ only in extrapolation are the same
-  /// person.
+  /// The point of a face in two variants: with the extrapolation factors of the face's recipe, and
+  /// with all extrapolation factors 1. The second variant is needed because two faces that differ
+  /// only in extrapolation are the same person.
   struct Point {
-    Eigen::VectorXf as_built;  ///< the point of the face as built, #dimensions
+    Eigen::VectorXf with_extrapolation;  ///< the point of the built face, #dimensions
     /// the point of the face with all extrapolation factors 1, #dimensions
-    Eigen::VectorXf unextrapolated;
+    Eigen::VectorXf without_extrapolation;
   };
 
   /// \param weights  #S, from sample_weights. Samples of weight zero are ignored.
@@ -48,8 +48,9 @@ class FaceSpace {
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
-  /// Returns the point of an input head; the point's two variants are equal. If faces may be
-  /// mirrored, the heads' mirror images have the numbers from head_count() on.
+  /// Returns the point of an input head. Heads are not extrapolated, so both members of the point
+  /// are equal. If faces may be mirrored, the heads' mirror images have the numbers from
+  /// head_count() on.
   Point head_point(Index head) const;
 
   Index dimensions() const { return tables_.directions.rows() + 1; }
@@ -58,21 +59,24 @@ class FaceSpace {
   Index head_point_count() const { return orientation_count() * head_count(); }
   const SampledHeads& sampled_heads() const { return heads_; }
 
-  /// Returns the root mean square distance between two faces in mm: the smaller of the distance as
-  /// built and the distance with all extrapolation factors 1.
+  /// Returns the root mean square distance between two faces in mm: the smaller of the distances
+  /// with and without extrapolation.
   static double distance(const Point& a, const Point& b);
-  /// A point, and the products of the region's metric with this point.
+  /// A point, and the products of the region's metric with both variants of this point.
   struct RegionPoint {
     const Point* point = nullptr;
-    Eigen::VectorXf as_built, unextrapolated;  ///< metric of the region, times the point
+    /// metric of the region, times `point->with_extrapolation` and `point->without_extrapolation`
+    Eigen::VectorXf product_with_extrapolation, product_without_extrapolation;
   };
   RegionPoint region_point(const Point& point, Index region) const;
   /// Returns the distance between two faces over one region, after the whole faces are aligned.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
 
   /// Returns the region's fraction of the face's surface area; 1 if the region is the only one.
-  double region_share(Index region) const {
-    return region_shares_.empty() ? 1 : region_shares_[static_cast<std::size_t>(region)];
+  double region_area_fraction(Index region) const {
+    return region_area_fractions_.empty()
+               ? 1
+               : region_area_fractions_[static_cast<std::size_t>(region)];
   }
 
   /// Returns the distances between all heads, #heads by #heads, in mm.
@@ -82,40 +86,41 @@ class FaceSpace {
   /// A face in the basis of scalar functions, #P by 3, before alignment.
   using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  struct FunctionRows;
+  struct FunctionRowOrder;
 
   /// Returns the number of orientations: 2 if there are mirror images (which are the heads from
   /// number head_count() on), otherwise 1.
   Index orientation_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
-  const SampledHeads& heads_in_orientation_of(Index head) const {
+  /// Returns the unmirrored heads if `head` is unmirrored, otherwise the heads' mirror images.
+  const SampledHeads& heads_with_same_mirroring(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
   }
   std::size_t unmirrored_index(Index head) const {
     return static_cast<std::size_t>(head % head_count());
   }
   /// Returns the sample that row i of the matrices belongs to. Samples of weight zero have no row.
-  Index sample_at(Index i) const { return weighted_samples_[static_cast<std::size_t>(i)]; }
-  void choose_weighted_samples(const std::vector<double>& weights);
-  SpanBasis level_modes() const;
+  Index sample_at(Index i) const { return nonzero_weight_samples_[static_cast<std::size_t>(i)]; }
+  void choose_nonzero_weight_samples(const std::vector<double>& weights);
+  SpanBasis smoothing_displacement_modes() const;
   template <class Value>
-  void write_function(const Value& value, float* row) const;
-  FloatRows functions(const SpanBasis& modes, const std::vector<float>& peaks,
-                      const FunctionRows& rows) const;
+  void write_centred_values(const Value& value, float* row) const;
+  FloatRows coordinate_functions(const SpanBasis& modes, const std::vector<float>& max_coefficients,
+                                 const FunctionRowOrder& rows) const;
   FloatRows find_functions();
   void compute_head_shapes_and_fields();
-  void find_directions(std::size_t bands);
+  void find_principal_directions(std::size_t bands);
   void find_region_metrics(const FloatRows& basis);
-  void find_region_shares();
+  void compute_region_area_fractions();
   Shape shape_of(const Recipe& recipe, Extrapolation extrapolation) const;
   Shape shape_in_orientation(const Recipe& recipe, Extrapolation extrapolation,
                              Index orientation) const;
-  std::vector<float> aligned(const Shape& shape) const;
+  std::vector<float> aligned_deviation(const Shape& shape) const;
   Eigen::VectorXf coordinates(const Shape& shape) const;
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
-  std::vector<Index> weighted_samples_;  ///< indices of the samples with nonzero weight
-  Eigen::VectorXf weight_square_roots_;  ///< √w of each sample in `weighted_samples_`
+  std::vector<Index> nonzero_weight_samples_;  ///< indices of the samples with nonzero weight
+  Eigen::VectorXf weight_square_roots_;        ///< √w of each sample in `nonzero_weight_samples_`
   FaceSpaceTables tables_;
   Shape mean_shape_;                ///< shape of the mean head, #P by 3
   std::vector<Shape> head_shapes_;  ///< shapes of all heads, including mirror images
@@ -124,7 +129,7 @@ class FaceSpace {
   std::vector<float> fields_;
   FloatRows directions_transposed_;
   /// the region's fraction of the face's surface area; empty if there is one region
-  std::vector<double> region_shares_;
+  std::vector<double> region_area_fractions_;
 };
 
 }  // namespace crowdface

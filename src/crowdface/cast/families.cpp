@@ -65,7 +65,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
   FamilySampler sampler(casting, family, judge, unrelated, crowd);
   const DiversityOptions of_founder = without_distance_limits(casting.diversity);
   const bool drawn = sampler.needs_parents();
-  const std::uint32_t attempts_each = kFounderAttempts * attempt_factor(casting);
+  const std::uint32_t attempts_each = kFounderAttempts * max_attempts_factor(casting);
   for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
     throw_if_interrupted();
     if (drawn && !sampler.sample_parents(crowd, family_separation, f, rejections))
@@ -78,19 +78,22 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     auto found = founder.choose_face(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    const double to_half = sampler.nearer_strangers_fraction(found->point);
+    const double to_half = sampler.stranger_fraction_nearer_than_parent(found->point);
     // The limit grows with the number of tries. If both parents are new, a pair that matches well
     // is soon found; if one parent is given, there may be no good match.
-    const double enough = kMaxNearerStrangersToMean * (0.5 + static_cast<double>(f) / kCouples);
+    const double enough =
+        kMaxStrangerFractionForFounder * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child (not part of the crowd) replaces the founder.
     if (family.are_twins) {
-      FaceSearch model([&](std::uint32_t attempt) { return sampler.twin_model(cast, attempt); },
-                       judge, of_founder, 1, f * attempts_each);
+      FaceSearch model(
+          [&](std::uint32_t attempt) { return sampler.twins_prototype(cast, attempt); }, judge,
+          of_founder, 1, f * attempts_each);
       auto child = model.choose_face(crowd, [&](const FaceSpace::Point& point) {
-        const bool too_far = to_half <= kMaxNearerStrangersToMean &&
-                             sampler.nearer_strangers_fraction(point) > kMaxNearerStrangersToMean;
+        const bool too_far =
+            to_half <= kMaxStrangerFractionForFounder &&
+            sampler.stranger_fraction_nearer_than_parent(point) > kMaxStrangerFractionForFounder;
         return too_far ? std::optional(Reason::kFamily)
                        : sampler.rejection_reason(cast, point, {}, family_separation);
       });
@@ -115,16 +118,17 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     }
     family_separation.add(family.name, points);
     for (const FaceSpace::Point& child : points) {
-      cast.nearer_strangers_fraction =
-          std::max(cast.nearer_strangers_fraction, sampler.nearer_strangers_fraction(child));
+      cast.stranger_fraction_nearer_than_parent =
+          std::max(cast.stranger_fraction_nearer_than_parent,
+                   sampler.stranger_fraction_nearer_than_parent(child));
     }
     return cast;
   }
   return std::nullopt;
 }
 
-double silhouette(const std::vector<FamilyPlan>& families, std::size_t family,
-                  const std::vector<FaceSpace::Point>& points) {
+double mean_silhouette_coefficient(const std::vector<FamilyPlan>& families, std::size_t family,
+                                   const std::vector<FaceSpace::Point>& points) {
   const FamilyPlan& own = families[family];
   using Faces = std::pair<Index, Index>;  // index ranges [first, second)
   const auto mean_distance = [&](Index from, std::initializer_list<Faces> to) {

@@ -18,9 +18,9 @@ struct Parent {
   bool is_new = false;
   /// for a new parent: the group whose parameters are used; empty: the crowd's parameters
   std::optional<std::size_t> group = {};
-  /// Possible targets of a new parent that belongs to no group: the heads tagged female (mother) or
-  /// male (father). Empty: all targets of the crowd.
-  std::vector<Eigen::Index> targets = {};
+  /// For a new parent that belongs to no group, the heads that may be the parent's target: the
+  /// heads tagged female (mother) or male (father). Empty: all targets of the crowd.
+  std::vector<Eigen::Index> possible_target_heads = {};
 };
 
 /// A family: faces that resemble each other.

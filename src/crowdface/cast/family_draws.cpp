@@ -19,11 +19,13 @@ namespace {
 
 /// smallest distance of a member from the founder, as a fraction of max_distance
 constexpr double kNearestShare = 0.4;
-/// weight of a parent's detail in the random face with which the founder is mixed
+/// In the random face that is mixed with the founder to make a member: weight of the detail that
+/// the member inherits from a parent. The rest is random detail.
 constexpr double kParentShare = 0.75;
-/// Weights of the coarse shape of the random face with which the founder is mixed: kLargeFormsShare
-/// for one parent, kForeignShare for a third contributor, and the remaining weight for the other
-/// parent. Without the third contributor, the children of a couple would hardly differ.
+/// A child is a mixture of the founder and a random face. The coarse shape of this random face has
+/// the weight kLargeFormsShare for one parent, kForeignShare for a third contributor, and the
+/// remaining weight for the other parent. Without the third contributor, the children of a couple
+/// would hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
@@ -32,18 +34,18 @@ constexpr double kTwinsReach = 0.5;
 
 /// A child counts as resembling a parent if at most this fraction of strangers is nearer to the
 /// child than the parent is.
-constexpr double kMaxNearerStrangers = 0.1;
-/// If the parents are far apart: how much farther a child may be from a parent than the founder is,
-/// as a fraction of max_distance.
-constexpr double kRoomAtHalf = 0.25;
+constexpr double kMaxStrangerFractionForChild = 0.1;
+/// If the parents are far apart: largest difference between a child's distance from a parent and
+/// the founder's distance from this parent, as a fraction of max_distance.
+constexpr double kMaxFartherThanFounder = 0.25;
 
 /// Returns the parameters of a new parent. If no target of the crowd has the parent's sex, all
 /// targets are allowed.
-FaceKind kind_of(const Parent& parent, const CastingOptions& casting) {
-  FaceKind kind = kind_of_group(casting, parent.group);
+FaceDistribution distribution_of_parent(const Parent& parent, const CastingOptions& casting) {
+  FaceDistribution kind = distribution_of_group(casting, parent.group);
   std::vector<WeightedHead> own;
   for (const WeightedHead& target : kind.targets) {
-    if (contains(parent.targets, target.head)) own.push_back(target);
+    if (contains(parent.possible_target_heads, target.head)) own.push_back(target);
   }
   if (!own.empty()) kind.targets = std::move(own);
   return kind;
@@ -78,14 +80,14 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
         throw InvalidInput(
             concat("family ", family.name, ": no earlier face is called ", quoted(parent.id)));
       }
-      missing_parents_.push_back(p);
+      parents_not_in_crowd_.push_back(p);
       continue;
     }
     add_parent(p, found->id, *found,
                crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
     if (found->family) relatives_.push_back(*found->family);
   }
-  if (missing_parents_.empty()) prepare_inheritance();
+  if (parents_not_in_crowd_.empty()) prepare_inheritance();
   const auto is_parent = [&](const std::string& name) {
     return std::any_of(parents_.begin(), parents_.end(),
                        [&](const KnownParent& one) { return !name.empty() && one.name == name; });
@@ -112,12 +114,14 @@ void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan fa
 /// Determines the third contributor, and the substitutes for the parents' heads that are outside
 /// the family's group. Called when the parents are known.
 void FamilySampler::prepare_inheritance() {
-  third_contributor_kind_ = third_contributor();
+  third_contributor_distribution_ = third_contributor();
   if (!family_.group || parents_.empty()) return;
-  const FaceKind kind = kind_of_group(casting_, family_.group);
+  const FaceDistribution kind = distribution_of_group(casting_, family_.group);
   std::vector<Index> taken, targets;
   for (const KnownParent& parent : parents_) {
-    for (const SourceWeight& share : target_shares(parent.face.recipe)) taken.push_back(share.head);
+    for (const SourceWeight& share : target_head_weights(parent.face.recipe)) {
+      taken.push_back(share.head);
+    }
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
   // Replace targets only if the group has several targets. With one target, all children would have
@@ -134,15 +138,15 @@ void FamilySampler::prepare_inheritance() {
 /// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
 /// replaced by similar heads of the group.
 std::vector<SourceWeight> FamilySampler::coarse_shape_of(std::size_t parent) const {
-  return target_substitutes_.substituted(target_shares(parents_[parent].face.recipe));
+  return target_substitutes_.substituted(target_head_weights(parents_[parent].face.recipe));
 }
 
 /// Returns the parameters from which the third contributor is drawn. This contributor provides what
 /// members inherit from neither parent. It is a random mixture of at least three heads that have
 /// most of the tags which both parents share, so that the child's skin tone stays plausible.
-FaceKind FamilySampler::third_contributor() const {
+FaceDistribution FamilySampler::third_contributor() const {
   constexpr std::size_t kMin = 3;
-  FaceKind kind = kind_of_group(casting_, family_.group);
+  FaceDistribution kind = distribution_of_group(casting_, family_.group);
   if (parents_.empty() || casting_.tags.empty()) return kind;
   const auto tags_of = [&](std::size_t parent) {
     const Index head = typical_head(parents_[parent].face.recipe, casting_.tags);
@@ -174,18 +178,18 @@ bool FamilySampler::sample_parents(const CrowdSoFar& crowd,
                                    const FamilySeparation& family_separation, std::uint32_t attempt,
                                    Rejections& rejections) {
   new_parents_.clear();
-  for (const std::size_t p : missing_parents_) {
+  for (const std::size_t p : parents_not_in_crowd_) {
     const Parent& parent = family_.parents[p];
     ManualRecipe open;
     open.id = parent_id(casting_.name, parent);
-    const FaceKind kind = kind_of(parent, casting_);
+    const FaceDistribution kind = distribution_of_parent(parent, casting_);
     FaceSearch search(
         [&](std::uint32_t draw) {
           return random_face_plan(casting_, open, {0, draw, concat("parent/", parent.id)}, kind);
         },
         judge_, casting_.diversity, 1,
         attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts) *
-            attempt_factor(casting_));
+            max_attempts_factor(casting_));
     auto found =
         search.choose_face(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
           if (distance_to_new_parent_mm(point) < casting_.diversity.min_distance_mm)
@@ -241,7 +245,7 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   open.target = family_.target;
   open.age = Range{0, 0};
   FacePlan face = random_face_plan(casting_, open, {0, attempt, concat("family/", family_.name)},
-                                   third_contributor_kind_);
+                                   third_contributor_distribution_);
   if (parents_.empty()) {
     // mark the face as a member, so that the family's limits on measurements apply
     face.family = family_.name;
@@ -287,14 +291,15 @@ int FamilySampler::inherited_parent(std::size_t region, std::size_t band) const 
 /// region with the same band of one parent.
 void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
-    const std::string purpose = concat(key.owner, "/inherits/", what);
+    const std::string purpose = concat(key.purpose_prefix, "/inherits/", what);
     return random_unit({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
   };
   if (!family_.target) {
     const double one = kLargeFormsShare / (1 - kForeignShare);
     const double mother = parent_of("large forms") == 0 ? one : 1 - one;
     const auto of_parents = mixed_weights(coarse_shape_of(0), coarse_shape_of(1), 1 - mother);
-    set_target(face.recipe, mixed_weights(of_parents, target_shares(face.recipe), kForeignShare));
+    set_target(face.recipe,
+               mixed_weights(of_parents, target_head_weights(face.recipe), kForeignShare));
     face.mother_share = mother * (1 - kForeignShare);
   }
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
@@ -316,7 +321,7 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
 
 double FamilySampler::max_distance_from_founder_mm(const FamilyPlan& family_plan) const {
   const double most = family_.max_distance_mm;
-  return family_plan.has_twin_model ? std::min(most, kTwinsReach) : most;
+  return family_plan.founder_is_twins_prototype ? std::min(most, kTwinsReach) : most;
 }
 
 FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_plan, int member,
@@ -329,16 +334,16 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   if (parents_.empty()) open.target = family_plan.founder.recipe.target;
   open.age = Range{0, 0};
   MemberDraft draft;
-  draft.random_face = random_face_plan(casting_, open, key, third_contributor_kind_);
+  draft.random_face = random_face_plan(casting_, open, key, third_contributor_distribution_);
   draft.random_face.family = family_.name;
   if (!parents_.empty()) inherit_from_parents(draft.random_face, key);
-  const std::string purpose = concat(key.owner, "/how");
+  const std::string purpose = concat(key.purpose_prefix, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
   // how_far: 0 gives the smallest, 1 the largest distance from the founder
   draft.distance_mm = kNearestShare + (1 - kNearestShare) * how_far;
   draft.distance_mm *= max_distance_from_founder_mm(family_plan);
-  if (family_plan.has_twin_model) {
+  if (family_plan.founder_is_twins_prototype) {
     draft.random_face.inherited_from = family_plan.founder.inherited_from;
     draft.age = family_plan.founder.age.value_or(0);
   }
@@ -366,7 +371,8 @@ FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& family_plan,
   return face;
 }
 
-FacePlan FamilySampler::twin_model(const FamilyPlan& family_plan, std::uint32_t attempt) const {
+FacePlan FamilySampler::twins_prototype(const FamilyPlan& family_plan,
+                                        std::uint32_t attempt) const {
   MemberDraft model = member_draft(family_plan, 0, attempt);
   const double age = std::exchange(model.age, 0);
   FacePlan face = face_at_chosen_distance(family_plan, model);
@@ -401,24 +407,26 @@ std::optional<Reason> FamilySampler::rejection_reason(
   return std::nullopt;
 }
 
-/// Returns whether a child resembles the parents. If the parents are far apart, no child is near
-/// both parents; then a child may be about as far from each parent as the founder is.
+/// Returns whether a child resembles the parents. If the parents are far apart, not even the
+/// founder (their mean) resembles both parents. Then a child is accepted if its distance from each
+/// parent is not much larger than the founder's distance from this parent.
 bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
                                       const FaceSpace::Point& point) const {
-  if (nearer_strangers_fraction(point) <= kMaxNearerStrangers) return true;
-  if (nearer_strangers_fraction(family_plan.founder_point) <= kMaxNearerStrangersToMean)
+  if (stranger_fraction_nearer_than_parent(point) <= kMaxStrangerFractionForChild) return true;
+  if (stranger_fraction_nearer_than_parent(family_plan.founder_point) <=
+      kMaxStrangerFractionForFounder)
     return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
     return FaceSpace::distance(point, parent.point) <=
            FaceSpace::distance(family_plan.founder_point, parent.point) +
-               kRoomAtHalf * family_.max_distance_mm;
+               kMaxFartherThanFounder * family_.max_distance_mm;
   });
 }
 
-double FamilySampler::nearer_strangers_fraction(const FaceSpace::Point& point) const {
+double FamilySampler::stranger_fraction_nearer_than_parent(const FaceSpace::Point& point) const {
   double share = 0;
   for (const KnownParent& parent : parents_) {
-    if (!target_substitutes_.contains_all(target_shares(parent.face.recipe))) continue;
+    if (!target_substitutes_.contains_all(target_head_weights(parent.face.recipe))) continue;
     const double mm = FaceSpace::distance(point, parent.point);
     share = std::max(share, unrelated_faces_.fraction_nearer(point, mm, family_.group));
   }

@@ -19,17 +19,18 @@ struct FamilyPlan {
   std::string name;
   FacePlan founder;  ///< the face from which the members are derived; it is not in the crowd
   FaceSpace::Point founder_point;
-  /// whether the members are twins: then `founder` is a hidden child with the age of the twins
-  bool has_twin_model = false;
+  /// Whether `founder` is the hidden child that all twins of the family resemble (see
+  /// FamilySampler::twins_prototype). This child has the twins' age and is not in the crowd.
+  bool founder_is_twins_prototype = false;
   Index members_begin = 0, members_end = 0;  ///< indices of the members in the crowd: [begin, end)
   /// largest value, over all pairs of parent and child, of the fraction of strangers that are
   /// nearer to the child than the parent is
-  double nearer_strangers_fraction = 0;
+  double stranger_fraction_nearer_than_parent = 0;
 };
 
-/// Largest fraction of strangers that may be nearer to the mean of both parents than a parent is.
-/// The limit for children is larger, so that children can differ from that mean.
-inline constexpr double kMaxNearerStrangersToMean = 0.06;
+/// Largest FamilySampler::stranger_fraction_nearer_than_parent of a founder (the mean of both
+/// parents). The limit for children is larger, so that children can differ from the founder.
+inline constexpr double kMaxStrangerFractionForFounder = 0.06;
 
 /// Makes random faces of one family. Each member lies between the founder and a random face. The
 /// member's distance from the founder is random, and at most max_distance.
@@ -41,7 +42,7 @@ class FamilySampler {
 
   /// Returns whether new parents must be made for this family because some parents are not in the
   /// crowd yet.
-  bool needs_parents() const { return !missing_parents_.empty(); }
+  bool needs_parents() const { return !parents_not_in_crowd_.empty(); }
   /// Makes the missing parents; see needs_parents().
   ///
   /// \return  false if there is no room for these parents in the crowd.
@@ -58,7 +59,7 @@ class FamilySampler {
   FacePlan founder(std::uint32_t attempt) const;
   /// Returns the hidden child that all twins resemble. Stores the child's age in the plan but does
   /// not apply it to the recipe.
-  FacePlan twin_model(const FamilyPlan& family_plan, std::uint32_t attempt) const;
+  FacePlan twins_prototype(const FamilyPlan& family_plan, std::uint32_t attempt) const;
   /// Returns candidate number `attempt` for member number `member`; members count from 1.
   FacePlan member(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
 
@@ -73,7 +74,7 @@ class FamilySampler {
   /// For each parent, computes the fraction of strangers that are nearer to the point than the
   /// parent is. Returns the larger fraction. For a family in a group, the strangers are faces of
   /// this group, and a parent is considered only if all heads of the parent are in the group.
-  double nearer_strangers_fraction(const FaceSpace::Point& point) const;
+  double stranger_fraction_nearer_than_parent(const FaceSpace::Point& point) const;
 
  private:
   struct KnownParent {
@@ -90,7 +91,7 @@ class FamilySampler {
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
   void prepare_inheritance();
   std::vector<SourceWeight> coarse_shape_of(std::size_t parent) const;
-  FaceKind third_contributor() const;
+  FaceDistribution third_contributor() const;
   const SamplingOptions& sampling_of(const FacePlan& face) const;
   BandRecipe parent_band(std::size_t parent, std::size_t region, std::size_t band,
                          const BandRecipe& random_band) const;
@@ -107,14 +108,16 @@ class FamilySampler {
   const FaceJudge& judge_;
   const UnrelatedFaces& unrelated_faces_;
   std::vector<KnownParent> parents_;  ///< #parents; empty entries for parents that are missing
-  std::vector<std::size_t> missing_parents_;  ///< indices of the parents that were not in the crowd
+  /// indices in `parents_` of the parents that are not in the crowd yet
+  std::vector<std::size_t> parents_not_in_crowd_;
   std::vector<FaceSearch::FoundFace> new_parents_;
-  /// parameters of the third contributor, who provides features that members inherit from neither
-  /// parent
-  FaceKind third_contributor_kind_;
-  /// replaces the parents' targets by targets of the family's group
+  /// distribution of the third contributor, a random face: members inherit some of its detail in
+  /// addition to their parents' detail
+  FaceDistribution third_contributor_distribution_;
+  /// maps each target head of a parent to a similar target head of the family's group
   SubstituteHeads target_substitutes_;
-  /// by band: replaces the parents' sources by sources of the family's group; empty: no group
+  /// For each band, the heads of the family's group that substitute for the parents' sources
+  /// outside the group. Empty: the family has no group, or no parents.
   std::vector<SubstituteHeads> source_substitutes_;
   /// names of the parents' families, and of the families that share a parent
   std::vector<std::string> relatives_;

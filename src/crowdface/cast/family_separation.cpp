@@ -40,7 +40,7 @@ UnrelatedFaces::UnrelatedFaces(const CastingOptions& casting, const FaceSpace& s
     if (!family.parents.empty()) points_by_group_[family.group].resize(kStrangers);
   }
   for (auto& [group, points] : points_by_group_) {
-    const FaceKind kind = kind_of_group(casting, group);
+    const FaceDistribution kind = distribution_of_group(casting, group);
     parallel_for_each(static_cast<Index>(kStrangers), [&, &points = points](Index i) {
       const FaceRandomKey key = {static_cast<std::uint64_t>(i), 0, "stranger"};
       points[static_cast<std::size_t>(i)] =

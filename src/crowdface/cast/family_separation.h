@@ -18,13 +18,14 @@ namespace crowdface {
 /// and families that share a parent.
 class FamilySeparation {
  public:
-  /// Returns whether a point is too near to a family: whether, for some member of the family, the
-  /// point is no farther than the farthest other member.
+  /// Returns whether a point is too near to a family: whether the distance between the point and
+  /// some member is at most the distance between this member and the family's farthest member.
   ///
   /// \param relatives  Families that are not checked.
   bool is_too_near_to_family(const FaceSpace::Point& point,
                              const std::vector<std::string>& relatives = {}) const;
-  /// Returns why a face that has no relatives is rejected at this point; nothing if it is accepted.
+  /// Returns why a face without relatives is rejected, given the face's point in the face space;
+  /// nothing if the face is accepted.
   std::optional<Reason> rejection_reason(const FaceSpace::Point& stranger) const {
     return is_too_near_to_family(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
   }

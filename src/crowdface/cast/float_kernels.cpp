@@ -21,12 +21,13 @@ struct ChunkSums {
   static constexpr std::size_t kVectors = kSums / hn::MaxLanes(Lanes());
 
   const Numbers& numbers;
-  /// the range [begin, end) consists of full groups of kSums numbers up to `whole`
-  std::size_t begin, end, whole;
+  /// Indices of the chunk's numbers: [begin, groups_end) are full groups of kSums numbers, and
+  /// [groups_end, end) are the remaining numbers.
+  std::size_t begin, end, groups_end;
   hn::VFromD<Lanes> sums[kVectors];
 
   ChunkSums(const Numbers& of, std::size_t from, std::size_t to)
-      : numbers(of), begin(from), end(to), whole(to - (to - from) % kSums) {
+      : numbers(of), begin(from), end(to), groups_end(to - (to - from) % kSums) {
     for (auto& sum : sums) sum = hn::Zero(Lanes());
   }
   void add(std::size_t at) {
@@ -39,7 +40,7 @@ struct ChunkSums {
     for (std::size_t v = 0; v < kVectors; ++v) {
       hn::StoreU(sums[v], Lanes(), parts + v * hn::Lanes(Lanes()));
     }
-    for (std::size_t i = whole; i < end; ++i) parts[i - whole] += numbers.one(i);
+    for (std::size_t i = groups_end; i < end; ++i) parts[i - groups_end] += numbers.one(i);
     for (const float part : parts) total += static_cast<double>(part);
   }
 };
@@ -53,11 +54,11 @@ double sum_of(const Numbers& numbers, std::size_t count) {
     const std::size_t end = middle + kChunk < count ? middle + kChunk : count;
     ChunkSums first(numbers, begin, middle), second(numbers, middle, end);
     std::size_t done = 0;
-    for (; middle + done < second.whole; done += kSums) {
+    for (; middle + done < second.groups_end; done += kSums) {
       first.add(begin + done);
       second.add(middle + done);
     }
-    for (; begin + done < first.whole; done += kSums) first.add(begin + done);
+    for (; begin + done < first.groups_end; done += kSums) first.add(begin + done);
     first.add_to(total);
     if (middle < end) second.add_to(total);
   }
@@ -96,7 +97,7 @@ struct SquaresAfter {
   }
 };
 
-double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to) {
+double add_scaled_and_sum_squares(float factor, const float* from, std::size_t count, float* to) {
   return sum_of(SquaresAfter{factor, from, to}, count);
 }
 
@@ -173,7 +174,7 @@ namespace crowdface {
 
 HWY_EXPORT(fixed_order_dot);
 HWY_EXPORT(add_scaled);
-HWY_EXPORT(add_scaled_and_square);
+HWY_EXPORT(add_scaled_and_sum_squares);
 HWY_EXPORT(add_scaled_rows);
 HWY_EXPORT(add_squares);
 
@@ -185,8 +186,8 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   HWY_DYNAMIC_DISPATCH(add_scaled)(factor, from, count, to);
 }
 
-double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to) {
-  return HWY_DYNAMIC_DISPATCH(add_scaled_and_square)(factor, from, count, to);
+double add_scaled_and_sum_squares(float factor, const float* from, std::size_t count, float* to) {
+  return HWY_DYNAMIC_DISPATCH(add_scaled_and_sum_squares)(factor, from, count, to);
 }
 
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,

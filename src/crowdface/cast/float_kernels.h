@@ -15,9 +15,9 @@ double fixed_order_dot(const float* a, const float* b, std::size_t count);
 /// Computes to[i] += factor·from[i].
 void add_scaled(float factor, const float* from, std::size_t count, float* to);
 
-/// Like add_scaled, but also returns the sum of the squares of the new values in `to`, with the
-/// bits of fixed_order_dot.
-double add_scaled_and_square(float factor, const float* from, std::size_t count, float* to);
+/// Like add_scaled, but also returns the sum of the squares of the new values in `to`. The sum is
+/// bit-identical to fixed_order_dot(to, to, count).
+double add_scaled_and_sum_squares(float factor, const float* from, std::size_t count, float* to);
 
 /// Computes to[d] += factors[i]·rows[i][d], for all i in ascending order.
 ///

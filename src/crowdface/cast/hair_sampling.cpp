@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "crowdface/cast/shares.h"
 #include "crowdface/core/contains.h"
@@ -39,8 +40,8 @@ HairChooser::HairChooser(HairOptions options, const std::vector<FacePlan>& crowd
   std::set<std::string> families;
   for (const FacePlan& face : crowd) {
     if (!face.parents.empty() || (face.family && !families.insert(*face.family).second)) continue;
-    const std::string entry = hair_colours_key_of(face);
-    entry_indices_[face.id] = {entry, entry_sizes_[entry]++};
+    const std::string entry = key_in_hair_colours(face);
+    entries_of_faces_[face.id] = {entry, entry_sizes_[entry]++};
   }
 }
 
@@ -51,7 +52,7 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
     return person.empty() ? std::string(what) : concat(what, '/', person);
   };
   std::optional<HairColour> colour = inherited_colour(face, person);
-  if (!colour) colour = scheduled_colour(face);
+  if (!colour) colour = configured_colour(face);
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
   if (face.family && face.parents.empty()) family_colours_.try_emplace(*face.family, *colour);
   // Vary the colours slightly at random, so that not all brown hair has the same shade of brown.
@@ -67,15 +68,15 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
 }
 
 /// Returns the key of `hair_colours` (a group's name or "") that applies to a face.
-std::string HairChooser::hair_colours_key_of(const FacePlan& face) const {
+std::string HairChooser::key_in_hair_colours(const FacePlan& face) const {
   const std::string group = face.group.value_or("");
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Among all faces in `entry_indices_` with
-/// the same entry, each colour has the fraction that the config specifies.
-std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
-  const std::string entry = hair_colours_key_of(face);
+/// Returns the colour that `hair_colours` gives the face. Among all faces in `entries_of_faces_`
+/// with the same entry, each colour has the fraction that the config specifies.
+std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face) {
+  const std::string entry = key_in_hair_colours(face);
   const auto shares = options_.hair_colours.find(entry);
   if (shares == options_.hair_colours.end() || shares->second.empty()) return std::nullopt;
   std::vector<double> parts;
@@ -85,14 +86,14 @@ std::optional<HairColour> HairChooser::scheduled_colour(const FacePlan& face) {
     colours.push_back(*hair_colour_named(name));
   }
   int chosen = -1;
-  const auto place = entry_indices_.find(face.id);
-  if (place != entry_indices_.end() && place->second.first == entry) {
-    const auto [schedule, is_new] = schedules_.try_emplace(entry);
+  const auto place = entries_of_faces_.find(face.id);
+  if (place != entries_of_faces_.end() && place->second.key == entry) {
+    const auto [schedule, is_new] = colour_indices_.try_emplace(entry);
     if (is_new) {
-      schedule->second =
-          scatter_shares(parts, entry_sizes_[entry], options_.seed, concat("hair colours/", entry));
+      schedule->second = schedule_shares_randomly(parts, entry_sizes_[entry], options_.seed,
+                                                  concat("hair colours/", entry));
     }
-    chosen = schedule->second[place->second.second];
+    chosen = schedule->second[place->second.face_index];
   } else {
     const std::string purpose = concat("hair/colour/", face.id);
     chosen = share_at(parts, random_unit({options_.seed, face.index.value_or(0), purpose}));
@@ -132,7 +133,7 @@ std::optional<HairColour> HairChooser::colour_of_parent(const std::string& paren
 
 /// Returns the hair colour that the head's tags name. If the tags name no colour, returns a random
 /// colour; colours that are frequent in the world are more likely.
-HairColour HairChooser::colour_of_tags(Index head, const std::string& purpose) const {
+HairColour HairChooser::colour_of_tags(Index head, const std::string& random_number_purpose) const {
   constexpr std::string_view kEnding = "_hair";
   for (const std::string& tag : options_.tags[static_cast<std::size_t>(head)]) {
     if (!tag.ends_with(kEnding)) continue;
@@ -140,13 +141,14 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& purpose) c
         hair_colour_named(std::string_view(tag).substr(0, tag.size() - kEnding.size()));
     if (colour) return *colour;
   }
-  const double drawn = random_unit({options_.seed, static_cast<std::uint64_t>(head), purpose});
+  const double drawn =
+      random_unit({options_.seed, static_cast<std::uint64_t>(head), random_number_purpose});
   return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
 }
 
 /// Returns the fraction of grey hair at the face's age.
 double HairChooser::grey_fraction(const FacePlan& face, Index head,
-                                  const std::string& purpose) const {
+                                  const std::string& random_number_purpose) const {
   const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
   const double of_head = contains(tags, "old")     ? 0.85
                          : contains(tags, "adult") ? 0.45
@@ -158,7 +160,8 @@ double HairChooser::grey_fraction(const FacePlan& face, Index head,
   const double way = std::sqrt(std::min(1.0, std::abs(age)));
   const double aged = of_head + way * ((age < 0 ? 0.15 : std::max(0.9, of_head)) - of_head);
   // Each person's hair begins to turn grey at a random age, but never while the person is young.
-  const double begin = random_unit({options_.seed, face.index.value_or(0), purpose}) - 0.5;
+  const double begin =
+      random_unit({options_.seed, face.index.value_or(0), random_number_purpose}) - 0.5;
   return smooth_step(0.5, 1.0, aged + 0.35 * begin);
 }
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "crowdface/cast/face_plan.h"
@@ -38,21 +37,26 @@ class HairChooser {
   HairColour colour_of(const FacePlan& face, Index head);
 
  private:
-  std::string hair_colours_key_of(const FacePlan& face) const;
-  std::optional<HairColour> scheduled_colour(const FacePlan& face);
+  std::string key_in_hair_colours(const FacePlan& face) const;
+  std::optional<HairColour> configured_colour(const FacePlan& face);
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
-  HairColour colour_of_tags(Index head, const std::string& purpose) const;
-  double grey_fraction(const FacePlan& face, Index head, const std::string& purpose) const;
+  HairColour colour_of_tags(Index head, const std::string& random_number_purpose) const;
+  double grey_fraction(const FacePlan& face, Index head,
+                       const std::string& random_number_purpose) const;
 
   HairOptions options_;
-  /// by face: the key of the entry in `hair_colours` that applies to the face, and the face's index
-  /// among the faces of this entry
-  std::map<std::string, std::pair<std::string, std::uint64_t>> entry_indices_;
-  std::map<std::string, std::uint64_t> entry_sizes_;  ///< by entry: how many faces use the entry
-  /// by entry: for each face that uses the entry, the index of the face's colour in the entry, or
-  /// −1
-  std::map<std::string, std::vector<int>> schedules_;
+  /// The entry of HairOptions::hair_colours that applies to a face.
+  struct EntryOfFace {
+    std::string key;               ///< key of the entry in `hair_colours`
+    std::uint64_t face_index = 0;  ///< index of the face among the faces with this key
+  };
+  std::map<std::string, EntryOfFace> entries_of_faces_;  ///< by the face's id
+  /// by key in `hair_colours`: number of faces with this key
+  std::map<std::string, std::uint64_t> entry_sizes_;
+  /// By key in `hair_colours`: for each face with this key, the index of the face's colour among
+  /// the key's colours. −1: the face has none of these colours.
+  std::map<std::string, std::vector<int>> colour_indices_;
   /// hair colours without the grey of age, by face
   std::map<std::string, HairColour> base_colours_;
   std::map<std::string, HairColour> family_colours_;  ///< hair colours of families, by family

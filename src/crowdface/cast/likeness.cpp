@@ -25,11 +25,11 @@ class LikenessTree {
   ///                set entries to true later. Must outlive this object.
   LikenessTree(const std::vector<FaceSpace::Point>& points, const std::vector<bool>& gone)
       : points_(points), gone_(gone) {
-    add_variant(&FaceSpace::Point::as_built);
+    add_variant(&FaceSpace::Point::with_extrapolation);
     if (std::any_of(points.begin(), points.end(), [](const FaceSpace::Point& point) {
-          return point.as_built != point.unextrapolated;
+          return point.with_extrapolation != point.without_extrapolation;
         })) {
-      add_variant(&FaceSpace::Point::unextrapolated);
+      add_variant(&FaceSpace::Point::without_extrapolation);
     }
   }
 
@@ -37,7 +37,7 @@ class LikenessTree {
   /// Returns the face at a position in the tree. Faces at neighbouring positions are similar, so
   /// queries in this order use the cache well.
   std::size_t face(std::size_t place) const {
-    return static_cast<std::size_t>(blocks().number(static_cast<Index>(place)));
+    return static_cast<std::size_t>(blocks().point_number(static_cast<Index>(place)));
   }
 
   /// Returns the nearest remaining faces, beginning with the nearest.
@@ -65,7 +65,7 @@ class LikenessTree {
         const Index last = std::min(PointBlocks::kLanes, points.size() - first);
         for (Index lane = 0; lane < last; ++lane) {
           if (squared[static_cast<std::size_t>(lane)] > bound) continue;
-          meet(static_cast<std::size_t>(points.number(first + lane)));
+          meet(static_cast<std::size_t>(points.point_number(first + lane)));
         }
       });
     }
@@ -83,7 +83,7 @@ class LikenessTree {
   }
   const PointBlocks& blocks() const { return variants_.front().second.points(); }
 
-  /// Adds a tree over one variant of the points (as built, or with extrapolation factors of 1).
+  /// Adds a tree over one variant of the points (with or without extrapolation).
   void add_variant(Variant of) {
     const Index dimensions = (points_[0].*of).size();
     PointBlocks blocks(dimensions);

@@ -12,7 +12,7 @@ using Verdict = ReviewMark::Verdict;
 
 const char* verb_of(const ReviewMark& mark) {
   if (mark.verdict == Verdict::kKeep) return "keeps it";
-  return mark.locked_parts.empty() ? "rejects it" : "rejects it and locks parts";
+  return mark.locked_bands.empty() ? "rejects it" : "rejects it and locks parts";
 }
 
 /// Prepares a later review for use after an earlier review, whose results the later reviewer did
@@ -60,12 +60,12 @@ class Merging {
   }
 
   void merge(const ReviewMark& other, ReviewMark& mark) {
-    if (other.verdict != mark.verdict || other.locked_parts != mark.locked_parts) {
+    if (other.verdict != mark.verdict || other.locked_bands != mark.locked_bands) {
       tell(mark.id, verb_of(other), verb_of(mark));
     }
     if (other.verdict == Verdict::kReject) {  // the earlier review already redraws the face
       mark.verdict = Verdict::kKeep;
-      mark.locked_parts.clear();
+      mark.locked_bands.clear();
     }
     if (other.note && mark.note != other.note) {
       mark.note = mark.note ? concat(*other.note, "; ", *mark.note) : *other.note;
@@ -94,7 +94,7 @@ class Merging {
       tell(change.id, "makes it a variant", "makes it another variant");
     }
     merge("group", change.id, other.group, change.group);
-    merge("lock", change.id, other.locked_parts, change.locked_parts);
+    merge("lock", change.id, other.locked_bands, change.locked_bands);
     merge("traits", change.id, other.traits, change.traits);
     merge("wears", change.id, other.attachments, change.attachments);
     merge("takes_off", change.id, other.removed_attachments, change.removed_attachments);
@@ -114,7 +114,8 @@ class Merging {
 MergedReviews merged_reviews(const std::vector<Review>& reviews) {
   MergedReviews merged{reviews, {}};
   for (std::size_t later = 0; later < reviews.size(); ++later) {
-    const auto seen = static_cast<std::size_t>(reviews[later].seen_review_count.value_or(later));
+    const auto seen =
+        static_cast<std::size_t>(reviews[later].review_count_seen_by_reviewer.value_or(later));
     for (std::size_t earlier = seen; earlier < later; ++earlier) {
       Merging(reviews[earlier], earlier + 1, merged.reviews[later], later + 1, merged.conflicts)
           .merge();

@@ -15,9 +15,10 @@ struct MergedReviews {
   std::vector<std::string> conflicts;
 };
 
-/// Merges reviews whose reviewers did not see each other's results (see Review::seen_review_count).
-/// Equal requests apply once: a face that both reviews reject is redrawn once, and a change that
-/// both reviews request is made once. Both notes stay. If two reviews disagree,
+/// Merges reviews whose reviewers did not see each other's results (see
+/// Review::review_count_seen_by_reviewer). Equal requests apply once: a face that both reviews
+/// reject is redrawn once, and a change that both reviews request is made once. Both notes stay. If
+/// two reviews disagree,
 ///
 /// - a face that only one review rejects is redrawn;
 /// - if both reviews reject a face with different locked parts, the earlier review applies;

@@ -9,7 +9,8 @@ double mixed(double a, double b, double t) {
   return a == b ? a : (1 - t) * a + t * b;
 }
 
-BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const LevelScale& scale) {
+BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t,
+                 const SmoothingLevelScale& scale) {
   BandRecipe band;
   band.weights = mixed_weights(a.weights, b.weights, t);
   band.smoothness = (1 - t) * a.smoothness + t * b.smoothness;
@@ -18,9 +19,9 @@ BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t, const Level
   return band;
 }
 
-Recipe mixed(const Recipe& from, const Recipe& to, double t, const LevelScale& scale) {
+Recipe mixed(const Recipe& from, const Recipe& to, double t, const SmoothingLevelScale& scale) {
   Recipe recipe = to;
-  set_target(recipe, mixed_weights(target_shares(from), target_shares(to), t));
+  set_target(recipe, mixed_weights(target_head_weights(from), target_head_weights(to), t));
   recipe.asymmetry = mixed(from.asymmetry, to.asymmetry, t);
   recipe.mirrored = from.mirrored;
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {

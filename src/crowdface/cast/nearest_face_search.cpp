@@ -36,16 +36,16 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
     for (std::size_t d = 0; d < values.size(); ++d) {
       values[d] = blocks->coordinate(at, static_cast<Index>(d));
     }
-    points_.add(blocks->number(at), values.data());
+    points_.add(blocks->point_number(at), values.data());
   }
   for (const auto& [begin, end, second] : tree_.nodes) {
-    Bounds bounds{{}, points_.number(begin), points_.number(begin)};
+    Bounds bounds{{}, points_.point_number(begin), points_.point_number(begin)};
     for (std::size_t d = 0; d < LeadingCoordinatesBox::kDimensions; ++d) {
       bounds.box.low[d] = bounds.box.high[d] = points_.coordinate(begin, static_cast<Index>(d));
     }
     for (Index at = begin; at < end; ++at) {
-      bounds.min_number = std::min(bounds.min_number, points_.number(at));
-      bounds.max_number = std::max(bounds.max_number, points_.number(at));
+      bounds.min_number = std::min(bounds.min_number, points_.point_number(at));
+      bounds.max_number = std::max(bounds.max_number, points_.point_number(at));
       for (std::size_t d = 0; d < LeadingCoordinatesBox::kDimensions; ++d) {
         const float value = points_.coordinate(at, static_cast<Index>(d));
         bounds.box.low[d] = std::min(bounds.box.low[d], value);
@@ -103,9 +103,10 @@ NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit_squa
 }
 
 void NearestFaceSearch::add(const FaceSpace::Point& point) {
-  as_built_trees_.add(point.as_built);
-  unextrapolated_trees_.add(point.unextrapolated);
-  has_extrapolated_faces_ = has_extrapolated_faces_ || point.as_built != point.unextrapolated;
+  trees_with_extrapolation_.add(point.with_extrapolation);
+  trees_without_extrapolation_.add(point.without_extrapolation);
+  has_extrapolated_faces_ =
+      has_extrapolated_faces_ || point.with_extrapolation != point.without_extrapolation;
 }
 
 NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point& point,
@@ -113,12 +114,13 @@ NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point
                                                           double enough_mm) const {
   if (end < 0) end = size();
   const double enough_squared = enough_mm * enough_mm;
-  NearestPoint hit =
-      as_built_trees_.nearest(point.as_built, limit_mm * limit_mm, begin, end, enough_squared);
+  NearestPoint hit = trees_with_extrapolation_.nearest(
+      point.with_extrapolation, limit_mm * limit_mm, begin, end, enough_squared);
   const bool done = hit.point >= 0 && hit.squared_distance < enough_squared;
-  if (!done && (has_extrapolated_faces_ || point.as_built != point.unextrapolated)) {
-    const NearestPoint other = unextrapolated_trees_.nearest(
-        point.unextrapolated, hit.squared_distance, begin, end, enough_squared);
+  if (!done &&
+      (has_extrapolated_faces_ || point.with_extrapolation != point.without_extrapolation)) {
+    const NearestPoint other = trees_without_extrapolation_.nearest(
+        point.without_extrapolation, hit.squared_distance, begin, end, enough_squared);
     if (other.point >= 0) hit = other;
   }
   if (hit.point < 0) return {};

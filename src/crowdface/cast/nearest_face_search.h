@@ -93,10 +93,10 @@ class PointTrees {
 class NearestFaceSearch {
  public:
   explicit NearestFaceSearch(Index dimensions)
-      : as_built_trees_(dimensions), unextrapolated_trees_(dimensions) {}
+      : trees_with_extrapolation_(dimensions), trees_without_extrapolation_(dimensions) {}
 
   void add(const FaceSpace::Point& point);
-  Index size() const { return as_built_trees_.size(); }
+  Index size() const { return trees_with_extrapolation_.size(); }
 
   struct NearestFace {
     Index face = -1;  ///< number of the face; −1: no face is within the limit
@@ -112,7 +112,7 @@ class NearestFaceSearch {
 
  private:
   /// one set of trees for each variant of the points, see FaceSpace::Point
-  PointTrees as_built_trees_, unextrapolated_trees_;
+  PointTrees trees_with_extrapolation_, trees_without_extrapolation_;
   /// whether at least one face has an extrapolation factor other than 1
   bool has_extrapolated_faces_ = false;
 };

@@ -61,11 +61,11 @@ Plausibility::Plausibility(const FaceSpace& space) {
   std::vector<Eigen::VectorXf> heads;
   const Index count = space.head_count();
   for (Index h = 0; h < space.head_point_count(); ++h) {
-    heads.push_back(space.head_point(h).as_built);
+    heads.push_back(space.head_point(h).with_extrapolation);
   }
   metric_ = metric_without(heads, count, -1);
-  // If one of two heads is left out, the other head has no variance. So use the distance of the
-  // first head, with no head left out.
+  // With three or more heads, leave out each head in turn. With two heads, the remaining head would
+  // have no variance, so use the first head's distance without leaving out a head.
   if (count < 3) {
     typical_distance_ = std::sqrt(squared_distance(metric_, heads[0]));
   } else {
@@ -79,7 +79,8 @@ Plausibility::Plausibility(const FaceSpace& space) {
 }
 
 double Plausibility::score(const FaceSpace::Point& point) const {
-  return std::sqrt(std::max(squared_distance(metric_, point.as_built), 0.0)) / typical_distance_;
+  return std::sqrt(std::max(squared_distance(metric_, point.with_extrapolation), 0.0)) /
+         typical_distance_;
 }
 
 }  // namespace crowdface

@@ -18,11 +18,11 @@ void PointBlocks::add(Index number, const float* coordinates) {
   for (Index d = 0; d < dimensions_; ++d) {
     chunks_[static_cast<std::size_t>(d / kChunk)][chunk_offset(size(), d)] = coordinates[d];
   }
-  numbers_.push_back(number);
+  point_numbers_.push_back(number);
 }
 
 void PointBlocks::clear() {
-  numbers_.clear();
+  point_numbers_.clear();
   for (auto& chunk : chunks_) chunk.clear();
 }
 
@@ -53,7 +53,7 @@ void PointBlocks::search(const std::vector<float>& query, Index block, Index beg
       squared_distances(query, block, static_cast<float>(std::min(best.squared_distance, 1e30)));
   const Index last = std::min(kLanes, size() - block * kLanes);
   for (Index lane = 0; lane < last; ++lane) {
-    const Index number = numbers_[static_cast<std::size_t>(block * kLanes + lane)];
+    const Index number = point_numbers_[static_cast<std::size_t>(block * kLanes + lane)];
     if (number < begin || number >= end) continue;
     best.update(number, static_cast<double>(sums[static_cast<std::size_t>(lane)]));
   }

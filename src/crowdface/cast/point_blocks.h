@@ -33,14 +33,14 @@ struct LeadingCoordinatesBox {
   std::array<float, kDimensions> low, high;
 
   float squared_distance(const std::vector<float>& query) const {
-    std::array<float, kDimensions> squares;
+    std::array<float, kDimensions> squared_distances_outside;
     for (std::size_t d = 0; d < kDimensions; ++d) {
       const float distance_outside = std::max(std::max(low[d] - query[d], query[d] - high[d]), 0.F);
-      squares[d] = distance_outside * distance_outside;
+      squared_distances_outside[d] = distance_outside * distance_outside;
     }
-    float sum = 0;
-    for (const float square : squares) sum += square;
-    return sum;
+    float sum_of_squares = 0;
+    for (const float square : squared_distances_outside) sum_of_squares += square;
+    return sum_of_squares;
   }
 };
 
@@ -60,10 +60,10 @@ class PointBlocks {
   /// \param coordinates  the point's coordinates, padded with zeros to padded_dimensions() values.
   void add(Index number, const float* coordinates);
   void clear();
-  Index size() const { return static_cast<Index>(numbers_.size()); }
+  Index size() const { return static_cast<Index>(point_numbers_.size()); }
   Index padded_dimensions() const { return dimensions_; }
   /// Returns the number of a point. Indices count the points in the order in which they were added.
-  Index number(Index index) const { return numbers_[static_cast<std::size_t>(index)]; }
+  Index point_number(Index index) const { return point_numbers_[static_cast<std::size_t>(index)]; }
   float coordinate(Index index, Index dimension) const {
     return chunk_of(dimension)[chunk_offset(index, dimension)];
   }
@@ -94,7 +94,7 @@ class PointBlocks {
   }
 
   Index dimensions_;  ///< number of stored coordinates of each point, a multiple of kChunk
-  std::vector<Index> numbers_;
+  std::vector<Index> point_numbers_;  ///< numbers of the points, in the order of `add`
   /// For each chunk of kChunk coordinates, the values sorted by block, then coordinate, then lane.
   /// Nearly all searches of a block end in the first chunk, so the first chunks of all blocks are
   /// contiguous in memory.

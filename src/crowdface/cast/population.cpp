@@ -9,9 +9,9 @@ namespace crowdface {
 PopulationBalance::PopulationBalance(const std::vector<TraitTarget>& targets) {
   for (const TraitTarget& target : targets) {
     Trait& trait = traits_.emplace_back(Trait{target, {}, {}});
-    trait.excess.assign(kBins, 0);
-    trait.squared_differences.assign(kBins, 0);
-    update_squared_differences(trait);
+    trait.cumulative_excess.assign(kBins, 0);
+    trait.squared_excess_by_next_bin.assign(kBins, 0);
+    update_squared_excess(trait);
   }
 }
 
@@ -21,25 +21,25 @@ std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
 }
 
-/// Updates Trait::squared_differences. If a face joins the crowd, the number of faces requested in
-/// bins 0 … b grows by (b + 1)/kBins. The actual number grows by one in the face's bin and in all
-/// higher bins.
-void PopulationBalance::update_squared_differences(Trait& trait) {
+/// Updates Trait::squared_excess_by_next_bin. If a face joins the crowd, `cumulative_excess` of bin
+/// b falls by (b + 1)/kBins. In the face's bin and in all higher bins, it also rises by 1.
+void PopulationBalance::update_squared_excess(Trait& trait) {
   const auto lacks = [&](std::size_t b) {
-    return trait.excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);
+    return trait.cumulative_excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);
   };
   double sum = 0;
   for (std::size_t b = 0; b < kBins; ++b) sum += lacks(b) * lacks(b);
   for (std::size_t b = kBins; b-- > 0;) {
     sum += 2 * lacks(b) + 1;
-    trait.squared_differences[b] = sum;
+    trait.squared_excess_by_next_bin[b] = sum;
   }
 }
 
 double PopulationBalance::cost(const Positions& landmarks) const {
   double sum = 0;
   for (const Trait& trait : traits_) {
-    sum += std::sqrt(std::max(trait.squared_differences[bin_of(trait.target, landmarks)], 0.0));
+    sum +=
+        std::sqrt(std::max(trait.squared_excess_by_next_bin[bin_of(trait.target, landmarks)], 0.0));
   }
   return sum;
 }
@@ -49,9 +49,9 @@ void PopulationBalance::add(const Positions& landmarks) {
     const std::size_t own = bin_of(trait.target, landmarks);
     for (std::size_t b = 0; b < kBins; ++b) {
       const double asked = static_cast<double>(b + 1) / static_cast<double>(kBins);
-      trait.excess[b] += (b >= own ? 1 : 0) - asked;
+      trait.cumulative_excess[b] += (b >= own ? 1 : 0) - asked;
     }
-    update_squared_differences(trait);
+    update_squared_excess(trait);
   }
 }
 

@@ -33,13 +33,13 @@ class PopulationBalance {
     TraitTarget target;
     /// for each bin: the number of faces in this bin and all lower bins, minus the number requested
     /// for these bins
-    std::vector<double> excess;
-    /// for each bin: the sum of `excess`² over all bins if the next face that joins the crowd is in
-    /// this bin
-    std::vector<double> squared_differences;
+    std::vector<double> cumulative_excess;
+    /// For each bin: the value that the sum of `cumulative_excess`² over all bins would have after
+    /// one more face, if this face were in the bin.
+    std::vector<double> squared_excess_by_next_bin;
   };
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);
-  static void update_squared_differences(Trait& trait);
+  static void update_squared_excess(Trait& trait);
 
   std::vector<Trait> traits_;
 };

@@ -18,9 +18,9 @@ struct ReviewMark {
   };
   std::string id;
   Verdict verdict = Verdict::kKeep;
-  /// Parts that stay the same when the face is redrawn; each is given as region · #bands + band. If
-  /// there are no bands, a part is a region.
-  std::vector<std::size_t> locked_parts;
+  /// Bands of regions that stay the same when the face is redrawn; each is given as region · #bands
+  /// + band. Without bands, each is the index of a region.
+  std::vector<std::size_t> locked_bands;
   std::optional<std::string> note;
 };
 
@@ -36,8 +36,9 @@ struct FaceChange {
   std::optional<std::string> variant_of;
   double variant_distance_mm = 1.5;  ///< distance between this face and `variant_of`
   std::optional<std::string> group;  ///< group in which the face is redrawn
-  /// Parts that stay the same while the other parts are redrawn; encoded as in ReviewMark.
-  std::vector<std::size_t> locked_parts;
+  /// Bands of regions that stay the same while the other bands are redrawn; encoded as in
+  /// ReviewMark.
+  std::vector<std::size_t> locked_bands;
   /// Limits on the face's measurements. The face is changed only as far as these limits require.
   TraitLimits traits;
   /// Names of attachments that replace the face's attachments of the same kinds. Empty list: the
@@ -49,7 +50,8 @@ struct FaceChange {
   /// heads whose textures are blended for the face; empty: no change
   std::vector<WeightedHead> colours;
 
-  bool needs_redraw() const { return group || !locked_parts.empty() || !traits.empty(); }
+  /// Returns whether parts of the face are drawn at random again.
+  bool needs_redraw() const { return group || !locked_bands.empty() || !traits.empty(); }
   bool is_empty() const {
     return !age && !age_step && !variant_of && !needs_redraw() && !attachments &&
            removed_attachments.empty() && !hair && colours.empty();
@@ -64,7 +66,7 @@ struct Review {
   std::optional<std::uint64_t> reviewed_face_count;
   /// Number of earlier reviews whose results the reviewer saw; see merged_reviews. Empty: the
   /// reviewer saw all earlier reviews.
-  std::optional<std::uint64_t> seen_review_count = {};
+  std::optional<std::uint64_t> review_count_seen_by_reviewer = {};
   /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes,
   /// so that these faces stay the same if the crowd's value changes later. Empty: the crowd's
   /// current value applies.

@@ -59,11 +59,11 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
     std::fill(change.begin(), change.end(), 0.F);
     // S_L G − G at the region's samples, for each level of the region.
     for (const LevelShares& at : level_shares(recipe, k)) {
-      for (const LevelTerm& term : level_terms(heads.levels, at.level)) {
+      for (const WeightedTrajectoryRow& level : interpolation_rows(heads.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
           const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
-          const float* row = trajectory.data() + term.row * trajectory.cols();
-          const auto f = static_cast<float>(part.weight * term.row_coefficient * heads.mm_per_unit);
+          const float* row = trajectory.data() + level.row * trajectory.cols();
+          const auto f = static_cast<float>(part.weight * level.weight * heads.mm_per_unit);
           for (const auto& [begin, end] : heads.sample_ranges[k]) {
             add_scaled(f, row + 3 * begin, static_cast<std::size_t>(3 * (end - begin)),
                        change.data() + 3 * begin);
@@ -102,7 +102,7 @@ SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
   const auto count = static_cast<Index>(samples.size());
   SampledHeads sampled;
   sampled.trajectories = trajectories;
-  sampled.levels = trajectory_levels(max_level);
+  sampled.levels = stored_smoothing_levels(max_level);
   sampled.mm_per_unit = mm_per_unit;
   take_samples(
       head_set, samples, [](const Head& head) -> const Positions& { return head.positions; },
@@ -137,7 +137,7 @@ std::shared_ptr<const SampledHeads> sample_mirror_images(
     const std::uint32_t v = samples[static_cast<std::size_t>(s)];
     for (std::size_t c = 0; c < 3; ++c) {
       images->region_weights.row(s) +=
-          mirror.shares[v][c] * regions.alpha.row(mirror.corners[v][c]);
+          mirror.barycentric[v][c] * regions.alpha.row(mirror.corners[v][c]);
     }
   }
   parallel_for_each(images->owned_trajectories.size(), [&](std::size_t h) {
@@ -149,7 +149,7 @@ std::shared_ptr<const SampledHeads> sample_mirror_images(
         for (std::size_t c = 0; c < 3; ++c) {
           const Index at = column.at(mirror.corners[v][c]);
           for (Index a = 0; a < 3; ++a) {
-            moved(a) += mirror.shares[v][c] * static_cast<double>(from(l, at + a));
+            moved(a) += mirror.barycentric[v][c] * static_cast<double>(from(l, at + a));
           }
         }
         const Eigen::Vector3d turned = directions.mirrored(moved);

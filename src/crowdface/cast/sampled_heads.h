@@ -19,14 +19,15 @@ struct SampledHeads {
   std::vector<Positions> heads;
   Positions mean;          ///< the mean of the heads at the samples, #S by 3
   Columns region_weights;  ///< #S by #regions: each region's weight at each sample
+  /// for each head, the displacements of the samples at all stored smoothing levels
   std::span<const Trajectory> trajectories;
   /// For each region, the ranges [begin, end) of samples with nonzero weight. Regions are patches,
   /// and samples are ordered along a space-filling curve, so there are few ranges.
   std::vector<std::vector<std::pair<Index, Index>>> sample_ranges;
   std::vector<std::uint64_t> levels;  ///< smoothing level of each row of the trajectories
   double mm_per_unit = 1;             ///< millimetres per unit of the trajectories
-  std::vector<Trajectory>
-      owned_trajectories;  ///< contains the trajectories if this object owns them
+  /// storage of `trajectories` if this object owns them, otherwise empty
+  std::vector<Trajectory> owned_trajectories;
   /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.
   std::shared_ptr<const SampledHeads> mirror_images;
 };

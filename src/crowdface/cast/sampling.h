@@ -22,10 +22,12 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-/// The distribution of a region's random position on the weight plane.
+/// The distribution of a region's random position on the weight plane: a plane on which each head
+/// has a point (its anchor). The position determines the weights of the heads in the region.
 struct PositionDistribution {
   enum class Kind {
-    /// between the anchor of a random source and a random point of the hull, see `pull`
+    /// on the straight line from a random source's anchor to a random point in the convex hull of
+    /// the sources' anchors; `pull` limits the distance from the anchor
     kAnchored,
     kUniform,  ///< anywhere in the convex hull of the sources' anchors
     kAround,   ///< in the disc of `radius` around a head's anchor
@@ -46,7 +48,7 @@ struct SmoothnessDistribution {
   enum class Unit {
     kFraction,    ///< a fraction of L_max, like the slider in the paper
     kIterations,  ///< a number of smoothing iterations
-    /// millimetres: smoothing halves the amplitude of relief of this wavelength (docs/method.md)
+    /// the wavelength in mm of the relief whose amplitude smoothing halves (docs/method.md)
     kSize,
   };
   Unit unit = Unit::kFraction;

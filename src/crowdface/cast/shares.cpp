@@ -17,13 +17,14 @@ std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
 }
 
-/// Returns the smallest n for which a share must have received at least `m` of the first n faces.
+/// Returns the deadline for the m-th face of a share: the smallest n such that the share must have
+/// at least m of the first n faces.
 std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether some share would miss a deadline, now or later, if face `n` were assigned to no
-/// share.
+/// Returns whether face `n` must be assigned to a share. Otherwise, for some m from n to n +
+/// horizon, some share q could not get ⌊q·m⌋ of the first m faces.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -56,13 +57,13 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
   double total = 0;
   for (const double share : shares) total += share;
   const bool all_taken = total > 1 - kRounding;
-  // `horizon` is how many faces must_serve looks ahead; a larger value cannot change its result
+  const auto share_count = static_cast<double>(shares.size());
+  // must_serve looks `horizon` faces ahead. A larger horizon cannot change the result of must_serve
   // (docs/method.md).
-  const auto kinds = static_cast<double>(shares.size());
   const std::uint64_t horizon =
       shares.size() <= 1 || all_taken
           ? 0
-          : static_cast<std::uint64_t>(std::min((kinds + 1) / (1 - total), 1e4)) + 1;
+          : static_cast<std::uint64_t>(std::min((share_count + 1) / (1 - total), 1e4)) + 1;
   std::vector<std::uint64_t> served(shares.size(), 0);
   std::uint64_t all_served = 0;
   for (std::uint64_t n = 1; n <= count; ++n) {
@@ -85,15 +86,15 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
   return schedule;
 }
 
-std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count, std::uint64_t seed,
-                                const std::string& purpose) {
+std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint64_t count,
+                                          std::uint64_t seed, const std::string& purpose) {
   struct Lack {
     std::size_t share = 0;
     double faces = 0;
   };
   const std::size_t none = shares.size();
   shares.push_back(std::max(0.0, 1 - std::reduce(shares.begin(), shares.end())));
-  // Look ahead far enough that the smallest share is due twice.
+  // can_serve looks `horizon` faces ahead. Among so many faces, the smallest share must get two.
   double smallest = 1;
   for (const double share : shares) {
     if (share > kRounding) smallest = std::min(smallest, share);
@@ -120,11 +121,11 @@ std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count,
 }
 
 std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
-                                 std::uint64_t crowd_count) {
+                                 std::uint64_t pool_size_factor) {
   std::vector<int> schedule;
   std::vector<double> shares;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const std::uint64_t own = groups[g].count.value_or(0) * crowd_count;
+    const std::uint64_t own = groups[g].count.value_or(0) * pool_size_factor;
     schedule.insert(schedule.end(), own, static_cast<int>(g));
     shares.push_back(groups[g].count ? 0 : groups[g].share);
   }
@@ -136,10 +137,10 @@ std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t
   return schedule;
 }
 
-std::vector<FaceKind> face_kinds(const CastingOptions& casting) {
-  std::vector<FaceKind> kinds = {kind_of_group(casting)};
+std::vector<FaceDistribution> face_distributions(const CastingOptions& casting) {
+  std::vector<FaceDistribution> kinds = {distribution_of_group(casting)};
   for (std::size_t g = 0; g < casting.groups.size(); ++g) {
-    kinds.push_back(kind_of_group(casting, g));
+    kinds.push_back(distribution_of_group(casting, g));
   }
   return kinds;
 }

@@ -26,20 +26,20 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
 ///
 /// \param shares   fractions of the faces; they sum to at most 1.
 /// \param purpose  Purpose of the random numbers; see random_unit.
-std::vector<int> scatter_shares(std::vector<double> shares, std::uint64_t count, std::uint64_t seed,
-                                const std::string& purpose);
+std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint64_t count,
+                                          std::uint64_t seed, const std::string& purpose);
 
 /// Returns for each sampled face the index of its group, or −1 if the face has no group; #count.
 /// Groups with a fixed count get their faces first, in the order of the groups, then groups with a
 /// share. The first n entries do not depend on `count`.
 ///
-/// \param crowd_count  Number of crowds whose candidates a pool contains: a factor on the groups'
-///                     counts.
+/// \param pool_size_factor  Factor on the groups' counts: the size of the pool of candidates, in
+///                          multiples of the crowd's size.
 std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
-                                 std::uint64_t crowd_count = 1);
+                                 std::uint64_t pool_size_factor = 1);
 
-/// Returns the parameters of the faces that have no group, followed by the parameters of each
-/// group.
-std::vector<FaceKind> face_kinds(const CastingOptions& casting);
+/// Returns the distribution of the faces that have no group, followed by the distribution of each
+/// group's faces.
+std::vector<FaceDistribution> face_distributions(const CastingOptions& casting);
 
 }  // namespace crowdface

@@ -43,7 +43,7 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index max_directions) {
       float* row = rows.row(n).data();
       const auto part = static_cast<float>(fixed_order_dot(q.data(), row, length));
       along[n] = part;
-      rest = add_scaled_and_square(-part, q.data(), length, row);
+      rest = add_scaled_and_sum_squares(-part, q.data(), length, row);
       if (n == pivot) rest = 0;
     });
   }

@@ -7,7 +7,7 @@ namespace crowdface {
 
 using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// An orthonormal basis of the space that given rows span, and the coordinates of these rows in the
+/// An orthonormal basis of the linear span of given rows, and the coordinates of these rows in the
 /// basis.
 struct SpanBasis {
   FloatRows directions;   ///< #P by #S, one basis vector per row

@@ -36,23 +36,25 @@ double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double 
 }
 
 double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, double limit) {
-  const double as_built = squared_up_to(a.as_built, b.as_built, limit);
-  return std::min(as_built,
-                  squared_up_to(a.unextrapolated, b.unextrapolated, std::min(limit, as_built)));
+  const double with_extrapolation =
+      squared_up_to(a.with_extrapolation, b.with_extrapolation, limit);
+  return std::min(with_extrapolation,
+                  squared_up_to(a.without_extrapolation, b.without_extrapolation,
+                                std::min(limit, with_extrapolation)));
 }
 
 }  // namespace
 
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
-                          const std::vector<FaceKind>& kinds, std::uint64_t count,
-                          std::uint64_t crowd_count) {
-  const std::uint64_t size = count * crowd_count;
-  const std::vector<int> schedule = schedule_groups(casting.groups, size, crowd_count);
+                          const std::vector<FaceDistribution>& kinds, std::uint64_t count,
+                          std::uint64_t pool_size_factor) {
+  const std::uint64_t size = count * pool_size_factor;
+  const std::vector<int> schedule = schedule_groups(casting.groups, size, pool_size_factor);
   std::vector<std::optional<std::pair<FacePlan, FaceSpace::Point>>> drawn(size);
   std::vector<Rejections> rejections(size);
   parallel_for_each(size, [&](std::size_t at) {
     if (at % 1024 == 0) throw_if_interrupted();
-    const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
+    const FaceDistribution& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
     const bool limited = judge.trait_rules() != nullptr && !kind.sampling->traits.empty();
     const int attempts =
         casting.diversity.max_attempts * (limited ? static_cast<int>(kAttemptFactorWithTraits) : 1);
@@ -119,9 +121,9 @@ void FarthestPoints::pick(Index candidate) {
 }
 
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
-                 const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
-                 CrowdSoFar& crowd, const FaceJoinedCallback& on_face_joined,
-                 CastingResult& result) {
+                 const std::vector<FaceDistribution>& kinds,
+                 const FamilySeparation& family_separation, CrowdSoFar& crowd,
+                 const FaceJoinedCallback& on_face_joined, CastingResult& result) {
   CandidatePool pool =
       sample_pool(casting, judge, kinds, casting.count, DiversityOptions::kPoolSizeFactor);
   result.rejections.add(pool.rejections);

@@ -22,13 +22,13 @@ struct CandidatePool {
   Rejections rejections;
 };
 
-/// Generates a pool with enough candidates for `crowd_count` crowds of `count` faces each. Groups
-/// have the same proportions in the pool as in the crowd.
+/// Generates a pool of `count` · `pool_size_factor` candidates. Groups have the same proportions in
+/// the pool as in the crowd.
 ///
-/// \param kinds  Parameters of faces without a group, then of each group.
+/// \param kinds  Distribution of the faces without a group, then of each group's faces.
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
-                          const std::vector<FaceKind>& kinds, std::uint64_t count,
-                          std::uint64_t crowd_count = 1);
+                          const std::vector<FaceDistribution>& kinds, std::uint64_t count,
+                          std::uint64_t pool_size_factor = 1);
 
 /// Picks candidates from a pool, one after the other. Each pick is the candidate farthest from the
 /// initial crowd and from the candidates picked before (greedy farthest point). The closest pair of
@@ -61,8 +61,8 @@ class FarthestPoints {
 
 /// Casts faces 1 … count: generates a pool of candidates, and picks the faces by FarthestPoints.
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
-                 const std::vector<FaceKind>& kinds, const FamilySeparation& family_separation,
-                 CrowdSoFar& crowd, const FaceJoinedCallback& on_face_joined,
-                 CastingResult& result);
+                 const std::vector<FaceDistribution>& kinds,
+                 const FamilySeparation& family_separation, CrowdSoFar& crowd,
+                 const FaceJoinedCallback& on_face_joined, CastingResult& result);
 
 }  // namespace crowdface

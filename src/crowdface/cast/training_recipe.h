@@ -8,13 +8,13 @@
 
 namespace crowdface {
 
-/// Returns a random recipe such as casting might generate, drawn from all heads and levels. The
-/// principal directions of a face space are computed from the faces of such recipes, so that the
-/// directions cover all differences between faces. If there are mirror images, faces are mirrored
-/// and vary in asymmetry.
+/// Returns a random recipe such as casting might generate, drawn from all heads and levels.
+/// FaceSpace computes its principal directions from the faces of such recipes (the training set),
+/// so that the directions cover all differences between faces. If there are mirror images, faces
+/// are mirrored and vary in asymmetry.
 ///
 /// \param bands  Number of bands of detail in each region.
 /// \param index  Number of the recipe; the same index always gives the same recipe.
-Recipe training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64_t index);
+Recipe random_training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64_t index);
 
 }  // namespace crowdface

@@ -38,7 +38,7 @@ std::optional<Reason> TraitRules::check(const FacePlan& face, const Positions& l
   return Reason::kTraits;
 }
 
-std::uint32_t attempt_factor(const CastingOptions& casting) {
+std::uint32_t max_attempts_factor(const CastingOptions& casting) {
   return has_trait_limits(casting) ? kAttemptFactorWithTraits : 1;
 }
 

@@ -39,7 +39,8 @@ bool has_trait_limits(const CastingOptions& casting);
 /// DiversityOptions::max_attempts. The number may be large, because generating and measuring a
 /// candidate takes microseconds.
 inline constexpr std::uint32_t kAttemptFactorWithTraits = 20;
-/// Returns kAttemptFactorWithTraits if the crowd has limits on measurements, otherwise 1.
-std::uint32_t attempt_factor(const CastingOptions& casting);
+/// Returns the factor on DiversityOptions::max_attempts: kAttemptFactorWithTraits if the crowd has
+/// limits on measurements, otherwise 1.
+std::uint32_t max_attempts_factor(const CastingOptions& casting);
 
 }  // namespace crowdface

@@ -23,7 +23,7 @@ constexpr double kMaxShare = 1e6;
 constexpr const char* kMean = "mean";
 
 void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
-  attachments.head.reset();
+  attachments.fitted_head.reset();
   attachments.file.clear();
   if (is_word(node, kMean)) return;
   const auto text = read_text(node, "mean, the name of a head or an OBJ file", draft.complaints);
@@ -31,12 +31,12 @@ void read_fitted_to(const YamlNode& node, Attachments& attachments, ConfigDraft&
   if (mesh_format_of(*text) == MeshFormat::kObj) {
     attachments.file = obj_file().read(node, draft).value_or("");
   } else {
-    attachments.head = find_head(*text, node.place, node.path, draft);
+    attachments.fitted_head = find_head(*text, node.place, node.path, draft);
   }
 }
 
 std::string write_fitted_to(const Attachments& attachments, const WriteContext& context) {
-  if (attachments.head) return context.head(*attachments.head);
+  if (attachments.fitted_head) return context.head(*attachments.fitted_head);
   return attachments.file.empty() ? kMean : path("").write(attachments.file, context);
 }
 
@@ -62,7 +62,7 @@ Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
 
 const Keys<Attachment>& item_keys() {
   const auto write_tags = [](const Attachment& item, const WriteContext&) {
-    return item.tags.empty() ? "" : flow_names(item.tags);
+    return item.tags.empty() ? "" : flow_list_of_names(item.tags);
   };
   const auto has_colour = [](const Attachment& item, const auto&) { return !item.colour.empty(); };
   const auto has_tint = [](const Attachment& item, const auto&) {
@@ -75,11 +75,11 @@ const Keys<Attachment>& item_keys() {
   static const Keys<Attachment> keys = {
       of_item("name", &AttachmentItem::name, name(), "such as bob"),
       of_item("kind", &AttachmentItem::kind, name(), "such as hair, brows, beard, glasses or hat"),
-      key("file", &Attachment::file, obj_file(), "an OBJ file").ignored_by_recipes(),
+      key("file", &Attachment::file, obj_file(), "an OBJ file").not_affecting_recipes(),
       Key<Attachment>{"tags", read_item_tags, write_tags}.with_accepted_values("list of tags"),
       of_item("without", &AttachmentItem::excluded_tags, list(name(), "a list of tags, [old]"))
           .written_if(has_without),
-      word_key("moves", &Attachment::moves).ignored_by_recipes(),
+      word_key("moves", &Attachment::moves).not_affecting_recipes(),
       of_item("share", &AttachmentItem::share, number(0, kMaxShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
       of_item("tint", &AttachmentItem::tint, word<Tint>()).written_if(has_tint),
@@ -89,8 +89,8 @@ const Keys<Attachment>& item_keys() {
   return keys;
 }
 
-/// Returns whether an attachment's name is taken: the names of a face's other files (levels of
-/// detail and shapes) end with this name.
+/// Returns whether another file of a face (a level of detail or a shape) has a file name that ends
+/// with this attachment's name.
 bool is_ending_taken(const std::string& name, const Config& config) {
   const bool is_level =
       name.starts_with("LOD") && name.find_first_not_of("0123456789", 3) == std::string::npos;
@@ -153,8 +153,9 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
 /// Returns the first item whose kind, name or colour is this word; null if there is no such item. A
 /// quota for the word counts as a quota for items of this item's kind.
 const Attachment* first_item_matching(const Attachments& attachments, const std::string& word) {
-  const auto found = std::ranges::find_if(
-      attachments.items, [&](const Attachment& item) { return matches_word(item, word); });
+  const auto found = std::ranges::find_if(attachments.items, [&](const Attachment& item) {
+    return matches_kind_name_or_colour(item, word);
+  });
   return found == attachments.items.end() ? nullptr : &*found;
 }
 
@@ -210,7 +211,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
 auto write_shares(std::map<std::string, double> Attachments::*shares) {
   return [=](const Attachments& attachments, const WriteContext&) {
     const auto entries = texts_of(attachments.*shares, [](const auto& share) {
-      return entry(write_scalar(share.first), format_number(share.second));
+      return yaml_entry(write_scalar(share.first), format_number(share.second));
     });
     return entries.empty() ? "" : flow_map(entries);
   };
@@ -221,7 +222,7 @@ const Keys<Attachments>& attachments_file_keys() {
   static const Keys<Attachments> keys = {
       Key<Attachments>{"fitted_to", read_fitted_to, write_fitted_to}
           .with_accepted_values("`mean`, head, or OBJ file")
-          .ignored_by_recipes(),
+          .not_affecting_recipes(),
       Key<Attachments>{"items", read_items, write_items}
           .with_accepted_values("list of mappings with the keys below")
           .with_nested_keys(item_keys()),
@@ -374,7 +375,7 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
 std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
   if (facts.attachments_folder.empty()) return std::nullopt;
   return StarterLines{
-      flow_map({entry("from", write_scalar(facts.attachments_folder.string()))}), "",
+      flow_map({yaml_entry("from", write_scalar(facts.attachments_folder.string()))}), "",
       "Hair, beards, … in the folder beside the heads; its file attachments.yaml lists them\n"
       "(docs/attachments.md)."};
 }

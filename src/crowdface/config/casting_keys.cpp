@@ -49,39 +49,43 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
   return heads;
 }
 
-/// If `own` is true, keeps the items whose head is in `others`. Otherwise keeps the items whose
-/// head is not in `others`.
+/// If `keep_listed` is true, keeps the items whose head is in `listed`. Otherwise keeps the items
+/// whose head is not in `listed`.
 ///
 /// \param head  returns the head of an item.
-template <class Heads, class Head>
-Heads part_of(Heads heads, const std::vector<Eigen::Index>& others, bool own, const Head& head) {
-  std::erase_if(heads, [&](const auto& item) { return contains(others, head(item)) != own; });
-  return heads;
+template <class Items, class Head>
+Items part_of(Items items, const std::vector<Eigen::Index>& listed, bool keep_listed,
+              const Head& head) {
+  std::erase_if(items,
+                [&](const auto& item) { return contains(listed, head(item)) != keep_listed; });
+  return items;
 }
 
-/// Writes the group that replaces a quota. If `quota` is null, writes the group of all faces to
-/// which no quota applies.
+/// Returns an entry of the config key `groups` that has the effect of a quota of the obsolete key
+/// `diversity.quotas`. If `quota` is null, returns an entry for the faces that no quota covers.
 std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
                        const WriteContext& context) {
   const SamplingOptions& sampling = context.config.sampling;
-  std::vector<std::string> entries = {entry("name", quota ? write_scalar(quota->name) : "others")};
-  if (quota) entries.push_back(entry("share", format_number(quota->share)));
+  std::vector<std::string> entries = {
+      yaml_entry("name", quota ? write_scalar(quota->name) : "others")};
+  if (quota) entries.push_back(yaml_entry("share", format_number(quota->share)));
   const auto part = [&](auto heads, std::optional<std::size_t> band, const auto& head) {
     const bool own = quota && quota->band == band;
     return part_of(std::move(heads), own ? quota->heads : heads_of(quotas, band), own, head);
   };
   if (!heads_of(quotas, std::nullopt).empty()) {
     const auto targets = part(sampling.targets, std::nullopt, std::mem_fn(&WeightedHead::head));
-    entries.push_back(entry("targets", weighted_heads().write(targets, context)));
+    entries.push_back(yaml_entry("targets", weighted_heads().write(targets, context)));
   }
   std::vector<std::string> bands;
   for (std::size_t b = 0; b < sampling.bands.size(); ++b) {
     if (heads_of(quotas, b).empty()) continue;
     const auto sources = part(sources_of(sampling, b), b, std::identity());
-    bands.push_back(entry(write_scalar(sampling.bands[b].name),
-                          flow_map({entry("sources", head_list().write(sources, context))})));
+    bands.push_back(
+        yaml_entry(write_scalar(sampling.bands[b].name),
+                   flow_map({yaml_entry("sources", head_list().write(sources, context))})));
   }
-  if (!bands.empty()) entries.push_back(entry("bands", flow_map(bands)));
+  if (!bands.empty()) entries.push_back(yaml_entry("bands", flow_map(bands)));
   return flow_map(entries);
 }
 
@@ -144,7 +148,7 @@ const Keys<BelievabilityOptions>& believability_keys() {
       word_key("meshes", &Believability::meshes)
           .with_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertex_count > kMaxJudged) return std::nullopt;
-            return StarterLines{std::string(word_of(Believability::Meshes::kJudge)), "",
+            return StarterLines{std::string(word_of(Believability::MeshChecks::kJudge)), "",
                                 "Casting builds each face and drops it if too much skin passes "
                                 "through other skin: lips, lids."};
           })};
@@ -170,13 +174,14 @@ void read_first_distances(const YamlNode& node, DiversityOptions& diversity, Con
 
 std::string write_first_distances(const DiversityOptions& diversity, const WriteContext& context) {
   const auto entries = texts_of(diversity.min_distance_of_first_mm, [&](const auto& first) {
-    return entry(std::to_string(first.first), length(kMaxDistanceMm).write(first.second, context));
+    return yaml_entry(std::to_string(first.first),
+                      length(kMaxDistanceMm).write(first.second, context));
   });
   return entries.empty() ? "" : flow_map(entries);
 }
 
-/// Makes a key that no longer exists. Accepts only `value`, because the configs of older crowds
-/// contain it.
+/// Makes an obsolete key. The configs of older crowds contain the key with the value `value`. The
+/// key accepts only this value and has no effect.
 Key<DiversityOptions> removed_key(std::string_view name, std::string_view value) {
   return {name,
           [=](const YamlNode& node, auto&, ConfigDraft& draft) {

@@ -133,9 +133,9 @@ void read_variant_of(const YamlNode& node, FaceChange& change, ConfigDraft& draf
 
 std::string write_locked(const FaceChange& change, const WriteContext& context) {
   const std::vector<std::string> parts = context.config.part_names();
-  return change.locked_parts.empty()
+  return change.locked_bands.empty()
              ? ""
-             : flow_list(texts_of(change.locked_parts,
+             : flow_list(texts_of(change.locked_bands,
                                   [&](std::size_t part) { return write_scalar(parts[part]); }));
 }
 
@@ -178,7 +178,7 @@ const Keys<FaceChange>& change_keys() {
       key("group", &FaceChange::group, known_group),
       Key<FaceChange>{"lock",
                       [](const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
-                        change.locked_parts = read_locked_parts(node, draft);
+                        change.locked_bands = read_locked_bands(node, draft);
                       },
                       write_locked}
           .with_accepted_values("list of regions or bands"),
@@ -240,7 +240,8 @@ std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft) {
 
 std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context) {
   return block_map(texts_of(changes, [&](const FaceChange& change) {
-    return entry(write_scalar(change.id), flow_map(write_keys(change_keys(), change, context)));
+    return yaml_entry(write_scalar(change.id),
+                      flow_map(write_keys(change_keys(), change, context)));
   }));
 }
 

@@ -283,7 +283,7 @@ Codec<SmoothnessDistribution> iterations() {
 
 std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context) {
   return flow_map(texts_of(weights, [&](const WeightedHead& one) {
-    return entry(context.head(one.head), format_number(one.weight));
+    return yaml_entry(context.head(one.head), format_number(one.weight));
   }));
 }
 
@@ -356,7 +356,7 @@ Codec<std::map<std::string, double>> hair_colours() {
           },
           [](const std::map<std::string, double>& shares, const WriteContext&) {
             return flow_map(texts_of(shares, [](const auto& share) {
-              return entry(share.first, format_number(share.second));
+              return yaml_entry(share.first, format_number(share.second));
             }));
           },
           "`{hair colour: share}`, shares 0 … 1"};

@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// What a codec needs to know when it writes a value as YAML.
 struct WriteContext {
-  /// Which keys to write: all keys, the keys that face_settings writes, or the keys that
-  /// plan_settings writes.
+  /// Which keys to write: all keys, the keys that face_settings_yaml writes, or the keys that
+  /// plan_settings_yaml writes.
   enum class WrittenKeys { kAll, kFaces, kPlan };
   const Config& config;
   std::filesystem::path folder;  ///< an absolute path; written paths are relative to this folder
@@ -28,8 +28,8 @@ struct WriteContext {
 };
 
 /// Converts values between YAML and C++. If `read` cannot read a value, it adds a complaint and
-/// returns nothing. `write` returns a text that can be passed to entry(). If the text is empty, the
-/// key is left out of the file.
+/// returns nothing. `write` returns a text that can be passed to yaml_entry(). If the text is
+/// empty, the key is left out of the file.
 template <class Value>
 struct Codec {
   std::function<std::optional<Value>(const YamlNode&, ConfigDraft&)> read;
@@ -38,7 +38,7 @@ struct Codec {
   std::string accepted_values = {};
 };
 
-/// Removes a leading "a " or "an ": "a list of tags" becomes "list of tags".
+/// Removes a leading article, "a " or "an ": "a list of tags" becomes "list of tags".
 std::string remove_article(std::string_view expected);
 
 /// Codec for a number in [low, high].

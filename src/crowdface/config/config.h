@@ -74,7 +74,7 @@ enum class LevelRepresentation {
 
 /// How rendered images show a material. This overrides the kind of surface that the material's name
 /// suggests.
-struct SurfaceChoice {
+struct MaterialAppearance {
   SurfaceKind kind = SurfaceKind::kSkin;
   std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: the default colour of `kind`
 };
@@ -158,7 +158,7 @@ struct Config {
     std::filesystem::path neutral;    ///< the template's neutral mesh; empty: no template
     std::filesystem::path directory;  ///< folder of the template's shapes
     /// folder that contains a subfolder with shapes for each head; empty: none
-    std::filesystem::path heads;
+    std::filesystem::path heads_directory;
     std::vector<std::string> names;  ///< names of the shapes; empty: there are no shapes
     /// #names, files of the template's shapes; the path is empty if the template lacks the
     /// shape
@@ -181,7 +181,7 @@ struct Config {
   struct Neck {
     std::filesystem::path body;  ///< mesh of the body to which the faces are attached; empty: none
     std::optional<Eigen::Index> like;  ///< head whose neck all faces get
-    bool mean = false;                 ///< whether all faces get the mean of the heads' necks
+    bool uses_mean_neck = false;       ///< whether all faces get the mean of the heads' necks
     /// file that lists the ring's vertices; empty: the ring is the open border of the heads' meshes
     std::filesystem::path rim;
     /// file that lists the body's vertices at the ring; empty: the vertices are an open border of
@@ -193,7 +193,7 @@ struct Config {
     bool show_body = false;   ///< whether pictures show the body
     bool write_body = false;  ///< whether GLB and USD files contain the body
 
-    bool is_set() const { return !body.empty() || like || mean; }
+    bool is_set() const { return !body.empty() || like || uses_mean_neck; }
     bool needs_body_mesh() const { return !body_texture.empty() || show_body || write_body; }
   } neck;
 
@@ -204,9 +204,10 @@ struct Config {
     AttachmentMove moves = AttachmentMove::kBend;
   };
   struct Attachments {
-    /// The head to which all items were fitted. If there is no head, the items were fitted to the
-    /// mesh `file` (with the heads' topology) or, without `file`, to the mean of the heads.
-    std::optional<Eigen::Index> head;
+    /// The head to which all items were fitted, from the key `fitted_to`. If there is no head, the
+    /// items were fitted to the mesh `file` (with the heads' topology) or, without `file`, to the
+    /// mean of the heads.
+    std::optional<Eigen::Index> fitted_head;
     std::filesystem::path file;
     std::vector<Attachment> items;
     /// by kind: fraction of the faces that wear no item of the kind
@@ -313,7 +314,8 @@ struct Config {
     /// Number of faces in each numbered subfolder of the folders meshes, renders, …. None or 0:
     /// there are no subfolders.
     std::optional<std::uint64_t> faces_per_folder;
-    std::map<std::string, SurfaceChoice> surfaces;  ///< how materials are shown, by material name
+    /// by name of a material: how rendered images show the material
+    std::map<std::string, MaterialAppearance> surfaces;
   } output;
 
   /// Returns `regions.names`, or {"all"} if the config has no regions. Plans use these names.
@@ -334,15 +336,15 @@ struct Config {
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
 /// Returns the part of the effective config on which a face's files may depend, apart from the
-/// face's recipe and the input files: every key that is not marked with Key::ignored_by_face_files.
-/// Keys with their default value are left out. So when a new version adds a key, existing faces
-/// stay up to date.
-std::string face_settings(const Config& config);
+/// face's recipe and the input files: every key that is not marked with
+/// Key::not_affecting_face_files. Keys with their default value are left out. So when a new version
+/// adds a key, existing faces stay up to date.
+std::string face_settings_yaml(const Config& config);
 
 /// Returns the part of the effective config on which a plan depends, apart from reviews: every key
-/// that is not marked with Key::ignored_by_recipes, and `changes`.
+/// that is not marked with Key::not_affecting_recipes, and `changes`.
 ///
 /// \param directory  the folder to which the paths are relative.
-std::string plan_settings(const Config& config, const std::filesystem::path& directory);
+std::string plan_settings_yaml(const Config& config, const std::filesystem::path& directory);
 
 }  // namespace crowdface

@@ -122,9 +122,9 @@ std::optional<double> millimetres_of(const YamlNode& node) {
              : std::nullopt;
 }
 
-std::optional<KeptDistances> distances_of(const YamlNode& root) {
+std::optional<RequiredDistances> distances_of(const YamlNode& root) {
   if (!casts_one_by_one(root)) return std::nullopt;
-  KeptDistances distances;
+  RequiredDistances distances;
   if (const YamlNode* last = node_at(root, kDistance)) {
     const auto mm = millimetres_of(*last);
     if (!mm) return std::nullopt;
@@ -174,7 +174,7 @@ std::vector<std::string> config_differences(const std::string& old_text, const s
   if (!old || !root || !complaints.empty())
     return {"every key, because one of the two is not a valid config"};
   auto defaults = parse_yaml(effective_config(Config{}, "/"), "", complaints);
-  std::set<std::string> ignored = keys_ignored_by_recipes();
+  std::set<std::string> ignored = keys_not_affecting_recipes();
   if (only_grows(*old, *root)) {
     ignored.insert(kCount);
     if (keeps_distances(*old, *root)) ignored.insert({kDistance, kFirstDistances});
@@ -189,7 +189,7 @@ std::vector<std::string> config_differences(const std::string& old_text, const s
   return paths;
 }
 
-std::optional<KeptDistances> distances_in_config(const std::string& text) {
+std::optional<RequiredDistances> distances_in_config(const std::string& text) {
   Complaints complaints;
   const auto root = parse_yaml(text, "", complaints);
   return root ? distances_of(*root) : std::nullopt;

@@ -11,10 +11,11 @@
 namespace crowdface {
 
 /// Compares the config.yaml of a crowd with the config of a run. Ignores comments, layout and the
-/// keys on which no recipe depends (Key::ignored_by_recipes). Unless `diversity.mode` is `spread`,
-/// also ignores a larger `crowd.count`, and smallest distances that apply only to faces that the
-/// old crowd does not have. If a key is missing in the old config, its default is compared, because
-/// an older version that did not know the key may have written that config.
+/// keys on which no recipe depends (Key::not_affecting_recipes). Unless `diversity.mode` is
+/// `spread`, two more differences are ignored: a larger `crowd.count`, and required distances
+/// (`diversity.min_distance`, `diversity.min_distance_of_first`) that differ only for faces after
+/// the last face of the old crowd. If a key is missing in the old config, its default is
+/// compared, because an older version that did not know the key may have written that config.
 ///
 /// \param old_text  the crowd's config.yaml.
 /// \param text      the config of the run.
@@ -27,14 +28,15 @@ std::vector<std::string> config_differences(const std::string& old_text, const s
 std::optional<std::uint64_t> number_in_config(const std::string& text, std::string_view key_path);
 
 /// The smallest distances that a config requires between the faces of a crowd.
-struct KeptDistances {
-  double min_distance_mm = 0;
-  std::map<std::uint64_t, double>
-      min_distance_of_first_mm;  ///< DiversityOptions::min_distance_of_first_mm
+struct RequiredDistances {
+  double min_distance_mm = 0;  ///< smallest distance between any two faces
+  /// Other values of `min_distance_mm` for the first faces of the crowd, by the number of the last
+  /// face that a value applies to; see DiversityOptions::min_distance_of_first_mm.
+  std::map<std::uint64_t, double> min_distance_of_first_mm;
 };
 
 /// Returns the smallest distances that a config.yaml requires. Returns nothing if the distances
 /// cannot be read, or if `diversity.mode` is `spread`.
-std::optional<KeptDistances> distances_in_config(const std::string& text);
+std::optional<RequiredDistances> distances_in_config(const std::string& text);
 
 }  // namespace crowdface

@@ -20,9 +20,9 @@ struct ConfigDraft {
   Complaints& complaints;
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
   std::vector<std::filesystem::path> kept_reviews;  ///< see ConfigOverrides
-  std::optional<std::uint64_t> kept_face_count;     ///< see ConfigOverrides
-  std::optional<double> kept_min_distance_mm;       ///< see ConfigOverrides
-  std::filesystem::path ignored_reviews;            ///< see ConfigOverrides
+  std::optional<std::uint64_t> former_face_count;   ///< see ConfigOverrides
+  std::optional<double> former_min_distance_mm;     ///< see ConfigOverrides
+  std::filesystem::path ignored_reviews_folder;     ///< see ConfigOverrides
   std::vector<std::string> warnings;                ///< see ConfigReading
   /// Whether the heads, tags, regions and smoothing are valid. A complaint about
   /// one of these makes its flag false. Values that refer to invalid names are then not checked,

@@ -16,7 +16,8 @@ struct StarterFacts;
 
 /// What a starter config contains for one key: the key's value and its comments.
 struct StarterLines {
-  std::string value;  ///< value that is passed to entry(); empty: only `comment_above` is written
+  /// value that is passed to yaml_entry(); empty: only `comment_above` is written
+  std::string value;
   std::string comment_beside = {};  ///< comment after the value, on the same line
   std::string comment_above = {};   ///< comment on the lines before the key
 };
@@ -43,13 +44,14 @@ struct Key {
   std::string_view name;
   /// Reads the value into the section. After a complaint, the section may be left unchanged.
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
-  /// Returns the value in the section as a text that can be passed to entry(). If the text is
+  /// Returns the value in the section as a text that can be passed to yaml_entry(). If the text is
   /// empty, the key is left out.
   std::function<std::string(const Section&, const WriteContext&)> write;
   /// only for required keys: an example value, for the message when the key is missing
   std::string_view required_example = {};
-  /// returns what a starter config contains; empty: the key is not in a starter config
-  Starter starter = {};
+  /// Returns what `crowdface init` writes for the key into a starter config. Empty: the key is not
+  /// in a starter config.
+  Starter make_starter_lines = {};
   std::string accepted_values = {};  ///< the accepted values, as docs/config.md describes them
   /// If the value is a mapping: returns the rows of the mapping's keys in docs/config.md.
   ///
@@ -61,7 +63,7 @@ struct Key {
 
   Key with_starter(const Starter& lines) const {
     Key key = *this;
-    key.starter = lines;
+    key.make_starter_lines = lines;
     return key;
   }
   Key with_starter(const StarterLines& lines) const {
@@ -83,17 +85,17 @@ struct Key {
     };
     return key;
   }
-  /// Marks a key on whose value no face file depends directly. (Face files may still depend on the
-  /// input files that the key names, and on the recipes that the key affects; other digests cover
-  /// both.)
-  Key ignored_by_face_files() const {
+  /// Returns a copy of this key with the mark that a new value of the key does not make finished
+  /// face files out of date. (Face files may still depend on the input files that the key names,
+  /// and on the recipes that the key affects; other digests cover both.)
+  Key not_affecting_face_files() const {
     Key key = *this;
     key.affects_face_files = false;
     return key;
   }
-  /// Marks a key that users may change after the crowd is finished, because no recipe depends on
-  /// the key.
-  Key ignored_by_recipes() const {
+  /// Returns a copy of this key with the mark that no recipe depends on the key. Users may change
+  /// such a key after the crowd is finished.
+  Key not_affecting_recipes() const {
     Key key = *this;
     key.affects_recipes = false;
     return key;
@@ -138,8 +140,9 @@ bool read_keys(const YamlNode& node, const Keys<Section>& keys, Section& section
   return node.kind == YamlNode::Kind::kMap;
 }
 
-/// Returns "key: value" for each key of `context.written_keys` whose text is not empty. If not all
-/// keys are written, also leaves out the keys with their default value.
+/// Returns "key: value" for each key that `context.written_keys` selects. Leaves out keys whose
+/// value is an empty text. Also leaves out keys that have their default value, unless
+/// `context.written_keys` is kAll.
 template <class Section>
 std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& section,
                                     const WriteContext& context) {
@@ -151,12 +154,13 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
     if (context.written_keys == WriteContext::WrittenKeys::kPlan && !key.affects_recipes) continue;
     const std::string value = key.write(section, context);
     const bool is_left_out = !is_whole && value == key.write(Section{}, context);
-    if (!value.empty() && !is_left_out) entries.push_back(entry(key.name, value));
+    if (!value.empty() && !is_left_out) entries.push_back(yaml_entry(key.name, value));
   }
   return entries;
 }
 
-/// Shortens a value to one line for docs/config.md, by removing "default: " from its start.
+/// Returns a value as docs/config.md shows it, in one line. The text of a value that may differ
+/// between regions begins with a line break and "default: "; the function removes both.
 std::string one_line_text(std::string_view value);
 
 /// Returns the documentation rows of a section's keys and of all keys nested in them.
@@ -184,8 +188,8 @@ std::vector<KeyRow> key_rows(const std::string& section, const Keys<Section>& ke
 
 /// Returns the documentation rows of all documented keys of a config.
 std::vector<KeyRow> config_key_rows();
-/// Returns the paths of the keys that are marked with Key::ignored_by_recipes, such as "output".
-std::set<std::string> keys_ignored_by_recipes();
+/// Returns the paths of the keys that are marked with Key::not_affecting_recipes, such as "output".
+std::set<std::string> keys_not_affecting_recipes();
 
 /// Writes a list whose items are sections with the same keys.
 template <class Section>
@@ -202,7 +206,7 @@ template <class Section>
 std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   std::string text;
   for (const Key<Section>& key : keys) {
-    const auto lines = key.starter ? key.starter(facts) : std::nullopt;
+    const auto lines = key.make_starter_lines ? key.make_starter_lines(facts) : std::nullopt;
     if (lines) text += starter_lines(key.name, *lines);
   }
   return text;
@@ -299,7 +303,7 @@ std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);
 std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context);
 /// Reads a list of parts to lock, as ascending part numbers: region · #bands + band. Each entry of
 /// the list is a region (all its bands), a band (in all regions), or one band of one region.
-std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& draft);
+std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& draft);
 /// is_sampled_face: whether a sampled face of this config's crowd has this id. is_face: whether any
 /// face of the crowd has this id.
 bool is_sampled_face(const std::string& id, const Config& config);

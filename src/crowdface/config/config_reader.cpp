@@ -75,9 +75,9 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   draft.config.file = file;
   draft.folder = file.parent_path();
   draft.kept_reviews = overrides.kept_reviews;
-  draft.kept_face_count = overrides.kept_face_count;
-  draft.kept_min_distance_mm = overrides.kept_min_distance_mm;
-  draft.ignored_reviews = overrides.ignored_reviews;
+  draft.former_face_count = overrides.former_face_count;
+  draft.former_min_distance_mm = overrides.former_min_distance_mm;
+  draft.ignored_reviews_folder = overrides.ignored_reviews_folder;
   std::optional<YamlNode> root = parse(complaints);
   if (root) {
     apply(overrides, *root, complaints);
@@ -100,8 +100,8 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
 
 }  // namespace
 
-ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
-                                Problems& problems) {
+ConfigReading read_partial_config(const std::filesystem::path& file,
+                                  const ConfigOverrides& overrides, Problems& problems) {
   return read_parsed(file, overrides, problems,
                      [&](Complaints& out) { return read_yaml(file.string(), out); });
 }
@@ -114,7 +114,7 @@ ConfigReading read_config_text(std::string_view text, const std::filesystem::pat
 
 std::optional<Config> read_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems) {
-  ConfigReading reading = read_config_parts(file, overrides, problems);
+  ConfigReading reading = read_partial_config(file, overrides, problems);
   if (!reading.is_complete) return std::nullopt;
   return std::move(reading.config);
 }

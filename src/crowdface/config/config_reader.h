@@ -29,14 +29,14 @@ struct ConfigOverrides {
   /// Reviews stored in the crowd's folder. They are read first. If the config lists a copy of such
   /// a review, the copy is ignored.
   std::vector<std::filesystem::path> kept_reviews = {};
-  /// The number of sampled faces of the crowd in the folder, for stored reviews that do not state a
-  /// number.
-  std::optional<std::uint64_t> kept_face_count = {};
-  /// The `diversity.min_distance` of the crowd in the folder, if the config's value is different.
-  /// It applies to stored reviews that do not state a distance.
-  std::optional<double> kept_min_distance_mm = {};
+  /// Number of sampled faces of the crowd in the output folder. Stored reviews that do not state a
+  /// number of faces get this number.
+  std::optional<std::uint64_t> former_face_count = {};
+  /// The `diversity.min_distance` with which the crowd in the output folder was made. Empty if the
+  /// config has the same value. Stored reviews that do not state a distance get this distance.
+  std::optional<double> former_min_distance_mm = {};
   /// Reviews that are files in this folder are not read. Empty: all reviews are read.
-  std::filesystem::path ignored_reviews = {};
+  std::filesystem::path ignored_reviews_folder = {};
 };
 
 /// The result of reading a config. If there were problems, only parts of the config are valid.
@@ -51,20 +51,21 @@ struct ConfigReading {
   std::vector<std::string> warnings = {};
 };
 
-/// Reads a config, and checks everything that can be checked without opening a mesh or an image.
-/// docs/config.md describes all keys. Adds every problem, in the order of the file: with exit code
+/// Reads a config file, and checks everything that can be checked without opening a mesh or an
+/// image. If there are problems, the valid parts of the config can still be used. docs/config.md
+/// describes all keys. Adds every problem, in the order of the file: with exit code
 /// 64 for mistakes in the config, and with 66 for missing files and folders.
-ConfigReading read_config_parts(const std::filesystem::path& file, const ConfigOverrides& overrides,
-                                Problems& problems);
+ConfigReading read_partial_config(const std::filesystem::path& file,
+                                  const ConfigOverrides& overrides, Problems& problems);
 
-/// Like read_config_parts, but reads the config from a text.
+/// Like read_partial_config, but reads the config from a text.
 ///
 /// \param file  name of the text in messages. Relative paths start at the folder of this file,
 ///              which need not exist.
 ConfigReading read_config_text(std::string_view text, const std::filesystem::path& file,
                                const ConfigOverrides& overrides, Problems& problems);
 
-/// Like read_config_parts, but returns nothing if there was a problem.
+/// Like read_partial_config, but returns nothing if there was a problem.
 std::optional<Config> read_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems);
 

@@ -157,7 +157,7 @@ std::string flow_map(const std::vector<std::string>& entries) {
   return concat('{', join(entries), '}');
 }
 
-std::string flow_names(const std::vector<std::string>& names) {
+std::string flow_list_of_names(const std::vector<std::string>& names) {
   return flow_list(texts_of(names, write_scalar));
 }
 
@@ -176,7 +176,7 @@ std::string block_map(const std::vector<std::string>& entries) {
   return concat('\n', join(entries, "\n"));
 }
 
-std::string entry(std::string_view key, std::string_view value) {
+std::string yaml_entry(std::string_view key, std::string_view value) {
   return concat(key, value.starts_with('\n') ? ":" : ": ", indented(value));
 }
 

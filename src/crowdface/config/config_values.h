@@ -86,13 +86,16 @@ std::string plain_number(double value);
 /// Return a list or mapping in YAML's flow style, in one line: "[a, b]", "{a: 1, b: 2}".
 std::string flow_list(const std::vector<std::string>& items);
 std::string flow_map(const std::vector<std::string>& entries);
-std::string flow_names(const std::vector<std::string>& names);
-/// Return a list or mapping in YAML's block style, with one line for each item; "[]" or "{}" if
-/// empty. entry() and block_list() indent the lines of such a result.
+/// Returns a list of names in flow style; names that YAML would misread are quoted.
+std::string flow_list_of_names(const std::vector<std::string>& names);
+/// Return a list (block_list) or a mapping (block_map) in YAML's block style, with one line for
+/// each item; "[]" or "{}" if empty. yaml_entry() and block_list() indent the lines of such a
+/// result.
 std::string block_list(const std::vector<std::string>& items);
 std::string block_map(const std::vector<std::string>& entries);
-/// Returns "key: value". If the value is in block style, indents its lines.
-std::string entry(std::string_view key, std::string_view value);
+/// Returns an entry of a YAML mapping, "key: value". If the value is in block style, indents its
+/// lines.
+std::string yaml_entry(std::string_view key, std::string_view value);
 
 /// Returns `; did you mean "count"?`, where "count" is the candidate most similar to the word.
 /// Returns an empty text if no candidate is similar.

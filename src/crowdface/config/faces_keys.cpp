@@ -61,7 +61,7 @@ void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft)
   if (!folder) return;
   try {
     const std::vector<fs::path> files = list_heads(*folder);
-    const std::string left_out = other_meshes_message(*folder);
+    const std::string left_out = left_out_meshes_message(*folder);
     if (!left_out.empty()) log_warning(left_out);
     std::string where = concat(" in ", quoted(node.text));
     if (files.empty())
@@ -142,7 +142,7 @@ std::string write_tags(const Faces& faces, const WriteContext&) {
   std::vector<std::string> heads;
   for (std::size_t i = 0; i < faces.tags.size(); ++i) {
     if (faces.tags[i].empty()) continue;
-    heads.push_back(entry(write_scalar(faces.names[i]), flow_names(faces.tags[i])));
+    heads.push_back(yaml_entry(write_scalar(faces.names[i]), flow_list_of_names(faces.tags[i])));
   }
   return block_map(heads);
 }

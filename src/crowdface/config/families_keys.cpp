@@ -40,7 +40,7 @@ Codec<std::size_t> group() {
 
 /// Reads a parent of a family.
 ///
-/// \param role  "mother" or "father"; a part of the id if casting makes the parent.
+/// \param role  "mother" or "father". If casting makes the parent, the parent's id ends with it.
 std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
                                   const FamilyOptions& family, ConfigDraft& draft) {
   Parent drawn{std::nullopt, concat(family.name, '_', role), true};
@@ -55,7 +55,8 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   if (*name == "drawn") {
     // If there are heads with the tag `female` (for a mother) or `male` (for a father), the new
     // parent's target is one of these heads.
-    drawn.targets = heads_with_tags({role == word_of(0) ? "female" : "male"}, draft.config.faces);
+    drawn.possible_target_heads =
+        heads_with_tags({role == word_of(0) ? "female" : "male"}, draft.config.faces);
     return drawn;
   }
   const auto& heads = draft.config.faces.names;
@@ -84,13 +85,14 @@ void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
 
 std::string write_parent(const Parent& parent, const WriteContext& context) {
   if (!parent.is_new) return write_scalar(parent.id);
-  return parent.group ? flow_map({entry("group", group().write(*parent.group, context))}) : "drawn";
+  return parent.group ? flow_map({yaml_entry("group", group().write(*parent.group, context))})
+                      : "drawn";
 }
 
 std::string write_parents(const FamilyOptions& family, const WriteContext& context) {
   if (family.parents.empty()) return "";
-  return flow_map({entry(word_of(0), write_parent(family.parents[0], context)),
-                   entry(word_of(1), write_parent(family.parents[1], context))});
+  return flow_map({yaml_entry(word_of(0), write_parent(family.parents[0], context)),
+                   yaml_entry(word_of(1), write_parent(family.parents[1], context))});
 }
 
 void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
@@ -120,8 +122,8 @@ std::string write_inherit(const FamilyOptions& family, const WriteContext& conte
   const std::vector<std::string> names = context.config.part_names();
   std::vector<std::string> entries;
   for (std::size_t part = 0; part < names.size(); ++part) {
-    entries.push_back(
-        entry(write_scalar(names[part]), std::string(word_of(family.inherited_parents[part]))));
+    entries.push_back(yaml_entry(write_scalar(names[part]),
+                                 std::string(word_of(family.inherited_parents[part]))));
   }
   return flow_map(entries);
 }

@@ -57,7 +57,7 @@ void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
     if (head != heads.end() && contains(bound, head - heads.begin())) return;
     const std::vector<Eigen::Index> called = heads_with_tags({name}, draft.config.faces);
     const auto is_bound = [&](Eigen::Index one) { return contains(bound, one); };
-    // a complaint about any other name was already added
+    // a name that is neither a head nor a tag already has a complaint
     const bool is_known = head != heads.end() || !called.empty();
     if (!is_known || std::ranges::any_of(called, is_bound)) return;
     draft.complaints.add(

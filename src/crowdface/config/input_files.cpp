@@ -51,9 +51,9 @@ bool may_hold_mesh(const fs::path& path) {
   return endings.contains(lower_case(path.extension().string())) || is_head_file(path);
 }
 
-/// Returns whether a name matches a pattern with the wildcards `*` and `?`. If the text after an
-/// asterisk does not match, only the last asterisk is tried with one more character (so the time
-/// stays small).
+/// Returns whether a name matches a pattern with the wildcards `*` and `?`. After a mismatch, the
+/// asterisk met last takes one more character of the name. Earlier asterisks keep their characters,
+/// so the number of steps is at most the product of the two lengths.
 bool matches_wildcards(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, after_asterisk = pattern.npos, taken = 0;
   while (n < name.size()) {
@@ -102,7 +102,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
   return files;
 }
 
-std::string other_meshes_message(const fs::path& folder) {
+std::string left_out_meshes_message(const fs::path& folder) {
   const std::vector<fs::path> heads = list_heads(folder);
   std::vector<std::string> others;
   for (const fs::path& file : visible_files(folder, may_hold_mesh)) {
@@ -165,7 +165,8 @@ std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
     of.push_back(plain.stem().string());
     if (of.size() != parts[0].size()) return names;
   }
-  // Join the parts that differ between the paths, beginning at the root, until all names differ.
+  // Build each name from the path parts that are not equal in all paths, such as "ann_smile". Add
+  // parts in order, beginning at the root, and stop as soon as all names are different.
   const std::vector<std::string> stems = names;
   names.assign(files.size(), "");
   for (std::size_t p = 0; p < parts[0].size() && !all_differ(); ++p) {

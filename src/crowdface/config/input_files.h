@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folde
 /// list_heads; an empty text if there are no such files.
 ///
 /// \throws MissingInput if the folder cannot be read.
-std::string other_meshes_message(const std::filesystem::path& folder);
+std::string left_out_meshes_message(const std::filesystem::path& folder);
 
 /// Returns a hint for a folder that contains no heads, but whose subfolders contain one mesh each:
 /// a pattern that matches these meshes, up to two folders deep. Empty if no pattern matches all.

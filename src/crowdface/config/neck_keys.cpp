@@ -16,12 +16,12 @@ Codec<std::filesystem::path> existing_file(const std::string& expected) {
 }
 
 void read_like(const YamlNode& node, Neck& neck, ConfigDraft& draft) {
-  neck.mean = is_word(node, "mean");
-  if (!neck.mean) neck.like = head().read(node, draft);
+  neck.uses_mean_neck = is_word(node, "mean");
+  if (!neck.uses_mean_neck) neck.like = head().read(node, draft);
 }
 
 std::string write_like(const Neck& neck, const WriteContext& context) {
-  if (neck.mean) return "mean";
+  if (neck.uses_mean_neck) return "mean";
   return neck.like ? context.head(*neck.like) : "";
 }
 
@@ -39,8 +39,8 @@ const Keys<Neck>& neck_keys() {
 }
 
 void read_neck(const YamlNode& node, Config& config, ConfigDraft& draft) {
-  config.neck.mean = is_word(node, "mean");
-  if (config.neck.mean || is_word(node, "none")) return;
+  config.neck.uses_mean_neck = is_word(node, "mean");
+  if (config.neck.uses_mean_neck || is_word(node, "none")) return;
   if (!draft.complaints.expect_map(
           node,
           "none, mean, or a mapping with the keys body, like, rim, body_rim, falloff, "

@@ -60,7 +60,7 @@ std::string write_colour(const std::array<std::uint8_t, 3>& colour) {
 void read_surfaces(const YamlNode& node, Output& output, ConfigDraft& draft) {
   draft.complaints.expect_map(node, "a mapping from materials to surfaces, {M_Lashes: hidden}");
   for (const auto& [name, place, value] : node.entries) {
-    SurfaceChoice& surface = output.surfaces[name];
+    MaterialAppearance& surface = output.surfaces[name];
     if (value.kind == YamlNode::Kind::kScalar && value.text.starts_with('#')) {
       surface.colour = parse_colour(value.text);
       if (!surface.colour) draft.complaints.expected(value, "a colour such as \"#c0a080\"");
@@ -116,8 +116,8 @@ std::string write_lods(const Output& output, const WriteContext&) {
 std::string write_surfaces(const Output& output, const WriteContext&) {
   return flow_map(texts_of(output.surfaces, [](const auto& named) {
     const auto& [name, surface] = named;
-    return entry(write_scalar(name),
-                 surface.colour ? write_colour(*surface.colour) : word_of(surface.kind));
+    return yaml_entry(write_scalar(name),
+                      surface.colour ? write_colour(*surface.colour) : word_of(surface.kind));
   }));
 }
 
@@ -137,17 +137,17 @@ bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft)
 
 const Keys<Sheet>& contact_sheet_keys() {
   static const Keys<Sheet> keys = {
-      key("columns", &Sheet::columns, whole_number(1, 32)).ignored_by_face_files(),
-      key("rows", &Sheet::rows, whole_number(1, 64)).ignored_by_face_files(),
+      key("columns", &Sheet::columns, whole_number(1, 32)).not_affecting_face_files(),
+      key("rows", &Sheet::rows, whole_number(1, 64)).not_affecting_face_files(),
       key("cell", &Sheet::cell, whole_number(32, 2048)),
       key("views", &Sheet::views,
           words<View>("a list of views, [front, three_quarter, profile, back]")),
       key("labels", &Sheet::labels, words<SheetLabel>("a list of labels, [id, target, nearest]"))
-          .ignored_by_face_files(),
-      word_key("order", &Sheet::order).ignored_by_face_files(),
+          .not_affecting_face_files(),
+      word_key("order", &Sheet::order).not_affecting_face_files(),
       Key<Sheet>{"compare", read_comparison, write_comparison}
           .with_accepted_values(concat(quoted_words<Reference>(), ", or a file or crowd folder"))
-          .ignored_by_face_files(),
+          .not_affecting_face_files(),
       Key<Sheet>{"compare_scale",
                  [](const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
                    const auto scale = positive_length(kLongestScaleMm).read(node, draft);
@@ -157,11 +157,11 @@ const Keys<Sheet>& contact_sheet_keys() {
                    return length(kLongestScaleMm).write(sheet.compare.scale_mm, context);
                  }}
           .with_accepted_values(positive_length(kLongestScaleMm).accepted_values)
-          .ignored_by_face_files(),
+          .not_affecting_face_files(),
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
-          .ignored_by_face_files(),
+          .not_affecting_face_files(),
       key("shapes", &Sheet::shapes, restricted(whole_number(0, 64), can_be_shown))
-          .ignored_by_face_files(),
+          .not_affecting_face_files(),
       word_key("texture", &Sheet::texture)};
   return keys;
 }
@@ -222,7 +222,7 @@ const Keys<Output>& output_keys() {
           .with_starter([](const StarterFacts& facts) {
             return StarterLines{write_scalar(concat("out/", facts.crowd_name))};
           })
-          .ignored_by_face_files(),
+          .not_affecting_face_files(),
       key("meshes", &Output::meshes,
           words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
           .with_starter({"[obj]", concat("and ", join(other_formats()), "; [] for pictures only")}),

@@ -180,8 +180,9 @@ class OverriddenKeys {
       const Parent& parent = family.parents[p];
       const char *role = p == 0 ? "mother" : "father", *sex = p == 0 ? "female" : "male";
       if (!parent.is_new || parent.group || with_any({"female", "male"}).empty()) continue;
-      const bool has_target = std::ranges::any_of(
-          parent.targets, [&](Eigen::Index head) { return is_target(config_.sampling, head); });
+      const bool has_target =
+          std::ranges::any_of(parent.possible_target_heads,
+                              [&](Eigen::Index head) { return is_target(config_.sampling, head); });
       if (has_target) continue;
       tell(node.path, ".parents.", role, ": no target of sampling.targets is tagged ", sex,
            ", so 1 face is built on any target");

@@ -73,7 +73,8 @@ std::string write_recipe_bands(const HandRegion& region, const WriteContext& con
     const std::vector<std::string> values =
         write_keys(recipe_band_keys(), region.bands[b], context);
     if (values.empty()) continue;
-    entries.push_back(entry(write_scalar(context.config.sampling.bands[b].name), flow_map(values)));
+    entries.push_back(
+        yaml_entry(write_scalar(context.config.sampling.bands[b].name), flow_map(values)));
   }
   return entries.empty() ? "" : flow_map(entries);
 }
@@ -120,8 +121,8 @@ std::string write_regions_of(const ManualRecipe& recipe, const WriteContext& con
   const std::vector<std::string> names = context.config.region_names();
   std::vector<std::string> entries;
   for (std::size_t i = 0; i < recipe.regions.size(); ++i) {
-    entries.push_back(entry(write_scalar(names[i]),
-                            flow_map(write_keys(region_keys(), recipe.regions[i], context))));
+    entries.push_back(yaml_entry(write_scalar(names[i]),
+                                 flow_map(write_keys(region_keys(), recipe.regions[i], context))));
   }
   return block_map(entries);
 }

@@ -74,9 +74,10 @@ void read_region_names(const YamlNode& node, Regions& regions, ConfigDraft& draf
 
 const Keys<Regions>& regions_keys() {
   static const Keys<Regions> keys = {
-      Key<Regions>{"names", read_region_names,
-                   [](const Regions& regions, const auto&) { return flow_names(regions.names); },
-                   "such as [top, middle, bottom]"}
+      Key<Regions>{
+          "names", read_region_names,
+          [](const Regions& regions, const auto&) { return flow_list_of_names(regions.names); },
+          "such as [top, middle, bottom]"}
           .with_accepted_values(concat("list of 1 to ", kMaxRegions, " names")),
       Key<Regions>{"mask", read_masks, write_masks, "the image whose channels are the regions"}
           .with_accepted_values("image file, or list of image files")};
@@ -100,7 +101,7 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
         "the\nhead is a single region.\nregions: {names: [top, middle, bottom], mask: bands.png}"};
   }
   return StarterLines{block_map({concat("names: [", join(facts.regions), ']'),
-                                 entry("mask", write_scalar(facts.mask_file))}),
+                                 yaml_entry("mask", write_scalar(facts.mask_file))}),
                       "",
                       "Regions of the face that are blended separately: each colour channel of the "
                       "image masks one\nregion. \"regions: none\" makes the head a single region."};

@@ -37,13 +37,13 @@ bool is_new_parent(const std::string& id, const Config& config) {
 }
 
 void read_lock(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
-  mark.locked_parts = read_locked_parts(node, draft);
+  mark.locked_bands = read_locked_bands(node, draft);
   mark.verdict = Verdict::kReject;
 }
 
 void read_verdict(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   mark.verdict = word<Verdict>().read(node, draft).value_or(mark.verdict);
-  if (mark.verdict == Verdict::kKeep && !mark.locked_parts.empty()) {
+  if (mark.verdict == Verdict::kKeep && !mark.locked_bands.empty()) {
     draft.complaints.add_at(
         node, "expected mark: reject with lock, found keep; a kept face is not redrawn");
   }
@@ -77,7 +77,8 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
     review.reviewed_face_count = read_whole_number(*count, 0, kMostFaces, draft.complaints);
   }
   if (const YamlNode* after = map.find("after")) {
-    review.seen_review_count = read_whole_number(*after, 0, kMostFaces, draft.complaints);
+    review.review_count_seen_by_reviewer =
+        read_whole_number(*after, 0, kMostFaces, draft.complaints);
   }
   if (const YamlNode* distance = map.find("min_distance")) {
     review.min_distance_mm = length(kMaxDistanceMm).read(*distance, draft);
@@ -144,13 +145,15 @@ std::string add_missing_keys(std::string text, const Review& review, const Revie
   return text;
 }
 
-/// Adds a review file, unless the file is a copy of an earlier review file. If the review does not
-/// state how many faces were reviewed, adds this number. If the review is stored in the crowd's
-/// folder and the crowd's minimum distance has changed, also adds the former minimum distance.
+/// Adds a review file to the config, unless the file is a copy of an earlier review file. If the
+/// review does not state how many faces were reviewed, adds this number to the config's copy of the
+/// review. If the review is stored in the crowd's folder and states no minimum distance, also adds
+/// the crowd's former minimum distance (if it has changed) to this copy.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;
-  if (!draft.ignored_reviews.empty() && is_inside_folder(file, draft.ignored_reviews)) return;
+  if (!draft.ignored_reviews_folder.empty() && is_inside_folder(file, draft.ignored_reviews_folder))
+    return;
   const Review review = read_marks(read_yaml(file.string(), draft.complaints), draft);
   std::string text = draft.complaints.empty() ? read_file(file) : std::string();
   const std::string original = text;
@@ -162,9 +165,9 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
   Review whole = review;
   if (!whole.reviewed_face_count) {
     whole.reviewed_face_count =
-        is_kept ? draft.kept_face_count.value_or(config.crowd.count) : config.crowd.count;
+        is_kept ? draft.former_face_count.value_or(config.crowd.count) : config.crowd.count;
   }
-  if (!whole.min_distance_mm && is_kept) whole.min_distance_mm = draft.kept_min_distance_mm;
+  if (!whole.min_distance_mm && is_kept) whole.min_distance_mm = draft.former_min_distance_mm;
   if (!text.empty()) text = add_missing_keys(std::move(text), review, whole);
   known.files.push_back(file);
   known.texts.push_back(std::move(text));
@@ -173,11 +176,11 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
 }
 
 std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
-  std::vector<std::string> entries = {entry("mark", word_of(mark.verdict))};
-  const auto locked = texts_of(mark.locked_parts, [&](std::size_t k) { return parts[k]; });
-  if (!locked.empty()) entries.push_back(entry("lock", flow_names(locked)));
-  if (mark.note) entries.push_back(entry("note", write_scalar(*mark.note)));
-  return entry(write_scalar(mark.id), flow_map(entries));
+  std::vector<std::string> entries = {yaml_entry("mark", word_of(mark.verdict))};
+  const auto locked = texts_of(mark.locked_bands, [&](std::size_t k) { return parts[k]; });
+  if (!locked.empty()) entries.push_back(yaml_entry("lock", flow_list_of_names(locked)));
+  if (mark.note) entries.push_back(yaml_entry("note", write_scalar(*mark.note)));
+  return yaml_entry(write_scalar(mark.id), flow_map(entries));
 }
 
 }  // namespace
@@ -194,7 +197,7 @@ bool is_face(const std::string& id, const Config& config) {
   return is_sampled_face(id, config) || contains(named_ids(config), id);
 }
 
-std::vector<std::size_t> read_locked_parts(const YamlNode& node, ConfigDraft& draft) {
+std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& draft) {
   std::vector<std::size_t> locked;
   std::vector<std::string> names = draft.config.regions.names;
   for (const std::string& band : draft.config.plan_names().bands) names.push_back(band);
@@ -255,15 +258,16 @@ std::string format_review(const Review& review, const Config& config) {
   const std::vector<std::string> parts = config.part_names();
   std::vector<std::string> entries = {"schema: 1"};
   if (review.reviewed_face_count) entries.push_back(concat("count: ", *review.reviewed_face_count));
-  if (review.seen_review_count) entries.push_back(concat("after: ", *review.seen_review_count));
+  if (review.review_count_seen_by_reviewer)
+    entries.push_back(concat("after: ", *review.review_count_seen_by_reviewer));
   if (review.min_distance_mm) {
     entries.push_back(concat("min_distance: ", *review.min_distance_mm, " mm"));
   }
   const auto marks =
       texts_of(review.marks, [&](const ReviewMark& mark) { return format_mark(mark, parts); });
-  if (!marks.empty()) entries.push_back(entry("faces", block_map(marks)));
+  if (!marks.empty()) entries.push_back(yaml_entry("faces", block_map(marks)));
   if (!review.changes.empty()) {
-    entries.push_back(entry("changes", write_changes(review.changes, {config, {}})));
+    entries.push_back(yaml_entry("changes", write_changes(review.changes, {config, {}})));
   }
   if (marks.empty() && review.changes.empty()) entries.emplace_back("faces: {}");
   return block_map(entries).substr(1) + '\n';

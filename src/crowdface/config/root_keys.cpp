@@ -65,11 +65,11 @@ const Keys<Config::Textures>& textures_keys() {
     return textures.colours == ColourWeights::kSampled;
   };
   static const Keys<Textures> keys = {
-      word_key("blend", &Textures::blend).ignored_by_recipes(),
-      key("size", &Textures::size, whole_number(16, 16384)).ignored_by_recipes(),
+      word_key("blend", &Textures::blend).not_affecting_recipes(),
+      key("size", &Textures::size, whole_number(16, 16384)).not_affecting_recipes(),
       key("formats", &Textures::formats,
           words<TextureFormat>("a list of formats, [png, jpeg, exr]"))
-          .ignored_by_recipes(),
+          .not_affecting_recipes(),
       word_key("colours", &Textures::colours).written_if(are_sampled),
       key("alike", &Textures::alike, list(name(), "a list of tags, [female, male]"))
           .written_if(are_sampled)};
@@ -109,7 +109,7 @@ void read_anchors(const YamlNode& node, Plane& plane, ConfigDraft& draft) {
 
 std::string write_anchors(const Plane& plane, const WriteContext& context) {
   return block_map(texts_of(plane.anchors, [&](const auto& anchor) {
-    return entry(context.head(anchor.first), plane_point().write(anchor.second, context));
+    return yaml_entry(context.head(anchor.first), plane_point().write(anchor.second, context));
   }));
 }
 
@@ -250,44 +250,48 @@ const Keys<Config>& root_keys() {
           .with_starter({"1"}),
       section_key("crowd", &Config::crowd, crowd_keys(),
                   "such as \"crowd: {name: market, count: 24}\"")
-          .ignored_by_face_files(),
-      faces_key().ignored_by_face_files(),
-      regions_key().ignored_by_face_files(),
+          .not_affecting_face_files(),
+      faces_key().not_affecting_face_files(),
+      regions_key().not_affecting_face_files(),
       section_key("smoothing", &Config::smoothing, smoothing_keys(), {}, check_smoothing),
       section_key("blending", &Config::blending, blending_keys()),
       Key<Config>{"parts", read_parts, write_parts}.with_nested_keys(parts_keys()),
-      shapes_key().ignored_by_face_files().ignored_by_recipes(),
+      shapes_key().not_affecting_face_files().not_affecting_recipes(),
       file_key("points", &Config::points, "none, or a YAML file of points")
-          .ignored_by_face_files()
-          .ignored_by_recipes(),
+          .not_affecting_face_files()
+          .not_affecting_recipes(),
       file_key("rig", &Config::rig, "none, or a GLB file with joints")
-          .ignored_by_face_files()
-          .ignored_by_recipes(),
-      landmarks_key().ignored_by_face_files(),
-      neck_key().ignored_by_face_files().ignored_by_recipes(),
-      attachments_key().ignored_by_face_files(),
+          .not_affecting_face_files()
+          .not_affecting_recipes(),
+      landmarks_key().not_affecting_face_files(),
+      neck_key().not_affecting_face_files().not_affecting_recipes(),
+      attachments_key().not_affecting_face_files(),
       section_key("textures", &Config::textures, textures_keys(), {}, check_textures),
-      section_key("plane", &Config::plane, plane_keys(), {}, check_plane).ignored_by_face_files(),
+      section_key("plane", &Config::plane, plane_keys(), {}, check_plane)
+          .not_affecting_face_files(),
       section_key("sampling", &Config::sampling, sampling_keys())
           .with_nested_keys(sampling_keys(), with_a_region())
-          .ignored_by_face_files(),
-      section_key("distance", &Config::distance, distance_keys()).ignored_by_face_files(),
-      section_key("diversity", &Config::diversity, diversity_keys()).ignored_by_face_files(),
-      believability_key().ignored_by_face_files(),
-      traits_key().ignored_by_face_files(),
-      trait_table_key("population", &Config::population).ignored_by_face_files(),
+          .not_affecting_face_files(),
+      section_key("distance", &Config::distance, distance_keys()).not_affecting_face_files(),
+      section_key("diversity", &Config::diversity, diversity_keys()).not_affecting_face_files(),
+      believability_key().not_affecting_face_files(),
+      traits_key().not_affecting_face_files(),
+      trait_table_key("population", &Config::population).not_affecting_face_files(),
       trait_table_key("quantiles_of", &Config::quantiles_of)
-          .ignored_by_face_files()
+          .not_affecting_face_files()
           .written_if(
               [](const Config& config, const auto&) { return !config.quantiles_of.file.empty(); }),
-      groups_key().ignored_by_face_files(),
-      recipes_key().ignored_by_face_files(),
-      families_key().ignored_by_face_files(),
-      changes_key().ignored_by_face_files().ignored_by_recipes(),
-      Key<Config>{"review", read_review, write_review}.ignored_by_face_files().ignored_by_recipes(),
+      groups_key().not_affecting_face_files(),
+      recipes_key().not_affecting_face_files(),
+      families_key().not_affecting_face_files(),
+      changes_key().not_affecting_face_files().not_affecting_recipes(),
+      Key<Config>{"review", read_review, write_review}
+          .not_affecting_face_files()
+          .not_affecting_recipes(),
       // The file is merged by read_edits, before the keys are read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
-      section_key("output", &Config::output, output_keys(), {}, check_output).ignored_by_recipes()};
+      section_key("output", &Config::output, output_keys(), {}, check_output)
+          .not_affecting_recipes()};
   return keys;
 }
 
@@ -304,7 +308,7 @@ std::vector<KeyRow> config_key_rows() {
   return rows;
 }
 
-std::set<std::string> keys_ignored_by_recipes() {
+std::set<std::string> keys_not_affecting_recipes() {
   std::set<std::string> paths;
   for (const KeyRow& row : key_rows("", root_keys(), Config{})) {
     if (row.affects_recipes) continue;
@@ -319,13 +323,13 @@ std::string effective_config(const Config& config, const std::filesystem::path& 
   return block_map(write_keys(root_keys(), config, context)).substr(1) + '\n';
 }
 
-std::string face_settings(const Config& config) {
+std::string face_settings_yaml(const Config& config) {
   return block_map(write_keys(
       root_keys(), config,
       {.config = config, .folder = {}, .written_keys = WriteContext::WrittenKeys::kFaces}));
 }
 
-std::string plan_settings(const Config& config, const std::filesystem::path& directory) {
+std::string plan_settings_yaml(const Config& config, const std::filesystem::path& directory) {
   WriteContext context = {config, std::filesystem::absolute(directory / "").lexically_normal()};
   const std::string changes = changes_key().write(config, context);
   context.written_keys = WriteContext::WrittenKeys::kPlan;

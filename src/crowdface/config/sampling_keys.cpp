@@ -27,17 +27,17 @@ struct PerRegion {
 /// `{default: …, top: …}`; or a mapping whose keys are parameters of the value and also names of
 /// regions.
 ///
-/// \param parameters  the keys of a value that is itself a mapping. A region may have the same name
-///                    as a parameter if the parameter's value is never a mapping: a mapping under
-///                    this name is then the region's value.
+/// \param parameters  the keys of a value that is itself a mapping. A region may have the name of a
+///                    parameter whose value is never a mapping: an entry with this name is the
+///                    region's if its value is a mapping, and otherwise the parameter's.
 PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
   PerRegion split;
   if (node.kind != YamlNode::Kind::kMap) {
     split.whole = node;
     return split;
   }
-  // Tell the entries apart: values of regions, the default value, and parameters of a value for all
-  // regions.
+  // An entry is the value of one region, the default value, or a parameter of a single value that
+  // all regions share.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
   direct.entries.clear();
@@ -81,31 +81,32 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
 template <class Section, class Region, class Member, class Value>
 Key<Section> per_region_key(std::string_view name, Member Region::*member,
                             const Codec<Value>& codec, const Names& parameters = {}) {
-  return {name,
-          [=, own = key(name, member, codec)](const YamlNode& node, Section& section,
-                                              ConfigDraft& draft) {
-            const PerRegion split = split_by_region(node, parameters, draft);
-            const auto whole = split.whole ? codec.read(*split.whole, draft) : std::nullopt;
-            for (Region& region : section.regions) {
-              if (whole) region.*member = *whole;
-            }
-            for (const auto& [region, value] : split.of_region) {
-              own.read(*value, section.regions[region], draft);
-            }
-          },
-          [own = key(name, member, codec)](const Section& section, const WriteContext& context) {
-            const Names& names = context.config.regions.names;
-            std::vector<std::string> entries;
-            for (std::size_t i = 0; i < section.regions.size(); ++i) {
-              const std::string value = own.write(section.regions[i], context);
-              if (value.empty()) continue;
-              entries.push_back(entry(names.empty() ? "default" : write_scalar(names[i]), value));
-            }
-            return entries.empty() ? "" : block_map(entries);
-          },
-          {},
-          {},
-          codec.accepted_values};
+  return {
+      name,
+      [=, own = key(name, member, codec)](const YamlNode& node, Section& section,
+                                          ConfigDraft& draft) {
+        const PerRegion split = split_by_region(node, parameters, draft);
+        const auto whole = split.whole ? codec.read(*split.whole, draft) : std::nullopt;
+        for (Region& region : section.regions) {
+          if (whole) region.*member = *whole;
+        }
+        for (const auto& [region, value] : split.of_region) {
+          own.read(*value, section.regions[region], draft);
+        }
+      },
+      [own = key(name, member, codec)](const Section& section, const WriteContext& context) {
+        const Names& names = context.config.regions.names;
+        std::vector<std::string> entries;
+        for (std::size_t i = 0; i < section.regions.size(); ++i) {
+          const std::string value = own.write(section.regions[i], context);
+          if (value.empty()) continue;
+          entries.push_back(yaml_entry(names.empty() ? "default" : write_scalar(names[i]), value));
+        }
+        return entries.empty() ? "" : block_map(entries);
+      },
+      {},
+      {},
+      codec.accepted_values};
 }
 
 /// The head that a position refers to: the name of a head, or `target` for the face's target.
@@ -128,12 +129,12 @@ const Keys<PositionDistribution>& position_keys() {
   return keys;
 }
 
-/// The keys that belong to each kind of distribution, and the message for the case that the last
-/// key is required and missing.
+/// The keys of one kind of distribution.
 struct KindKeys {
   Kind kind;
   Names keys;
-  std::string_view required = {};
+  /// If the last of `keys` is required: advice for the message when that key is missing.
+  std::string_view advice_if_last_is_missing = {};
 };
 const std::vector<KindKeys> kKindKeys = {
     {Kind::kAnchored, {"distribution", "pull"}},
@@ -158,9 +159,9 @@ std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDr
     draft.complaints.add(entry.key_place, concat(entry.value.path, ": the distribution ",
                                                  word_of(position.kind), " has no ", entry.key));
   }
-  if (!own.required.empty() && node.find(own.keys.back()) == nullptr) {
-    draft.complaints.add(node.place,
-                         concat(node.path, '.', own.keys.back(), ": missing; ", own.required));
+  if (!own.advice_if_last_is_missing.empty() && node.find(own.keys.back()) == nullptr) {
+    draft.complaints.add(node.place, concat(node.path, '.', own.keys.back(), ": missing; ",
+                                            own.advice_if_last_is_missing));
   }
   return position;
 }
@@ -182,7 +183,7 @@ Codec<SmoothnessDistribution> sampled_smoothness() {
           },
           [](const SmoothnessDistribution& value, const WriteContext& context) {
             return value.unit == SmoothnessDistribution::Unit::kIterations
-                       ? flow_map({entry("iterations", iterations().write(value, context))})
+                       ? flow_map({yaml_entry("iterations", iterations().write(value, context))})
                        : smoothness().write(value, context);
           },
           concat(smoothness().accepted_values, ", or `{iterations: …}`")};
@@ -244,9 +245,9 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       }
       check_band_name(entry, sampling, draft);
       const bool first = sampling.bands.empty();
-      // if there are several bands, the first band (the coarsest) does not age
-      const bool is_build = first && node.entries.size() > 1;
-      band = sampling.bands.insert(band, {entry.key, {}, {}, is_build ? 0.0 : 1.0});
+      // if there are several bands, the first band (the coarsest) does not age by default
+      const bool is_coarsest = first && node.entries.size() > 1;
+      band = sampling.bands.insert(band, {entry.key, {}, {}, is_coarsest ? 0.0 : 1.0});
       band->regions.resize(sampling.regions.size());
       const YamlNode& value = entry.value;
       if (!first && value.kind == YamlNode::Kind::kMap && value.find("smoothness") == nullptr) {
@@ -261,7 +262,7 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
 std::string write_bands(const SamplingOptions& sampling, const WriteContext& context) {
   if (sampling.bands.empty()) return "";
   return block_map(texts_of(sampling.bands, [&](const BandSampling& band) {
-    return entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, context)));
+    return yaml_entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, context)));
   }));
 }
 

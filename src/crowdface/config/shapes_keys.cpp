@@ -75,7 +75,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
   const auto folder =
       path("a folder that has a subfolder of OBJ files for each head").read(node, draft);
   if (!folder) return;
-  shapes.heads = *folder;
+  shapes.heads_directory = *folder;
   if (!is_folder(*folder)) {
     return draft.complaints.add_at(
         node, concat("the folder ", quoted(folder->string()), " does not exist"),
@@ -114,7 +114,7 @@ const Keys<Shapes>& shapes_keys() {
           .with_accepted_values("folder"),
       Key<Shapes>{"heads", read_shape_heads,
                   [](const Shapes& shapes, const WriteContext& context) {
-                    return path("").write(shapes.heads, context);
+                    return path("").write(shapes.heads_directory, context);
                   }}
           .with_accepted_values("folder")};
   return keys;
@@ -135,7 +135,7 @@ void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draf
     draft.complaints.add(
         node.place,
         concat(node.path, ": the head ", head, " lacks shapes that other heads have: ",
-               (shapes.heads / head).string(), " has no ", join(lacking),
+               (shapes.heads_directory / head).string(), " has no ", join(lacking),
                "; add these files, or set neutral and directory, so that the template's shapes are "
                "transferred"),
         ExitCode::kMissingInput);
@@ -144,14 +144,14 @@ void check_lacking(const YamlNode& node, const Shapes& shapes, ConfigDraft& draf
 
 void check_shapes(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft) {
   if (shapes.neutral.empty() != shapes.directory.empty() ||
-      (shapes.neutral.empty() && shapes.heads.empty())) {
+      (shapes.neutral.empty() && shapes.heads_directory.empty())) {
     return draft.complaints.add_at(
         node,
         "expected neutral (the template's mesh at rest, an OBJ file) and "
         "directory (the folder of its shapes), or heads (a folder that "
         "has a subfolder of shapes for each head), or all three");
   }
-  if (shapes.heads.empty() ? shapes.names.empty() : !draft.heads_known) return;
+  if (shapes.heads_directory.empty() ? shapes.names.empty() : !draft.heads_known) return;
   if (shapes.names.empty() || shapes.names.size() > kMaxShapes) {
     return draft.complaints.add_at(
         node, concat("expected 1 to ", kMaxShapes, " shapes, found ", shapes.names.size()));

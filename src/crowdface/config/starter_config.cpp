@@ -12,7 +12,7 @@ std::string starter_lines(std::string_view key, const StarterLines& lines) {
   std::string text;
   for (const std::string_view line : split_lines(lines.comment_above)) text += concat("\n# ", line);
   if (lines.value.empty()) return text;
-  std::string line = entry(key, lines.value);
+  std::string line = yaml_entry(key, lines.value);
   if (!lines.comment_beside.empty()) {
     line.resize(std::max(line.size() + 1, kCommentColumn), ' ');
     line += concat("# ", lines.comment_beside);
@@ -25,7 +25,7 @@ std::string starter_config(const StarterFacts& facts) {
       "# A first crowd. Run it with: crowdface generate THIS_FILE\n"
       "# Every key, with its range and default, is explained in docs/config.md.";
   for (const Key<Config>& key : root_keys()) {
-    const auto lines = key.starter ? key.starter(facts) : std::nullopt;
+    const auto lines = key.make_starter_lines ? key.make_starter_lines(facts) : std::nullopt;
     if (lines) text += concat(starter_lines(key.name, *lines), '\n');
   }
   return text;

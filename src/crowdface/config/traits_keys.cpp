@@ -88,9 +88,10 @@ std::string bound_text(const TraitBound& end, const Measurement& measurement) {
 std::string limit_text(const TraitLimit& limit) {
   const Measurement& measurement = measurements()[limit.trait];
   std::vector<std::string> ends;
-  if (limit.at_least) ends.push_back(entry("at_least", bound_text(*limit.at_least, measurement)));
-  if (limit.at_most) ends.push_back(entry("at_most", bound_text(*limit.at_most, measurement)));
-  return entry(measurement.name, flow_map(ends));
+  if (limit.at_least)
+    ends.push_back(yaml_entry("at_least", bound_text(*limit.at_least, measurement)));
+  if (limit.at_most) ends.push_back(yaml_entry("at_most", bound_text(*limit.at_most, measurement)));
+  return yaml_entry(measurement.name, flow_map(ends));
 }
 
 }  // namespace

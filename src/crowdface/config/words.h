@@ -25,9 +25,9 @@ using Words = std::vector<Word<Value>>;
 /// Makes words from values; the word for a value is `name_of(value)`.
 template <class Values>
 auto words_by_name(const Values& values) {
-  Words<typename Values::value_type> words;
-  for (const auto value : values) words.push_back({name_of(value), value});
-  return words;
+  Words<typename Values::value_type> enum_words;
+  for (const auto value : values) enum_words.push_back({name_of(value), value});
+  return enum_words;
 }
 
 /// The words of all enumerations in configs and command-line options. Both reading and writing use
@@ -35,12 +35,12 @@ auto words_by_name(const Values& values) {
 inline const auto& all_words() {
   using Kind = PositionDistribution::Kind;
   using Mode = DiversityOptions::Mode;
-  using Meshes = BelievabilityOptions::Meshes;
+  using MeshChecks = BelievabilityOptions::MeshChecks;
   using Verdict = ReviewMark::Verdict;
   using AgeStep = FaceChange::AgeStep;
   // kFile has no word, because a config gives the path of the file instead
   using Reference = Config::MeshComparison::Reference;
-  static const std::tuple words = {
+  static const std::tuple words_of_each_enum = {
       Words<bool>{{"true", true}, {"false", false}}, words_by_name(all_mesh_formats()),
       Words<AgeStep>{{"older", AgeStep::kOlder}, {"younger", AgeStep::kYounger}},
       Words<Align>{{"check", Align::kCheck}, {"rigid", Align::kRigid}, {"none", Align::kNone}},
@@ -80,10 +80,10 @@ inline const auto& all_words() {
                   {"fixed", Kind::kFixed}},
       Words<FaceArea>{{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}},
       Words<Mode>{{"first_fit", Mode::kFirstFit}, {"spread", Mode::kSpread}},
-      Words<Meshes>{{"auto", Meshes::kAuto},
-                    {"all", Meshes::kAll},
-                    {"none", Meshes::kNone},
-                    {"judge", Meshes::kJudge}},
+      Words<MeshChecks>{{"auto", MeshChecks::kAuto},
+                        {"all", MeshChecks::kAll},
+                        {"none", MeshChecks::kNone},
+                        {"judge", MeshChecks::kJudge}},
       Words<Verdict>{{"keep", Verdict::kKeep}, {"reject", Verdict::kReject}},
       Words<Subdivision>{{"none", Subdivision::kNone},
                          {"catmull_clark", Subdivision::kCatmullClark}},
@@ -115,9 +115,9 @@ inline const auto& all_words() {
                          {"teeth", SurfaceKind::kTeeth},
                          {"gums", SurfaceKind::kGums},
                          {"hidden", SurfaceKind::kHidden}},
-      // for FamilyOptions::inherited_parents
+      // for FamilyOptions::inherited_parents; `drawn`: a random parent
       Words<int>{{"mother", 0}, {"father", 1}, {"drawn", -1}}};
-  return words;
+  return words_of_each_enum;
 }
 
 template <class Value>

@@ -7,6 +7,7 @@ namespace crowdface {
 /// called, and long loops throw Interrupted. For programs in which a user may cancel a call that
 /// runs on another thread. Thread-safe.
 void cancel_work();
+/// Ends the effect of `cancel_work`: work may start again.
 void allow_work();
 /// Whether `cancel_work` was called and `allow_work` was not called afterwards.
 bool is_cancelled();

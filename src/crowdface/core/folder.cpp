@@ -85,7 +85,7 @@ DirectoryHandle::DirectoryHandle(const fs::path& folder)
   if (!opened_.valid()) throw_with_errno<CannotCreate>(path_, "cannot be opened as a folder");
 }
 
-void DirectoryHandle::require_same() const {
+void DirectoryHandle::require_still_at_path() const {
   if (path_leads_to(path_.empty() ? "." : path_, opened_)) return;
   throw IoError(
       concat(path_.string(),

@@ -45,9 +45,10 @@ class DirectoryHandle {
  public:
   /// \throws CannotCreate if the folder cannot be opened.
   explicit DirectoryHandle(const std::filesystem::path& folder);
-  /// Checks that the path still leads to the directory that this object opened.
+  /// Checks that the path still leads to the directory that this object opened: nobody has moved or
+  /// replaced the directory.
   /// \throws IoError if not.
-  void require_same() const;
+  void require_still_at_path() const;
 
  private:
   std::filesystem::path path_;

@@ -30,7 +30,7 @@ inline constexpr int kSharedCacheVersion = 1;
 inline constexpr int kFaceFilesVersion = 25;
 /// Version of the blend shapes transferred to a face, and of the rendered images of these shapes.
 inline constexpr int kShapesVersion = 9;
-/// Version of the points that follow a face.
+/// Version of the named points (config section `points`) that move with the surface of a face.
 inline constexpr int kPointsVersion = 2;
 /// Version of the joints that follow a face, and of the skin weights bound to these joints.
 inline constexpr int kRigVersion = 1;

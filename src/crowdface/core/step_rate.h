@@ -14,13 +14,14 @@ namespace crowdface {
 class StepRate {
  public:
   /// \param burst  number of steps that may end at almost the same time, such as the number of
-  ///     threads. The estimate compares only the first steps of bursts.
+  ///     threads. Samples are at least this many steps apart.
   explicit StepRate(std::size_t burst = 1) : burst_(burst) {}
 
   /// Records the number of finished steps.
   /// \param seconds  time of the call; must not be less than in the previous call.
   void record(double seconds, std::size_t finished_steps);
-  /// Returns the steps per second; nothing before the first step of the second burst.
+  /// Returns the steps per second; nothing until `burst` steps have ended since the first call of
+  /// `record`.
   std::optional<double> rate() const;
 
  private:
@@ -30,7 +31,8 @@ class StepRate {
   };
   std::size_t burst_;
   double first_seconds_ = 0;
-  /// samples of about the second half of the time since the first step
+  /// The samples in the second half of the time that has passed since the first step, and the last
+  /// sample before that half.
   std::deque<Sample> samples_;
 };
 

@@ -60,8 +60,8 @@ std::vector<fs::path> record_files(const CrowdDirectory& directory) {
           directory.rejected(), directory.plan_marker(), directory.stage()};
 }
 
-/// Names of the files that the ledgers in the folder list. Reads only ledger items whose names
-/// begin with `items`.
+/// Reads all ledgers in the folder and returns the names of the files that they list. Reads only
+/// ledger items whose names begin with `items`.
 std::set<std::string> recorded_files(const CrowdDirectory& directory, std::string_view items) {
   std::set<std::string> names;
   for (const fs::path& ledger : directory.ledgers()) {
@@ -95,7 +95,7 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   for (const fs::path& folder : folder_and_numbered_subfolders(directory.meshes())) {
     add(folder, [](const fs::path& path) {
       return mesh_format_of(path) || path.extension() == ".mtl" ||
-             path.filename().string().ends_with(concat('+', kFollowingPointsFile));
+             path.filename().string().ends_with(concat('+', kPointsFollowingFaceFile));
     });
     for (fs::path& file : list_files(folder / kBlendedFolder, is_file)) {
       files.push_back(std::move(file));  // this folder holds no other files
@@ -116,8 +116,8 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
 void remove_crowd(const CrowdDirectory& directory) {
   std::vector<fs::path> files = {directory.meshes() / GlbOverlay::kFile};
   for (const char* array : kTopologyArrays) files.push_back(directory.topology() / array);
-  for (const std::vector<fs::path>& more :
-       {files_of_faces(directory), crowd_sheets(directory), files_made_with_sheets(directory)}) {
+  for (const std::vector<fs::path>& more : {files_of_faces(directory), crowd_sheets(directory),
+                                            files_made_together_with_sheets(directory)}) {
     files.insert(files.end(), more.begin(), more.end());
   }
   for (const fs::path& path : files) remove_file(path);
@@ -298,7 +298,7 @@ std::vector<fs::path> crowd_sheets(const CrowdDirectory& directory) {
   return sheets;
 }
 
-std::vector<fs::path> files_made_with_sheets(const CrowdDirectory& directory) {
+std::vector<fs::path> files_made_together_with_sheets(const CrowdDirectory& directory) {
   std::vector<fs::path> files;
   const auto add = [&](const fs::path& folder, const auto& is_ours) {
     for (fs::path& file : list_files(folder, is_ours)) {

@@ -17,9 +17,9 @@
 
 namespace crowdface {
 
-/// Second part of the name of the file with the points that follow a face. The first part is the
-/// face's id and '+'.
-inline constexpr const char* kFollowingPointsFile = "points.json";
+/// Second part of the name of the file with the points that move with a face's mesh. The first part
+/// is the face's id and '+'.
+inline constexpr const char* kPointsFollowingFaceFile = "points.json";
 
 /// Paths of the files in a crowd's folder (docs/crowd-directory.md).
 struct CrowdDirectory {
@@ -58,7 +58,7 @@ struct CrowdDirectory {
     return existing_shard_paths(root / "progress.json");
   }
   /// Folder with the scripts and logs of the tasks that run on other machines.
-  std::filesystem::path task_folder() const { return root / "submit"; }
+  std::filesystem::path cluster_task_folder() const { return root / "submit"; }
   /// The log, ledger and lock of a shard. If the shard is the whole crowd: the log, ledger and lock
   /// of the crowd.
   std::filesystem::path log(const Shard& shard) const { return shard_path(log(), shard); }
@@ -168,7 +168,7 @@ std::vector<std::filesystem::path> crowd_sheets(const CrowdDirectory& directory)
 /// The files that are made together with the contact sheets: images of heads and founders, and the
 /// files of the gallery except the meshes of faces.
 /// \throws IoError if a folder cannot be read.
-std::vector<std::filesystem::path> files_made_with_sheets(const CrowdDirectory& directory);
+std::vector<std::filesystem::path> files_made_together_with_sheets(const CrowdDirectory& directory);
 
 /// Checks that the folder is the folder of a crowd. \throws MissingInput if not.
 void require_crowd(const CrowdDirectory& directory);

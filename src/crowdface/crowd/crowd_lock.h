@@ -22,7 +22,7 @@ class CrowdLock {
 
   /// Checks that the locked folder still has its path. Call this before a run reports success.
   /// \throws IoError if the folder was removed or replaced since the lock was taken.
-  void require_same_folder() const { root_handle_->require_same(); }
+  void require_same_folder() const { root_handle_->require_still_at_path(); }
 
  private:
   std::unique_ptr<DirectoryHandle> root_handle_;

@@ -66,7 +66,7 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
 /// Returns the number of shards: the number of tasks that was last submitted to a farm; without a
 /// submission, the number in the file names of shards; 1 if there are no shards.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
-  const auto job = parse_shallow_json(text_of(directory.task_folder() / "job.json"));
+  const auto job = parse_shallow_json(text_of(directory.cluster_task_folder() / "job.json"));
   if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {
     const auto shards = job["shards"].get<std::uint64_t>();
     if (parse_shard(concat("1/", shards))) return shards;
@@ -109,8 +109,8 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
 /// For a task that died without writing a report into the crowd's folder: adds the error from the
 /// task's log to the status.
 void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
-  const TaskEnd end = parse_task_end(
-      text_of(directory.task_folder() / "log" / concat("blend-", status.shard.index, ".log")));
+  const TaskEnd end = parse_task_end(text_of(directory.cluster_task_folder() / "log" /
+                                             concat("blend-", status.shard.index, ".log")));
   if (!end.exit_code || *end.exit_code == 0) return;
   constexpr auto kAgain = static_cast<std::uint64_t>(ExitCode::kInterrupted);
   status.state = *end.exit_code == kAgain ? ShardState::kInterrupted : ShardState::kFailed;
@@ -148,7 +148,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
   const auto is_log = [](const fs::path& path) {
     return path.extension() == ".log" && !path.filename().string().starts_with("blend-");
   };
-  for (const fs::path& log : list_files(directory.task_folder() / "log", is_log)) {
+  for (const fs::path& log : list_files(directory.cluster_task_folder() / "log", is_log)) {
     const TaskEnd end = parse_task_end(text_of(log));
     if (!end.exit_code || *end.exit_code == 0 || end.requeued) continue;
     status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.exit_code,
@@ -178,11 +178,11 @@ TaskEnd parse_task_end(std::string_view log) {
 
 CrowdStatus crowd_status(const fs::path& crowd_directory) {
   const CrowdDirectory directory{crowd_directory};
-  if (!path_exists(directory.task_folder())) require_crowd(directory);
+  if (!path_exists(directory.cluster_task_folder())) require_crowd(directory);
   CrowdStatus status;
   status.is_planned = path_exists(directory.plan());
-  status.is_gathered = path_exists(directory.report());
-  const std::uint64_t shards = status.is_gathered ? 1 : shard_count(directory);
+  status.is_report_written = path_exists(directory.report());
+  const std::uint64_t shards = status.is_report_written ? 1 : shard_count(directory);
   for (std::uint64_t index = 1; shards > 1 && index <= shards; ++index) {
     status.shards.push_back(status_of(directory, {index, shards}));
   }
@@ -204,7 +204,7 @@ CrowdStatus crowd_status(const fs::path& crowd_directory) {
       status.seconds_left = std::max(status.seconds_left.value_or(0), *shard.seconds_left);
     }
   }
-  if (!status.is_gathered) add_failures(directory, status);
+  if (!status.is_report_written) add_failures(directory, status);
   return status;
 }
 

@@ -24,7 +24,7 @@ struct ShardStatus {
   std::optional<double> seconds_since_write;
   std::string machine;
   std::string reason;  ///< why the last run ended early
-  /// Whether Slurm will run the shard's task again, although the last run ended early.
+  /// Whether the last run ended early and Slurm will run the shard's task again.
   bool requeued = false;
 
   /// The state for users: "requeued", or the name of `state`.
@@ -33,7 +33,7 @@ struct ShardStatus {
 
 struct CrowdStatus {
   bool is_planned = false;                ///< whether the plan exists
-  bool is_gathered = false;               ///< whether the report exists, so that all work is done
+  bool is_report_written = false;         ///< whether the report exists, so that all work is done
   std::uint64_t face_count = 0;           ///< number of faces in the plan
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun

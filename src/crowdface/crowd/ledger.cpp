@@ -199,7 +199,7 @@ Ledger::Ledger(fs::path root, const fs::path& own_ledger, const std::vector<fs::
   file_ = std::make_unique<AppendFile>(own_ledger);
 }
 
-std::optional<LedgerEntry> Ledger::find_proven(const std::string& item, const Digest& key) {
+std::optional<LedgerEntry> Ledger::find_verified(const std::string& item, const Digest& key) {
   std::vector<LedgerEntry> candidates;
   {
     const std::lock_guard lock(mutex_);
@@ -270,7 +270,7 @@ FileDigest Ledger::write(const std::string& name, const TextPieces& text) {
     return content;
   }
   const LedgerEntry::File file{name, digest_of(text)};
-  if (find_proven(name, file.content.digest)) return file.content;
+  if (find_verified(name, file.content.digest)) return file.content;
   if (!has_content(root_ / name, file.content)) write_file(root_ / name, text);
   record_existing(file);
   return file.content;
@@ -291,16 +291,17 @@ void Ledger::record_remade_entry(LedgerEntry entry, std::vector<LedgerEntry::Fil
   record(std::move(entry));
 }
 
-void Ledger::record_remade(const std::string& item, const std::vector<std::string>& names,
-                           const std::vector<std::string>& folders) {
+void Ledger::record_remade_files(const std::string& item,
+                                 const std::vector<std::string>& file_names,
+                                 const std::vector<std::string>& remade_folders) {
   const auto is_in_them = [&](const std::string& name) {
-    return std::any_of(folders.begin(), folders.end(),
+    return std::any_of(remade_folders.begin(), remade_folders.end(),
                        [&](const std::string& folder) { return name.starts_with(folder + '/'); });
   };
   const auto known = items_.find(item);
   record_remade_entry(
       known == items_.end() ? LedgerEntry{item, {}, {}, {}} : known->second.lines.back(),
-      hash_files(names));
+      hash_files(file_names));
   // If an item has several lines, take the last line that matches the existing files. If no line
   // matches, take the last line.
   const auto line_of = [&](const std::vector<LedgerEntry>& lines) {

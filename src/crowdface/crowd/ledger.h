@@ -81,7 +81,7 @@ class Ledger {
 
   /// Returns a ledger line of the item that has this key and whose files are unchanged. Such a line
   /// proves that the item is finished.
-  std::optional<LedgerEntry> find_proven(const std::string& item, const Digest& key);
+  std::optional<LedgerEntry> find_verified(const std::string& item, const Digest& key);
 
   /// Appends one line for each entry to the ledger. The files of the entries must have been written
   /// by `write_file` or `write_files`.
@@ -100,26 +100,26 @@ class Ledger {
   /// content.
   void record_existing(const LedgerEntry::File& file);
 
-  /// Records files that were made again, possibly in a format that the config does not ask for.
-  /// Items with changed files get another key, so that the next run makes these files again in the
-  /// way that the config demands. Items with unchanged files keep their lines.
-  /// \param item, names  an item and its present files
-  /// \param folders      folders with remade files; files of other items in these folders are
-  ///                     hashed again, too
-  void record_remade(const std::string& item, const std::vector<std::string>& names,
-                     const std::vector<std::string>& folders);
+  /// Records files that were made again, possibly in another format than the config demands. If a
+  /// file of an item changed, the item gets another key. The next run does not look for this key.
+  /// So it makes the item again as the config demands. Items with unchanged files keep their lines.
+  /// \param item, file_names  an item and its present files
+  /// \param remade_folders    folders with remade files; files of other items in these folders are
+  ///                          hashed again, too
+  void record_remade_files(const std::string& item, const std::vector<std::string>& file_names,
+                           const std::vector<std::string>& remade_folders);
 
-  /// Sorts the ledger by item and keeps only the entries that this run proved or recorded. Removes
-  /// all other ledgers, and the files that are named only in outdated lines.
+  /// Sorts the ledger by item and keeps only the entries that this run verified or recorded.
+  /// Removes all other ledgers, and the files that are named only in outdated lines.
   void compact();
 
   /// Call this before a run reports success.
-  /// \throws IoError if the ledger or a file that this run proved or recorded no longer exists.
+  /// \throws IoError if the ledger or a file that this run verified or recorded no longer exists.
   void require_files() const;
 
  private:
   /// The ledger lines of one item. `is_finished` false: the lines that existed when this run began.
-  /// `is_finished` true: the single line that this run proved or recorded.
+  /// `is_finished` true: a single line, which this run recorded or found to match the item's files.
   struct Item {
     std::vector<LedgerEntry> lines;
     bool is_finished = false;

@@ -70,9 +70,9 @@ Json rounded_or_null(const std::optional<double>& value) {
 }  // namespace
 
 std::string format_status_table(const CrowdStatus& status) {
-  std::string text = status.is_gathered  ? "finished"
-                     : status.is_planned ? "planned, not finished"
-                                         : "not planned yet";
+  std::string text = status.is_report_written ? "finished"
+                     : status.is_planned      ? "planned, not finished"
+                                              : "not planned yet";
   if (status.is_planned) {
     text += concat(": ", status.finished_face_count, " of ", status.face_count, " faces, ",
                    percent(status.finished_face_count, status.face_count));
@@ -90,7 +90,7 @@ std::string format_status_table(const CrowdStatus& status) {
 
 std::string format_status_json(const CrowdStatus& status) {
   Json json = {{"planned", status.is_planned},
-               {"finished", status.is_gathered},
+               {"finished", status.is_report_written},
                {"faces", status.face_count},
                {"done", status.finished_face_count},
                {"faces_a_second", rounded_or_null(status.faces_a_second)},

@@ -32,7 +32,7 @@ std::string single_line_yaml(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::kList) return flow_list(texts_of(node.items, single_line_yaml));
   if (node.kind == YamlNode::Kind::kMap) {
     return flow_map(texts_of(node.entries, [](const YamlEntry& child) {
-      return entry(write_scalar(child.key), single_line_yaml(child.value));
+      return yaml_entry(write_scalar(child.key), single_line_yaml(child.value));
     }));
   }
   return node.is_quoted ? write_scalar(node.text) : node.text;
@@ -44,8 +44,8 @@ std::string text_of(const YamlNode& edits) {
   if (edits.entries.empty()) text += "{}\n";
   for (const auto& [key, place, value] : edits.entries) {
     const bool is_list = value.kind == YamlNode::Kind::kList;
-    text += entry(key, is_list ? block_list(texts_of(value.items, single_line_yaml))
-                               : single_line_yaml(value));
+    text += yaml_entry(key, is_list ? block_list(texts_of(value.items, single_line_yaml))
+                                    : single_line_yaml(value));
     text += '\n';
   }
   return text;
@@ -78,7 +78,7 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
   write_file(file, text);
   if (named != nullptr) return file;
 
-  const std::string line = entry("edits", write_scalar(name));
+  const std::string line = yaml_entry("edits", write_scalar(name));
   config_text +=
       concat(config_text.ends_with('\n') ? "" : "\n", "\n", line, "  # saved by crowdface edit\n");
   Complaints complaints;
@@ -94,7 +94,7 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
 /// Makes paths relative to the config's folder, and formats them as a YAML list on one line.
 std::string paths_from(const fs::path& config, const std::vector<fs::path>& files) {
   const fs::path folder = fs::absolute(config).lexically_normal().parent_path();
-  return flow_names(texts_of(files, [&](const fs::path& file) {
+  return flow_list_of_names(texts_of(files, [&](const fs::path& file) {
     return fs::absolute(file).lexically_normal().lexically_proximate(folder).generic_string();
   }));
 }
@@ -113,7 +113,7 @@ fs::path put_recipe(const ManualRecipe& recipe, const Config& config) {
 
 fs::path put_regions(const fs::path& config, const std::vector<std::string>& names,
                      const std::vector<fs::path>& masks) {
-  return put_sections(config, concat("regions: {names: ", flow_names(names),
+  return put_sections(config, concat("regions: {names: ", flow_list_of_names(names),
                                      ", mask: ", paths_from(config, masks), "}\n"));
 }
 
@@ -141,7 +141,7 @@ fs::path restore_section(const fs::path& config, const std::string& section,
   return put_edit(config, [&](YamlNode& edits) {
     std::erase_if(edits.entries, [&](const YamlEntry& edit) { return edit.key == section; });
     if (!value) return;
-    YamlNode root = parsed(entry(section, *value), section);
+    YamlNode root = parsed(yaml_entry(section, *value), section);
     if (root.entries.size() != 1) throw UsageError(concat(section, ": expected one value"));
     edits.entries.push_back(std::move(root.entries.front()));
   });

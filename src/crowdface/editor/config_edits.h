@@ -27,7 +27,7 @@ std::filesystem::path put_regions(const std::filesystem::path& config,
                                   const std::vector<std::string>& names,
                                   const std::vector<std::filesystem::path>& masks);
 
-/// Saves in the edits a list of heads: the config's heads, followed by new heads.
+/// Saves a list of heads in the file of edits: the config's heads, followed by new heads.
 /// \param config  file of the config.
 /// \param heads   mesh files of the new heads.
 /// \return the file of the edits.

@@ -38,14 +38,14 @@ BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index
 
 FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
                   std::uint32_t attempt) {
-  const bool keeps_target = request.original || !request.locked_parts.empty();
+  const bool keeps_target = request.original || !request.locked_bands.empty();
   const FacePlan& old = request.original ? *request.original : request.start_face;
   ManualRecipe open;
   open.id = request.start_face.id;
   open.age = Range{0, 0};
   if (keeps_target) open.target = old.recipe.target;
   FacePlan face = random_face_plan(casting, open, {0, attempt, concat("edit/", open.id)},
-                                   kind_of_group(casting));
+                                   distribution_of_group(casting));
   if (keeps_target) {
     face.recipe.mixture = old.recipe.mixture;
     face.recipe.colours = old.recipe.colours;
@@ -60,7 +60,7 @@ FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
                      face.recipe.target, sources_of(casting.sampling, b), casting);
     }
   }
-  copy_bands(request.locked_parts, request.start_face.recipe, face.recipe);
+  copy_bands(request.locked_bands, request.start_face.recipe, face.recipe);
   return face;
 }
 

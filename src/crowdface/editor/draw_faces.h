@@ -14,9 +14,9 @@ namespace crowdface {
 /// A request to sample several faces. The user chooses among the sampled faces.
 struct SampleRequest {
   FacePlan start_face;  ///< the face to sample anew: supplies the id and all locked parts
-  /// indices of the parts of the face that do not change, as in reviews; if there are any, the
-  /// target does not change either
-  std::vector<std::size_t> locked_parts;
+  /// bands that do not change, indexed as in ReviewMark::locked_bands; if there are any, the target
+  /// does not change either
+  std::vector<std::size_t> locked_bands;
   std::optional<FacePlan> original;  ///< if set, sample variations of this face
   /// 0 to 1: how far a variation moves from `original` (0) towards an independently sampled face
   /// (1)

@@ -43,10 +43,10 @@ class EditorLock {
         lock_(folder / ".editor.lock", LockKind::kExclusive, [&] { refuse(folder, address_); }) {}
   ~EditorLock() { remove_if_exists(address_); }
 
-  /// Writes the editor's address into the address file. Another editor that finds the lock taken
-  /// reports this address.
+  /// Writes the editor's address into the address file. If another editor is started while the lock
+  /// is held, its error message contains this address.
   /// \throws CannotCreate
-  void tell(const std::string& address) {
+  void write_address(const std::string& address) {
     remove_if_exists(address_);
     constexpr mode_t kOwnerOnly = 0600;
     Descriptor file(
@@ -122,7 +122,7 @@ void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& o
   };
   LocalServer server([&](const HttpRequest& request) { return now_opened()->api.answer(request); },
                      options.port);
-  lock.tell(server.address());
+  lock.write_address(server.address());
   started(server.address());
   server.run(interrupted);
 }

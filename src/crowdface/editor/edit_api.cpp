@@ -65,7 +65,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/masks/save", &EditApi::save_masks},
                                             {"POST", "api/regions", &EditApi::use_regions},
                                             {"POST", "api/dropped", &EditApi::begin_drop},
-                                            {"PUT", "api/dropped/", &EditApi::drop_bytes},
+                                            {"PUT", "api/dropped/", &EditApi::receive_dropped_file},
                                             {"POST", "api/heads", &EditApi::add_heads},
                                             {"POST", "api/open", &EditApi::open_again}};
   return answer_or_refuse(request, [this](const HttpRequest& asked) {

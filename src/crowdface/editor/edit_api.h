@@ -55,14 +55,16 @@ class EditApi {
   // Handlers of requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
   // Handlers of requests that add heads.
-  Handler begin_drop, drop_bytes, add_heads;
+  Handler begin_drop, receive_dropped_file, add_heads;
   HttpAnswer painted_masks() const;
   EditedFolder::WriteMesh mesh_writer();
   /// Returns a path for new masks at which no file exists yet. Files of earlier masks are not
   /// overwritten, so that the user can undo steps.
-  std::filesystem::path unused_masks() const;
+  std::filesystem::path unused_mask_path() const;
   void require_masks_of_config() const;
-  void require_own_config() const;
+  /// \throws UsageError if the job was opened from a crowd's folder, whose config records how the
+  ///         crowd was made and must not change.
+  void require_editable_config() const;
   void require_no_run();
 
   // These functions read the value of a key from the body of a request.

@@ -50,7 +50,7 @@ HttpAnswer EditApi::state(const HttpRequest&, const std::string&) {
 }
 
 HttpAnswer EditApi::take_over(const HttpRequest& request, const std::string& rest) {
-  folder_.take_over(text_in(parse_json_body(request), "page"));
+  folder_.set_editing_page(text_in(parse_json_body(request), "page"));
   return state(request, rest);
 }
 
@@ -90,7 +90,7 @@ HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
   return json_answer(file_json(folder_.save(session_.job(), face, *format, mesh_writer())));
 }
 
-void EditApi::require_own_config() const {
+void EditApi::require_editable_config() const {
   if (may_edit_config_) return;
   throw UsageError(
       "the config.yaml in a crowd's folder records how its faces were made and cannot be edited; "
@@ -98,7 +98,7 @@ void EditApi::require_own_config() const {
 }
 
 HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
-  require_own_config();
+  require_editable_config();
   const Json body = parse_json_body(request);
   const Config& config = session_.job().config;
   const ManualRecipe recipe =
@@ -158,8 +158,8 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
     return json_answer(file_json(folder_.save_change(session_.job().config, *change)));
   }
   if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");
-  mark.locked_parts = parts_in(body, "lock");
-  if (!mark.locked_parts.empty()) mark.verdict = ReviewMark::Verdict::kReject;
+  mark.locked_bands = parts_in(body, "lock");
+  if (!mark.locked_bands.empty()) mark.verdict = ReviewMark::Verdict::kReject;
   if (body.contains("note")) {
     mark.note = text_in(body, "note");
     if (mark.note->size() > kLongestNote) {
@@ -203,13 +203,13 @@ HttpAnswer EditApi::save_masks(const HttpRequest&, const std::string&) {
   const std::lock_guard lock(build_mutex_);
   folder_.require_same_folder();
   Json files = Json::array();
-  for (const auto& file : painting_.save(painting_.changed_regions({}), unused_masks())) {
+  for (const auto& file : painting_.save(painting_.changed_regions({}), unused_mask_path())) {
     files.push_back(file.string());
   }
   return json_answer({{"files", files}});
 }
 
-std::filesystem::path EditApi::unused_masks() const {
+std::filesystem::path EditApi::unused_mask_path() const {
   for (std::size_t number = 1;; ++number) {
     const std::string stem = number == 1 ? "masks" : concat("masks-", number);
     const bool is_used = std::ranges::any_of(
@@ -228,7 +228,7 @@ nlohmann::ordered_json EditApi::edit_json(const std::filesystem::path& edits,
 }
 
 HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& rest) {
-  require_own_config();
+  require_editable_config();
   require_no_run();
   const Json body = parse_json_body(request);
   const std::filesystem::path& config = session_.job().config.file;
@@ -240,7 +240,7 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
       edits = restore_section(config, "regions", optional_text_in(body, "back"));
     } else {
       const PaintedRegions regions = painting_.changed_regions(body);
-      edits = put_regions(config, regions.names, painting_.save(regions, unused_masks()));
+      edits = put_regions(config, regions.names, painting_.save(regions, unused_mask_path()));
     }
     painting_.delete_stored_strokes();
   }
@@ -250,7 +250,7 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
 
 HttpAnswer EditApi::begin_drop(const HttpRequest& request, const std::string&) {
   constexpr double kMostBytes = 1e15;
-  require_own_config();
+  require_editable_config();
   const Json body = parse_json_body(request);
   std::map<std::string, std::uint64_t> sizes;
   for (const auto& [name, ignored] : body.items()) {
@@ -261,7 +261,7 @@ HttpAnswer EditApi::begin_drop(const HttpRequest& request, const std::string&) {
 }
 
 /// PUT api/dropped/OFFSET/NAME; the body holds the bytes of the file from this offset on.
-HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& rest) {
+HttpAnswer EditApi::receive_dropped_file(const HttpRequest& request, const std::string& rest) {
   const std::size_t slash = std::min(rest.find('/'), rest.size());
   const auto offset = parse_unsigned(std::string_view(rest).substr(0, slash));
   if (!offset || slash == rest.size()) return error_answer(404, "there is nothing at this address");
@@ -272,7 +272,7 @@ HttpAnswer EditApi::drop_bytes(const HttpRequest& request, const std::string& re
 /// Adds the dropped heads to the config. With {"back": value}, restores an earlier value of the
 /// edits instead. If the heads cannot be loaded, restores the config.
 HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& rest) {
-  require_own_config();
+  require_editable_config();
   require_no_run();
   const Json body = parse_json_body(request);
   const Config& config = session_.job().config;

@@ -114,11 +114,12 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
                                    : Eigen::MatrixXd())),
       preview_(preview_future_.get()),
       vertex_faces_(job_.inputs.head_set.topology),
-      sky_shares_(std::async(std::launch::async, [this] {
-                    return vertex_visibility(job_.inputs.head_set.topology,
-                                             surfaces_of(job_.config, job_.inputs).kinds,
-                                             mean_head(job_.inputs.head_set), preview_.vertices);
-                  }).share()) {
+      sky_visibility_(std::async(std::launch::async, [this] {
+                        return vertex_visibility(job_.inputs.head_set.topology,
+                                                 surfaces_of(job_.config, job_.inputs).kinds,
+                                                 mean_head(job_.inputs.head_set),
+                                                 preview_.vertices);
+                      }).share()) {
   if (job_.config.smoothing.levels == LevelRepresentation::kExact) {
     preview_prepared_ =
         prepare(with_fitted_levels(job_.config), job_.inputs, job_.smoothing, cache);
@@ -164,7 +165,7 @@ void EditSession::use_masks(const RegionWeights& masks) {
 
 NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::Point& point,
                                                                const FacePlan& recipe,
-                                                               const std::string& opened) const {
+                                                               const std::string& opened_id) const {
   NearestFaceSearch::NearestFace nearest;
   const auto search = [&](Index begin, Index end) {
     if (begin == end) return;
@@ -173,7 +174,7 @@ NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::
   };
   Index begin = 0;
   for (const FacePlan& face : *crowd_) {
-    if (face.id != recipe.id && face.id != opened) continue;
+    if (face.id != recipe.id && face.id != opened_id) continue;
     const Index at = &face - crowd_->data();
     search(begin, at);
     begin = at + 1;
@@ -187,7 +188,7 @@ double EditSession::distance_mm(const FacePlan& one, const FacePlan& other) cons
   return FaceSpace::distance(space.point(one.recipe), space.point(other.recipe));
 }
 
-FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& opened) const {
+FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& opened_id) const {
   const JudgingData& judging = judging_.get();
   const FaceJudge& judge = judging.judge;
   const FaceSpace::Point point = judge.space().point(recipe.recipe);
@@ -196,9 +197,9 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
   measures.nearest_head = head.face;
   measures.nearest_head_mm = head.distance_mm;
   measures.nearest_head_as_built_mm =
-      (point.as_built - judge.space().head_point(head.face).as_built).norm();
+      (point.with_extrapolation - judge.space().head_point(head.face).with_extrapolation).norm();
   if (crowd_) {
-    const NearestFaceSearch::NearestFace nearest = nearest_other_face(point, recipe, opened);
+    const NearestFaceSearch::NearestFace nearest = nearest_other_face(point, recipe, opened_id);
     if (nearest.face >= 0) {
       measures.nearest_face = static_cast<std::size_t>(nearest.face);
       measures.nearest_face_mm = nearest.distance_mm;
@@ -215,8 +216,8 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
 }
 
 FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
-                                  const std::string& opened) const {
-  FaceMeasures measures = measure(recipe, opened);
+                                  const std::string& opened_id) const {
+  FaceMeasures measures = measure(recipe, opened_id);
   if (job_.config.believability.check &&
       builder_.gap_excess_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
     measures.warnings.push_back(sentence(Reason::kGap, job_.config));
@@ -225,7 +226,7 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
 }
 
 FacePlan EditSession::steer(FacePlan face, const std::string& trait, double wanted,
-                            const std::vector<std::size_t>& locked_parts) const {
+                            const std::vector<std::size_t>& locked_bands) const {
   const auto& traits = judging_.get().traits;
   const auto measured = traits ? traits->trait_indices() : std::vector<std::size_t>();
   const auto found = find_measurement(trait);
@@ -239,9 +240,11 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
   std::vector<SteeredBand> bands;
   const std::size_t count = band_count(casting_.sampling);
   for (std::size_t part = 0; part < count * face.recipe.regions.size(); ++part) {
-    if (std::ranges::find(locked_parts, part) != locked_parts.end()) continue;
+    if (std::ranges::find(locked_bands, part) != locked_bands.end()) continue;
     SteeredBand band{part / count, part % count, sources_of(casting_.sampling, part % count)};
-    for (const SourceWeight& lent : target_shares(face.recipe)) band.heads.push_back(lent.head);
+    for (const SourceWeight& lent : target_head_weights(face.recipe)) {
+      band.heads.push_back(lent.head);
+    }
     for (const SourceWeight& lent : band_of(face.recipe.regions[band.region], band.band).weights) {
       band.heads.push_back(lent.head);
     }

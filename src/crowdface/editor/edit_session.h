@@ -34,9 +34,10 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
+  /// The smaller of two distances to `nearest_head`: `nearest_head_as_built_mm`, and the distance
+  /// without extrapolation (all extrapolation factors 1).
   double nearest_head_mm = 0;
-  /// Distance from the face as built to the head `nearest_head`. nearest_head_mm is the smaller of
-  /// two distances: this distance, and the distance after all extrapolation factors are set to 1.
+  /// distance to `nearest_head` with the face's own extrapolation factors
   double nearest_head_as_built_mm = 0;
   /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
   /// which the user began the edit.
@@ -79,8 +80,8 @@ class EditSession {
   /// square root of the visible fraction of the sky. Returns a BinaryAnswer. Waits until the
   /// computation is finished.
   std::string ambient_light_answer() const;
-  /// A BinaryAnswer with a head's positions at the preview's vertices, the head's fields, and the
-  /// functions of these fields.
+  /// A BinaryAnswer with a head's positions at the preview's vertices, the head's vector fields,
+  /// and the values of the level functions of these fields (see HeadLevels).
   std::string head_answer(Index head) const;
 
   /// The region masks for blending; zero at vertices of components that are not skin.
@@ -95,11 +96,11 @@ class EditSession {
   Positions build(const Recipe& recipe) const;
   /// Measures a face from the recipe, without building the mesh. Therefore does not check gaps,
   /// such as the gap between the lips.
-  /// \param opened  id of the crowd's face from which the edit began, or empty
-  FaceMeasures measure(const FacePlan& recipe, const std::string& opened = "") const;
+  /// \param opened_id  id of the crowd's face from which the edit began, or empty
+  FaceMeasures measure(const FacePlan& recipe, const std::string& opened_id = "") const;
   /// \param face  result of `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
-                       const std::string& opened = "") const;
+                       const std::string& opened_id = "") const;
   /// Finds visible faults in the whole mesh of a face; see MeshFaults. \param face result of
   /// `build`
   std::vector<std::string> mesh_faults(const Recipe& recipe, const Positions& face) const {
@@ -109,11 +110,11 @@ class EditSession {
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
   /// Changes the weights of a face so that a measurement comes as near to `wanted` as the heads
   /// allow; see steer_trait. Returns the changed face.
-  /// \param locked_parts  parts that do not change, as in SampleRequest
+  /// \param locked_bands  bands that do not change, as in SampleRequest
   /// \throws UsageError if the measurement is not available, or if the config's normalization does
   /// not allow weights that come from no position on the plane.
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
-                 const std::vector<std::size_t>& locked_parts) const;
+                 const std::vector<std::size_t>& locked_bands) const;
   /// Samples faces for the user to choose from; see the function sample_faces.
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
@@ -136,9 +137,12 @@ class EditSession {
     std::unique_ptr<const TraitRules> rules;
   };
   JudgingData judging() const;
+  /// Finds the nearest face of the crowd, except the faces with the ids `recipe.id` and
+  /// `opened_id`.
+  /// \param opened_id  id of the crowd's face from which the edit began, or empty
   NearestFaceSearch::NearestFace nearest_other_face(const FaceSpace::Point& point,
                                                     const FacePlan& recipe,
-                                                    const std::string& opened) const;
+                                                    const std::string& opened_id) const;
   nlohmann::ordered_json regions_json() const;
   FacePlan first_face() const;
   std::vector<HeadLevels> preview_levels() const;
@@ -160,9 +164,9 @@ class EditSession {
   CastingOptions casting_;
   PreviewMesh preview_;
   VertexFaces vertex_faces_;
-  /// For each preview vertex: the visible fraction of the sky. The computation takes about a
-  /// second.
-  std::shared_future<std::vector<float>> sky_shares_;
+  /// For each preview vertex: the visible fraction of the sky, for ambient occlusion. The
+  /// computation takes about a second.
+  std::shared_future<std::vector<float>> sky_visibility_;
 };
 
 }  // namespace crowdface

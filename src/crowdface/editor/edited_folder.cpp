@@ -90,7 +90,7 @@ std::string EditedFolder::saved_state() const {
   return path_exists(file) ? read_file(file) : std::string();
 }
 
-void EditedFolder::take_over(std::string page) {
+void EditedFolder::set_editing_page(std::string page) {
   const std::lock_guard lock(mutex_);
   editing_page_ = std::move(page);
 }
@@ -170,7 +170,7 @@ fs::path EditedFolder::save_review(const Config& config, const std::function<voi
   Review review;
   const std::string before = path_exists(file) ? read_file(file) : std::string();
   if (before.empty() || crowd_has_review(config, before)) {
-    review.seen_review_count = config.review.reviews.size();
+    review.review_count_seen_by_reviewer = config.review.reviews.size();
   } else {
     review = parse_review(before, file.string(), config, problems);
   }

@@ -34,16 +34,16 @@ class EditedFolder {
   /// Checks that this is still the folder that the constructor opened. Code outside this class must
   /// call this function before it writes to the folder. \throws IoError if another folder has
   /// replaced the folder.
-  void require_same_folder() const { handle_.require_same(); }
+  void require_same_folder() const { handle_.require_still_at_path(); }
 
   /// Returns the state text that a page saved last; empty if no page has saved a state.
   std::string saved_state() const;
   /// Makes `page` the only page that may save the state, because two pages would overwrite each
   /// other's steps.
-  void take_over(std::string page);
+  void set_editing_page(std::string page);
   /// Saves the state of a page.
-  /// \param page  the page that sends the state, or empty if no page has taken over
-  /// \return false if another page has taken over; the state is then not saved
+  /// \param page  the page that sends the state, or empty if no page has called set_editing_page
+  /// \return false if another page is the editing page; the state is then not saved
   bool save_state(std::string_view text, const std::string& page);
 
   /// Writes the mesh of a face in one format.
@@ -72,7 +72,7 @@ class EditedFolder {
   std::filesystem::path path_;
   DirectoryHandle handle_;
   std::mutex mutex_;
-  std::string editing_page_;  ///< see take_over
+  std::string editing_page_;  ///< see set_editing_page
 };
 
 }  // namespace crowdface

@@ -118,12 +118,10 @@ GenerateRun::State GenerateRun::state() {
   return state_;
 }
 
-/// Updates the state of the process.
-/// \param options  WNOHANG, or 0 to wait for the end of the process.
-void GenerateRun::update_state(int options) {
+void GenerateRun::update_state(int wait_options) {
   if (state_ != State::kRunning) return;
   int status = 0;
-  if (::waitpid(process_, &status, options) != process_) return;
+  if (::waitpid(process_, &status, wait_options) != process_) return;
   const bool done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   state_ = done ? State::kDone : was_stopped_ ? State::kStopped : State::kFailed;
 }

@@ -41,7 +41,9 @@ class GenerateRun {
   RunProgress progress() const;
 
  private:
-  void update_state(int options);
+  /// Updates `state_` if the process has ended.
+  /// \param wait_options  options of waitpid: WNOHANG, or 0 to wait for the end of the process.
+  void update_state(int wait_options);
 
   std::vector<std::string> arguments_;
   std::filesystem::path log_;

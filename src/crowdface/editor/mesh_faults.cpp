@@ -29,7 +29,7 @@ std::vector<std::string> MeshFaults::faults_of(const Recipe& recipe, const Posit
   if (parts_through_skin_->exposed_mm2(face) - target->exposed_parts_mm2 > limits.max_exposed_mm2) {
     faults.emplace_back("gums, teeth or other parts stand out of the skin");
   }
-  if (defects.exposed_back_mm2 > limits.max_exposed_mm2) {
+  if (defects.exposed_back_face_mm2 > limits.max_exposed_mm2) {
     faults.push_back(describe_violation(Reason::kExposed, job_.config.diversity, limits));
   }
   const auto why = exceeded_limit(limits, defects);

@@ -56,7 +56,7 @@ Digest hash_painting_base(const EditSession& session) {
 
 RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path& strokes)
     : session_(session),
-      mean_(shape_of_mean(session.job().inputs.head_set)),
+      mean_(mean_head_shape(session.job().inputs.head_set)),
       strokes_(strokes, hash_painting_base(session)) {
   replay_strokes();
 }

@@ -52,7 +52,7 @@ std::string hex_colour(const Eigen::Vector3f& colour) {
 }
 
 /// The range of smoothness from which casting samples, as fractions of L_max.
-Range fractions_of(const SmoothnessDistribution& smoothness, const LevelScale& scale) {
+Range fractions_of(const SmoothnessDistribution& smoothness, const SmoothingLevelScale& scale) {
   const auto fraction = [&](double value) {
     double share = value;
     if (smoothness.unit == SmoothnessDistribution::Unit::kIterations) {
@@ -197,7 +197,7 @@ std::string EditSession::mesh_answer() const {
     parts.push_back(is_part[v] ? 1 : 0);
   }
   for (const std::uint32_t face : preview_.face_of_vertex)
-    textured.push_back(textures_.covers_face(face) ? 1 : 0);
+    textured.push_back(textures_.covers_polygon(face) ? 1 : 0);
   Eigen::Array3d low = mean.row(0).array(), high = low;
   for (const Head& head : head_set.heads) {
     low = low.min(head.positions.colwise().minCoeff().transpose().array());
@@ -236,7 +236,7 @@ std::string EditSession::mesh_answer() const {
 
 std::string EditSession::ambient_light_answer() const {
   std::vector<std::uint8_t> roots;
-  for (const float share : sky_shares_.get()) {
+  for (const float share : sky_visibility_.get()) {
     roots.push_back(static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share))));
   }
   BinaryAnswer answer;

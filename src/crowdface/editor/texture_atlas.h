@@ -27,8 +27,8 @@ class TextureAtlas {
     return {uv.x() * static_cast<float>(columns_), uv.y() * static_cast<float>(rows_)};
   }
   /// Whether the atlas contains the texture of a polygon.
-  bool covers_face(std::uint32_t face) const {
-    return !cell_of_face_.empty() && cell_of_face_[face] != TextureLayer::kNone;
+  bool covers_polygon(std::uint32_t polygon) const {
+    return !cell_of_face_.empty() && cell_of_face_[polygon] != TextureLayer::kNone;
   }
   /// Returns the atlas of a head's colour textures, as a JPEG file; nothing if the head has no
   /// texture.

@@ -83,13 +83,13 @@ MapCoding coding_of_values(const Image& image, int channels) {
 TextureMap map_of(const Image& image, const NeededMap& needed) {
   switch (needed.content) {
     case MapContent::kColours:
-      return make_texture_map(needed.width, needed.height, light_of(image));
+      return make_texture_map(needed.width, needed.height, linear_light_of(image));
     case MapContent::kSlopes:
       if (!holds_normals(image)) {
         throw InvalidInput(concat(needed.path.string(),
                                   ": expected a normal map, whose third channel is the brightest"));
       }
-      return make_texture_map(needed.width, needed.height, slopes_of(image),
+      return make_texture_map(needed.width, needed.height, normal_slopes_of(image),
                               MapCoding::slope_coding());
     case MapContent::kValues:
       return make_texture_map(needed.width, needed.height, values_of(image),
@@ -244,11 +244,11 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) {
         const ImageSize& file = sizes.at(found.heads[h].files[row].path);
         channels = std::max(channels, file.channels);
-        name.has_only_bytes = name.has_only_bytes && file.has_bytes;
+        name.has_only_bytes = name.has_only_bytes && file.has_8_bit_values;
         name.has_floats = name.has_floats || file.has_floats;
       }
     }
-    const auto& first = found.heads[pictures[p].head].files[pictures[p].row].path;
+    const auto& first = found.heads[pictures[p].head].files[pictures[p].file_index].path;
     held.push_back(content_of(found.kind, first, channels));
   }
   const auto needed = [&](std::size_t h, std::uint32_t row, std::size_t p) {
@@ -284,7 +284,7 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       if (map) continue;
       const PictureName& name = result.names[p];
       found.warnings.push_back(
-          concat(heads.heads[h].name, ": has no ", statement_of(found.kind).name, " texture",
+          concat(heads.heads[h].name, ": has no ", mtl_statement_of(found.kind).name, " texture",
                  name.part.empty() ? "" : concat(" for all of ", name.part),
                  name.tile == 0 ? "" : concat(" in tile ", name.tile),
                  "; in its place, faces use the textures of their other heads"));

@@ -24,7 +24,8 @@ struct SquareLayout {
       : per_row(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(polygons))))) {}
   int side() const { return kTexels * per_row; }
   Eigen::RowVector2d place(Index polygon, std::size_t corner, std::size_t corners) const {
-    // The corners of a quad are centres of texels, so that interpolation stays in the square.
+    // Radius, in texels, of the circle through the corners. The corners of a quad are then the
+    // centres of the square's corner texels, so that interpolation stays in the square.
     constexpr double kRadius = 1.5 * std::numbers::sqrt2;
     const double angle =
         2 * std::numbers::pi * (static_cast<double>(corner) + 0.5) / static_cast<double>(corners);
@@ -58,7 +59,7 @@ std::shared_ptr<const TextureMap> white_map(int side) {
 std::shared_ptr<const TextureMap> read_texture_map(const std::filesystem::path& file) {
   const Image image = read_image(file, {.allows_jpeg = true});
   return std::make_shared<const TextureMap>(
-      make_texture_map(image.width, image.height, light_of(image)));
+      make_texture_map(image.width, image.height, linear_light_of(image)));
 }
 
 /// A layout with one image, which holds all polygons that have texture coordinates.
@@ -90,7 +91,7 @@ BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
     : neck_(neck),
       topology_(neck.body->file.topology),
       uvs_(neck.body->file.uvs),
-      body_ring_densities_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
+      body_optical_densities_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
       fade_(topology_, build_adjacency(topology_), neck.body->file.positions, neck.body_rim,
             falloff_mm / neck.mm_per_unit) {
   if (texture.empty()) {
@@ -106,12 +107,12 @@ BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
   texels_ =
       std::make_unique<const SurfaceTexels>(topology_, uvs_, one_picture(topology_, *map_), 0);
   if (texture.empty()) return;
-  body_ring_densities_ =
+  body_optical_densities_ =
       coarse_at(neck.body_rim, topology_, neck.body->file.positions, *texels_, map_);
 }
 
 BlendedPicture BodyPainter::paint(const Positions& ring_densities) const {
-  const Positions difference = ring_densities - body_ring_densities_;
+  const Positions difference = ring_densities - body_optical_densities_;
   const Eigen::RowVector3d mean = difference.colwise().mean();
   Positions added = mean.replicate(topology_.vertex_count, 1);
   const Positions faded = fade_.bend(difference.rowwise() - mean);

@@ -35,8 +35,8 @@ class BodyPainter {
   TextureCoordinates uvs_;
   std::shared_ptr<const TextureMap> map_;
   std::unique_ptr<const SurfaceTexels> texels_;
-  Positions body_ring_densities_;  ///< optical densities of the body, #rim by 3
-  NeckBend fade_;
+  Positions body_optical_densities_;  ///< the body's colours at the ring of the neck, #rim by 3
+  NeckBend fade_;                     ///< fades colour differences away from the ring
 };
 
 }  // namespace crowdface

@@ -92,7 +92,7 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
   entry.file_ = std::make_shared<const MappedFile>(entry.path_, OnTruncation::kFill);
   const std::string_view bytes = entry.file_->bytes();
   EntryHeader header;
-  entry.require_size(bytes.size() >= sizeof header + sizeof(Digest));
+  entry.require_size_fits(bytes.size() >= sizeof header + sizeof(Digest));
   const std::size_t size = bytes.size() - sizeof(Digest);
   entry.checksum_ = known ? *known : hash_bytes(bytes.substr(0, size));
   if (bytes.substr(size) != as_bytes(&entry.checksum_, sizeof(Digest))) {
@@ -105,21 +105,21 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
   expected.key = key_in_header(key);
   entry.require_match(bytes.starts_with(as_bytes(&expected, sizeof expected)));
   std::uint64_t end = sizeof header + header.arrays * sizeof(StoredArray);
-  entry.require_size(end <= size);
+  entry.require_size_fits(end <= size);
   entry.arrays_.resize(header.arrays);
   if (!entry.arrays_.empty()) {  // memcpy must not be given the null pointer of an empty vector
     std::memcpy(entry.arrays_.data(), bytes.data() + sizeof header, end - sizeof header);
   }
   for (const StoredArray& row : entry.arrays_) {
     end = aligned(end);
-    entry.require_size(row.offset == end && end <= size && row.name[sizeof row.name - 1] == 0);
+    entry.require_size_fits(row.offset == end && end <= size && row.name[sizeof row.name - 1] == 0);
     const auto number = static_cast<std::uint64_t>(row.type[1] - '0');
-    entry.require_size(number >= 1 && number <= sizeof(double));
+    entry.require_size_fits(number >= 1 && number <= sizeof(double));
     const std::uint64_t in_row = number * row.columns;
-    entry.require_size(row.rows <= size / std::max<std::uint64_t>(in_row, 1));
+    entry.require_size_fits(row.rows <= size / std::max<std::uint64_t>(in_row, 1));
     end += in_row * row.rows;
   }
-  entry.require_size(end == size);
+  entry.require_size_fits(end == size);
   return entry;
 }
 
@@ -138,7 +138,7 @@ void CacheEntry::require(bool holds) const {
   }
 }
 
-void CacheEntry::require_whole() const {
+void CacheEntry::require_not_truncated() const {
   if (file_->was_truncated())
     throw InvalidInput(concat(path_.string(), ": cache entry is being truncated"));
 }
@@ -150,15 +150,15 @@ void CacheEntry::require_match(bool matches) const {
   }
 }
 
-void CacheEntry::require_size(bool fits) const {
+void CacheEntry::require_size_fits(bool fits) const {
   if (!fits) throw InvalidInput(concat(path_.string(), ": cache entry is of the wrong size"));
 }
 
-bool are_coordinates(std::span<const float> values) {
+bool are_in_coordinate_range(std::span<const float> values) {
   return all_coordinates<std::int32_t>(values);
 }
 
-bool are_coordinates(std::span<const double> values) {
+bool are_in_coordinate_range(std::span<const double> values) {
   return all_coordinates<std::int64_t>(values);
 }
 

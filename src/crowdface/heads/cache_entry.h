@@ -129,8 +129,8 @@ void write_entry(const std::filesystem::path& cache, const CacheKey& key,
 
 /// Whether all numbers are finite and at most as large as mesh coordinates may be, plus a margin
 /// for the displacements that smoothing adds.
-bool are_coordinates(std::span<const float> values);
-bool are_coordinates(std::span<const double> values);
+bool are_in_coordinate_range(std::span<const float> values);
+bool are_in_coordinate_range(std::span<const double> values);
 /// `all_below`: whether all numbers are below `end`. `are_indices` also accepts kNoIndex.
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
 bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end);
@@ -149,7 +149,8 @@ class CacheEntry {
   const Digest& checksum() const { return checksum_; }
 
   /// An array in the file. \throws InvalidInput if the entry has no array with this name and type,
-  /// or if floating-point numbers in the array are not valid coordinates (see are_coordinates).
+  /// or if floating-point numbers in the array are not valid coordinates (see
+  /// are_in_coordinate_range).
   template <class T>
   std::span<const T> get(std::string_view name) const {
     using Element = detail::Element<T>;
@@ -174,9 +175,10 @@ class CacheEntry {
   /// not that the numbers were right.
   /// \throws InvalidInput if `holds` is false.
   void require(bool holds) const;
-  /// \throws InvalidInput if the file was truncated after it was opened. Arrays in the missing part
-  ///         read as zeros.
-  void require_whole() const;
+  /// Checks that no other process has shortened the file since it was opened. In a shortened file,
+  /// the missing numbers of the mapped arrays read as zeros.
+  /// \throws InvalidInput if the file was shortened.
+  void require_not_truncated() const;
 
  private:
   /// An array as the file describes it.
@@ -193,14 +195,15 @@ class CacheEntry {
   const StoredArray& find_array(std::string_view name) const {
     const StoredArray& row = find_array(name, detail::number_type<Number>());
     if constexpr (std::is_floating_point_v<Number>) {
-      require(are_coordinates({reinterpret_cast<const Number*>(at(row)), row.rows * row.columns}));
+      require(are_in_coordinate_range(
+          {reinterpret_cast<const Number*>(at(row)), row.rows * row.columns}));
     }
     return row;
   }
   const StoredArray& find_array(std::string_view name, const std::array<char, 4>& type) const;
   const char* at(const StoredArray& row) const { return file_->bytes().data() + row.offset; }
   void require_match(bool matches) const;
-  void require_size(bool fits) const;
+  void require_size_fits(bool fits) const;
 
   std::filesystem::path path_;
   std::shared_ptr<const MappedFile> file_;

@@ -59,8 +59,8 @@ CacheContents list_cache(const fs::path& cache) {
       contents.bytes += fs::file_size(file, ignored);
     }
     const std::string name = entry.filename().string();
-    contents.prepared_count += name.starts_with(kPreparedKind) ? 1U : 0U;
-    contents.read_count += name.starts_with(kReadKind) ? 1U : 0U;
+    contents.prepared_head_count += name.starts_with(kPreparedKind) ? 1U : 0U;
+    contents.loaded_head_count += name.starts_with(kReadKind) ? 1U : 0U;
   }
   return contents;
 }

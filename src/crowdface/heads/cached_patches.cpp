@@ -13,9 +13,9 @@ namespace {
 constexpr auto kPatchArrays = [](auto& arrays, auto& lists) {
   arrays("weights", lists.weights);
   arrays("vertices", lists.vertices);
-  arrays("skeletons", lists.skeleton_sizes);
+  arrays("skeletons", lists.stored_vertex_counts);
   arrays("counts", lists.field_counts);
-  arrays("steps", lists.steps);
+  arrays("steps", lists.quantization_steps);
   arrays("numbers", lists.quantized_values);
 };
 

@@ -137,7 +137,7 @@ void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& hea
   if (colours.rows() > 0) colours = ColourRows(colours(vertices, kAllColumns));
   head.file.positions = Positions(head.file.positions(vertices, kAllColumns));
   if (!match.has_own_uvs) {
-    give_mesh(head, other, colours);
+    replace_mesh(head, other, colours);
     return;
   }
   // Keep the head's own texture coordinates, so that the head checks report the difference.
@@ -226,11 +226,12 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
   return made;
 }
 
-/// Finds the mesh of heads whose vertices reading has joined by position. Corners share a vertex in
-/// the result if they have the same position in each head.
-/// \param heads  their polygons are the same
-/// \param made   receives the mesh if some vertices have one position in some heads but not in all
-/// \return a head with the mesh
+/// Finds a common mesh for heads from formats whose reader joins all vertices at the same position.
+/// In the common mesh, corners share a vertex if they have the same position in every head.
+/// \param heads  heads with the same polygons
+/// \param made   receives the common mesh if no head has this mesh, because each head joins some
+///               vertices that have different positions in another head
+/// \return a head with the common mesh
 const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
   constexpr double kMaxTouching = 0.02;  // fraction of vertices; different meshes exceed it
   Vertices vertices = heads[0]->mesh->topology.corner_vertices;
@@ -272,8 +273,9 @@ std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads)
   return *std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.size(); });
 }
 
-/// Finds the mesh that all heads take.
-/// \param made  receives the mesh if no head has it
+/// Finds the common mesh that `give_common_mesh` gives to the heads.
+/// \param made  receives the common mesh if no head has this mesh
+/// \return a head that has the common mesh, or `made`
 const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& made) {
   const auto has_first = [&](const HeadFile& head) { return head.mesh == heads[0].mesh; };
   if (std::ranges::all_of(heads, has_first)) return heads[0];
@@ -302,13 +304,14 @@ std::string difference_made(const HeadFile& head, const Vertices& vertices) {
 
 }  // namespace
 
-void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours) {
+void replace_mesh(HeadFile& head, const HeadFile& mesh_source, const ColourRows& colours) {
   FileMesh mesh;
-  mesh.topology = other.mesh->topology;
-  mesh.uvs = other.mesh->uvs;
-  // If the head has several materials, only the other file tells which of the new polygons has
-  // which material.
-  mesh.materials = head.file.materials.size() == 1 ? head.file.materials : other.file.materials;
+  mesh.topology = mesh_source.mesh->topology;
+  mesh.uvs = mesh_source.mesh->uvs;
+  // If the head has several materials, only the file of `mesh_source` tells which of the new
+  // polygons has which material.
+  mesh.materials =
+      head.file.materials.size() == 1 ? head.file.materials : mesh_source.file.materials;
   mesh.positions = head.file.positions;
   mesh.colours = colour_fractions(colours);
   const std::vector<std::string>& libraries = head.file.material_libraries;
@@ -321,8 +324,8 @@ void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours)
   file.topology = {};
   file.uvs.resize(0, 2);
   head.file = std::move(file);
-  head.mesh = other.mesh;
-  head.mesh_digest = other.mesh_digest;
+  head.mesh = mesh_source.mesh;
+  head.mesh_digest = mesh_source.mesh_digest;
 }
 
 std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(

@@ -10,9 +10,10 @@
 
 namespace crowdface {
 
-/// Gives a head the mesh of another head. Both have the same vertices in the same order.
-/// \param colours  vertex colours
-void give_mesh(HeadFile& head, const HeadFile& other, const ColourRows& colours = {});
+/// Replaces the mesh of `head` by the mesh of `mesh_source`. Both heads have the same vertices in
+/// the same order. The positions of `head` stay.
+/// \param colours  vertex colours of `head`
+void replace_mesh(HeadFile& head, const HeadFile& mesh_source, const ColourRows& colours = {});
 
 /// Matches the vertices of two meshes that have the same polygons in the same order, although an
 /// export may have numbered the vertices anew, split vertices at seams or joined vertices that have

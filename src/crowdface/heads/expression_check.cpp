@@ -103,7 +103,8 @@ std::vector<Edge> edges_between(const Topology& topology, const std::vector<Inde
     for (std::size_t c = 0; c < polygon.size(); ++c) {
       const Index a = index_in_part[polygon[c]],
                   b = index_in_part[polygon[(c + 1) % polygon.size()]];
-      // Two polygons share each edge inside the skin and name it in opposite directions.
+      // Each edge inside the skin belongs to two polygons, which list its ends in opposite order.
+      // Thus only one of these polygons has a < b.
       if (a >= 0 && a < b) edges.push_back({a, b});
     }
   }
@@ -179,16 +180,17 @@ Differences vertex_distances(const AlignedPart& part, double mm) {
   return distances;
 }
 
-/// How a head is compared with the other heads.
-struct Limits {
+/// Limits beyond which a head counts as different from the other heads.
+struct OutlierLimits {
   double quantile;               ///< over the items of a head
   double min_difference;         ///< added to what is usual, in the unit of the differences
   double min_score;              ///< smallest score of an outlier
   double min_score_over_median;  ///< smallest ratio of an outlier's score to the median score
 };
-constexpr Limits kMouthStrain = {0.7, 0.2, 0.57, 1.5};
-// Closed lids move far and stretch the skin. Eyes of another size or depth only move far.
-constexpr Limits kEyeDistance = {0.98, 0.5, 2.7, 1.5}, kEyeStrain = {0.9, 0.2, 0.72, 1};
+constexpr OutlierLimits kMouthStrain = {0.7, 0.2, 0.57, 1.5};
+// Closed lids move far and stretch the skin. Eyes of another size or depth move far
+// but stretch the skin little.
+constexpr OutlierLimits kEyeDistance = {0.98, 0.5, 2.7, 1.5}, kEyeStrain = {0.9, 0.2, 0.72, 1};
 
 double quantile(const Eigen::VectorXd& values, double share) {
   const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
@@ -203,7 +205,7 @@ struct Outlier {
 
 /// Finds the heads whose differences are large compared with those of the other heads at the same
 /// places.
-std::vector<Outlier> outliers(const Differences& differences, const Limits& limits) {
+std::vector<Outlier> outliers(const Differences& differences, const OutlierLimits& limits) {
   const Index count = differences.rows();
   const Eigen::RowVectorXd squares = differences.colwise().squaredNorm();
   std::vector<double> scores(static_cast<std::size_t>(count)), plain(scores);

@@ -24,25 +24,27 @@ bool equal_meshes(const Attachment& a, const Attachment& b) {
 }  // namespace
 
 FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs) : inputs_(inputs) {
-  bind(config, std::vector<bool>(inputs.attachments.items.size(), true));
+  bind_meshes(config, std::vector<bool>(inputs.attachments.items.size(), true));
 }
 
 FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs,
                                  std::span<const FacePlan> faces)
     : inputs_(inputs) {
-  std::vector<bool> wanted(inputs.attachments.items.size());
+  std::vector<bool> is_wanted(inputs.attachments.items.size());
   for (const FacePlan& face : faces) {
-    for (const std::string& name : face.attachments) wanted[inputs.attachments.index(name)] = true;
+    for (const std::string& name : face.attachments) {
+      is_wanted[inputs.attachments.index(name)] = true;
+    }
   }
-  bind(config, wanted);
+  bind_meshes(config, is_wanted);
 }
 
-void FaceAttachments::bind(const Config& config, const std::vector<bool>& wanted) {
+void FaceAttachments::bind_meshes(const Config& config, const std::vector<bool>& is_wanted) {
   const AttachmentSet& set = inputs_.attachments;
   std::vector<const Attachment*> meshes;
   mesh_of_item_.resize(set.items.size());
   for (std::size_t i = 0; i < set.items.size(); ++i) {
-    if (!wanted[i]) continue;
+    if (!is_wanted[i]) continue;
     const auto known = std::ranges::find_if(
         meshes, [&](const Attachment* mesh) { return equal_meshes(*mesh, set.items[i]); });
     mesh_of_item_[i] = static_cast<std::size_t>(known - meshes.begin());

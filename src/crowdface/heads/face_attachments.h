@@ -59,7 +59,9 @@ class FaceAttachments {
     /// null unless the attachment bends with the skin and there are shapes (expressions)
     std::unique_ptr<const ShapeBend> bend;
   };
-  void bind(const Config& config, const std::vector<bool>& wanted);
+  /// Binds the meshes of the wanted attachments to the fitted head.
+  /// \param is_wanted  #items: whether to bind the attachment
+  void bind_meshes(const Config& config, const std::vector<bool>& is_wanted);
 
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< null if there are no attachments

@@ -42,7 +42,7 @@ double power(double base, std::uint64_t exponent) {
 /// \param kept  result of kept_by_smoothing
 ShapeSetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);
-  for (const SourceWeight& part : target_shares(recipe)) {
+  for (const SourceWeight& part : target_head_weights(recipe)) {
     shares[static_cast<std::size_t>(part.head)] += part.weight;
   }
   for (const LevelShares& band : level_shares(recipe, region, Extrapolation::kNone)) {
@@ -69,14 +69,14 @@ FaceShapes::FaceShapes(const Config& config, const Inputs& inputs) : inputs_(inp
                                               head_axes(config), set, inputs.regions);
   if (set.head_shapes.empty()) return;
   for (const Shape& shape : set.shapes) {
-    kept_.push_back(
+    fractions_after_smoothing_.push_back(
         kept_by_smoothing(inputs.adjacency, shape.moves, config.smoothing.operator_kind));
   }
 }
 
 std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
   std::vector<RegionShares> shares;
-  for (const double kept : kept_) {
+  for (const double kept : fractions_after_smoothing_) {
     RegionShares& of_shape = shares.emplace_back();
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
       of_shape.push_back(shares_in(recipe, k, inputs_.head_set.heads.size(), kept));
@@ -100,7 +100,7 @@ std::vector<Displacements> FaceShapes::shapes_of_head(Index head) const {
   const ShapeSetShares own = {{static_cast<std::uint32_t>(head), 1}};
   const RegionShares everywhere(static_cast<std::size_t>(inputs_.regions.alpha.cols()), own);
   return transfer_->carry(head, inputs_.head_set.heads[static_cast<std::size_t>(head)].positions,
-                          std::vector<RegionShares>(kept_.size(), everywhere));
+                          std::vector<RegionShares>(fractions_after_smoothing_.size(), everywhere));
 }
 
 std::size_t FaceShapes::memory_bytes() const {

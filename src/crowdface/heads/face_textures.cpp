@@ -41,12 +41,12 @@ std::vector<PictureName> face_picture_names(const Inputs& inputs) {
 FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
     : inputs_(inputs), are_blended_(config.textures.blend == TextureBlend::kAuto) {
   blend_textures(config);
-  if (!inputs.neck) return;
+  if (!inputs.heads_on_body) return;
   SeamColours seam(inputs, inputs.textures.are_blended() ? blenders_.front().get() : nullptr);
   if (!seam.has_colours()) return;
   seam_.emplace(std::move(seam));
   if (!config.neck.show_body && config.neck.body_texture.empty()) return;
-  body_ = std::make_unique<const BodyPainter>(*inputs.neck, config.neck.falloff_mm,
+  body_ = std::make_unique<const BodyPainter>(*inputs.heads_on_body, config.neck.falloff_mm,
                                               config.neck.body_texture);
 }
 
@@ -67,8 +67,8 @@ void FaceTextures::blend_textures(const Config& config) {
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices) options.is_target_only[vertex] = true;
   }
-  region_shares_ = region_shares(inputs.regions, options.vertex_areas);
-  if (!inputs.colours.empty()) target_only_ = options.is_target_only;
+  region_area_fractions_ = region_shares(inputs.regions, options.vertex_areas);
+  if (!inputs.colours.empty()) uses_target_colours_only_ = options.is_target_only;
   if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
@@ -100,15 +100,16 @@ BlendedPicture FaceTextures::blend(const Recipe& recipe, std::size_t picture) co
 
 ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
   if (inputs_.colours.empty()) return ColourRows(0, 3);
-  FaceColourWeights weights = face_colour_weights(recipe, inputs_.colours.size(), region_shares_);
+  FaceColourWeights weights =
+      face_colour_weights(recipe, inputs_.colours.size(), region_area_fractions_);
   if (!are_blended_) weights.face = weights.target;
-  return blend_vertex_colours(inputs_.colours, weights, target_only_);
+  return blend_vertex_colours(inputs_.colours, weights, uses_target_colours_only_);
 }
 
 std::vector<double> FaceTextures::colour_fractions(const Recipe& recipe) const {
   const std::size_t heads = inputs_.head_set.heads.size();
   if (inputs_.textures.are_blended() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
-    return face_colour_weights(recipe, heads, region_shares_).face;
+    return face_colour_weights(recipe, heads, region_area_fractions_).face;
   }
   std::vector<double> shares(heads, 0.0);
   shares[static_cast<std::size_t>(recipe.target)] = 1;
@@ -116,7 +117,7 @@ std::vector<double> FaceTextures::colour_fractions(const Recipe& recipe) const {
 }
 
 BlendedPicture FaceTextures::paint_body(const Recipe& recipe) const {
-  return body_->paint(seam_->ring_densities(colour_fractions(recipe)));
+  return body_->paint(seam_->optical_densities_at_ring(colour_fractions(recipe)));
 }
 
 std::optional<Eigen::Array3d> FaceTextures::seam_colour(const Recipe& recipe) const {

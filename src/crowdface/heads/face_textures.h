@@ -66,9 +66,10 @@ class FaceTextures {
   const Inputs& inputs_;
   /// whether colours are blended; if not, a face has the colours of its target
   bool are_blended_;
-  std::vector<double> region_shares_;  ///< share of each region in the face
-  std::vector<bool> target_only_;      ///< #V, see blend_vertex_colours
-  std::optional<SeamColours> seam_;    ///< empty without colours at the neck's ring
+  std::vector<double> region_area_fractions_;  ///< share of each region in the face
+  /// #V: whether a vertex, such as one of an eye, gets the colours of the target and no blend
+  std::vector<bool> uses_target_colours_only_;
+  std::optional<SeamColours> seam_;  ///< empty without colours at the neck's ring
   std::unique_ptr<const BodyPainter> body_;
 };
 

@@ -31,7 +31,7 @@ std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
 
 SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
                          const RegionWeights& regions) {
-  const std::vector<Index> columns = columns_above(inputs.neck->seam, prepared.samples);
+  const std::vector<Index> columns = columns_above(inputs.heads_on_body->seam, prepared.samples);
   FaceSamples samples;
   for (const Index s : columns) samples.push_back(prepared.samples[static_cast<std::size_t>(s)]);
   std::vector<Trajectory> own;
@@ -108,7 +108,7 @@ RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
 }  // namespace
 
 FacePoses::FacePoses(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions)
-    : neck_(*inputs.neck),
+    : neck_(*inputs.heads_on_body),
       placed_heads_(heads_above(inputs, prepared, regions)),
       turned_heads_(placed_heads_) {
   turned_heads_.trajectories = turned_heads_.owned_trajectories;
@@ -143,7 +143,7 @@ bool FacePoses::uses_other_pose(const Recipe& recipe) const {
   const auto is_turned = [&](const SourceWeight& part) {
     return !neck_.heads[static_cast<std::size_t>(part.head)].pose_rotation.isZero(0);
   };
-  if (std::ranges::any_of(target_shares(recipe), is_turned)) return true;
+  if (std::ranges::any_of(target_head_weights(recipe), is_turned)) return true;
   for (const RegionRecipe& region : recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       if (std::ranges::any_of(band_of(region, b).weights, is_turned)) return true;

@@ -19,7 +19,7 @@ std::int64_t nanoseconds(const timespec& time) {
   return time.tv_sec * kSecond + time.tv_nsec;
 }
 
-/// The key of the cache entry for a file, which device and inode identify.
+/// The key of the cache entry for a file. The file is identified by its device and inode.
 CacheKey seen_key(std::span<const std::int64_t> stamp) {
   return {"seen", Hasher().add(stamp[0]).add(stamp[1]).digest()};
 }

@@ -23,10 +23,11 @@ class FileFingerprint {
   /// Hash of the file's bytes; empty unless files that were read before are trusted and this file
   /// has not changed since.
   const std::optional<Digest>& digest() const { return digest_; }
-  /// Stores the hash of the file's bytes. The caller must read the bytes after constructing this
-  /// object, and must find the bytes valid. Does nothing if seen files are not trusted, if the file
-  /// has changed meanwhile, or if the file's last change is so recent that a later change might
-  /// leave the times equal.
+  /// Stores the hash of the file's bytes in the cache. The caller must construct this object before
+  /// reading the file, and must call this function only if the bytes are valid. Stores nothing if
+  /// the cache does not trust seen files (see CacheFolder), or if the file has changed since the
+  /// construction. Also stores nothing if the file was changed less than a second ago, because a
+  /// further change might then leave mtime and ctime the same.
   void remember(const Digest& digest) const;
 
  private:

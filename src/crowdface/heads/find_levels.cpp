@@ -51,7 +51,8 @@ Positions weighted(const Positions& mean, const PartList& parts) {
 
 /// The error of a level of detail over all shapes (expressions): over the shapes of the template
 /// or, if the heads have shapes of their own, over the shapes of each head.
-LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const LevelMap& map) {
+LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level,
+                           const NearestLevelTriangles& map) {
   const ShapeSet& set = inputs.shapes;
   if (set.shapes.empty()) return {};
   const auto error_on = [&](const Positions& neutral, const std::vector<Displacements>& moves) {
@@ -81,10 +82,11 @@ LevelError error_in_shapes(const Inputs& inputs, const DetailLevel& level, const
   return error;
 }
 
-/// \throws InvalidInput if a level lacks vertices of the ring in which all faces end.
+/// Checks that a level of detail keeps every vertex of the ring at the neck, where the meshes end.
+/// \throws InvalidInput if a vertex of the ring is missing.
 void require_ring(const Inputs& inputs, const DetailLevel& level) {
-  if (!inputs.neck) return;
-  const Rim& rim = inputs.neck->seam.rim;
+  if (!inputs.heads_on_body) return;
+  const Rim& rim = inputs.heads_on_body->seam.rim;
   const auto kept = std::ranges::count_if(
       rim, [&](std::uint32_t v) { return std::ranges::binary_search(level.vertices, v); });
   if (kept == static_cast<std::ptrdiff_t>(rim.size())) return;
@@ -97,11 +99,11 @@ void require_ring(const Inputs& inputs, const DetailLevel& level) {
 /// A level of detail, and its error on the heads and their shapes.
 MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, double share,
                              double mm) {
-  const Borders borders = inputs.neck ? Borders::kKeep : Borders::kCollapse;
+  const Borders borders = inputs.heads_on_body ? Borders::kKeep : Borders::kCollapse;
   DetailLevel level =
       std::move(detail_levels(typical, inputs.materials.material_of_face, {&share, 1}, borders)[0]);
   require_ring(inputs, level);
-  const LevelMap map =
+  const NearestLevelTriangles map =
       find_level_triangles(inputs.head_set.topology, inputs.adjacency, level, inputs.mean_head);
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.head_set.heads) heads.push_back(&head.positions);
@@ -120,7 +122,7 @@ Digest key_of(const Inputs& inputs, const HeadSet& typical, double share, double
   key.add_array(numbers_of(typical.heads[0].positions));
   for (const Digest& head : inputs.head_digests) key.add(head);
   if (!inputs.shapes.shapes.empty()) key.add(inputs.shapes_digest);
-  if (inputs.neck) key.add(inputs.neck->digest);
+  if (inputs.heads_on_body) key.add(inputs.heads_on_body->digest);
   return key.digest();
 }
 

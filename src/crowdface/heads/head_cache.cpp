@@ -23,9 +23,9 @@ bool are_fields(const LevelFields& fields) {
     int exponent = 0;
     return step == 0 || std::frexp(step, &exponent) == 0.5F;
   };
-  return first.empty() ? fields.steps.empty()
-                       : first.front() == 0 && first.back() == fields.steps.size() &&
-                             std::ranges::all_of(fields.steps, is_step);
+  return first.empty() ? fields.quantization_steps.empty()
+                       : first.front() == 0 && first.back() == fields.quantization_steps.size() &&
+                             std::ranges::all_of(fields.quantization_steps, is_step);
 }
 
 constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
@@ -36,36 +36,37 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
   arrays("error level", error.level);
   arrays("trajectory", head.trajectory);
   arrays("first fields", fields.first_field_of_tile);
-  arrays("steps", fields.steps);
+  arrays("steps", fields.quantization_steps);
   arrays("numbers", fields.quantized_values);
 };
 
 /// Whether an entry has these sizes and consistent fields. Also fills in the members that follow
 /// from the sizes.
-bool is_head(PreparedHead& head, const HeadCacheSizes& shape) {
+bool is_head(PreparedHead& head, const HeadCacheSizes& sizes) {
   const Eigen::MatrixXd& mixing = head.levels.mixing;
   LevelFields& fields = head.levels.fields;
   std::size_t firsts = 0;
-  if (shape.levels != LevelRepresentation::kExact) {
-    fields.vertex_count = shape.vertex_count;
-    fields.rank = shape.levels == LevelRepresentation::kCubic ? CubicFit::kRank : mixing.cols();
-    firsts = LevelFields::tile_count(static_cast<std::size_t>(shape.vertex_count)) + 1;
+  if (sizes.levels != LevelRepresentation::kExact) {
+    fields.vertex_count = sizes.vertex_count;
+    fields.rank = sizes.levels == LevelRepresentation::kCubic ? CubicFit::kRank : mixing.cols();
+    firsts = LevelFields::tile_count(static_cast<std::size_t>(sizes.vertex_count)) + 1;
   }
-  const Index nodes = shape.levels == LevelRepresentation::kBasis ? shape.node_count : 0;
-  return head.trajectory.rows() == shape.trajectory_level_count &&
-         head.trajectory.cols() == 3 * shape.sample_count && mixing.rows() == nodes &&
+  const Index nodes = sizes.levels == LevelRepresentation::kBasis ? sizes.level_node_count : 0;
+  return head.trajectory.rows() == sizes.trajectory_level_count &&
+         head.trajectory.cols() == 3 * sizes.sample_count && mixing.rows() == nodes &&
          mixing.cols() <= nodes && fields.first_field_of_tile.size() == firsts &&
-         are_fields(fields) && fields.quantized_values.size() == fields.steps.size() * kTileValues;
+         are_fields(fields) &&
+         fields.quantized_values.size() == fields.quantization_steps.size() * kTileValues;
 }
 
 }  // namespace
 
 std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
-                                          const HeadCacheSizes& shape) {
+                                          const HeadCacheSizes& sizes) {
   return find_cached<PreparedHead>(
       cache, prepared_key(key), kPreparedArrays, [&](PreparedHead& head, const CacheEntry& entry) {
         head.levels.fields.memory_owner = head.levels.mapped_file = entry.file();
-        return is_head(head, shape);
+        return is_head(head, sizes);
       });
 }
 

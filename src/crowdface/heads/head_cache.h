@@ -22,8 +22,10 @@ struct StoredLevels {
   LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
   std::shared_ptr<const MappedFile> mapped_file;
-  Eigen::MatrixXd mixing;  ///< `levels: basis`: #nodes by rank, see LevelBasis
-  BasisError error;        ///< `levels: basis`
+  /// `levels: basis`: the functions φ_p(L), which weight the fields of a level, as combinations of
+  /// the nodes' functions; #nodes by rank, see LevelBasis
+  Eigen::MatrixXd mixing;
+  BasisError error;  ///< `levels: basis`
 };
 
 /// The cached data of a head: the trajectories of the sample points during smoothing and, unless
@@ -36,9 +38,11 @@ struct PreparedHead {
 /// The sizes that a usable entry must have.
 struct HeadCacheSizes {
   Index vertex_count = 0;
-  Index sample_count = 0;
-  Index trajectory_level_count = 0;  ///< rows of the trajectory
-  Index node_count = 0;              ///< number of nodes, for `levels: basis`
+  Index sample_count = 0;            ///< number of sample points with a trajectory
+  Index trajectory_level_count = 0;  ///< levels (numbers of smoothing iterations) per trajectory
+  /// number of levels at which the level functions are interpolated (LevelNodes); unused unless
+  /// `levels` is kBasis
+  Index level_node_count = 0;
   std::uint64_t max_level = 0;
   LevelRepresentation levels = LevelRepresentation::kBasis;
 };
@@ -46,7 +50,7 @@ struct HeadCacheSizes {
 /// Finds a prepared head in the cache. Its fields stay in the memory-mapped file. \return nothing
 /// if the entry does not exist or has other sizes.
 std::optional<PreparedHead> find_prepared(const CacheFolder& cache, const Digest& key,
-                                          const HeadCacheSizes& shape);
+                                          const HeadCacheSizes& sizes);
 
 /// The cache key of a prepared head.
 CacheKey prepared_key(const Digest& digest);

@@ -30,7 +30,7 @@ TextureFile read_texture(const fs::path& path, int max_px) {
   const auto texels = static_cast<std::uint64_t>(std::min(image.width, max_px)) *
                       static_cast<std::uint64_t>(std::min(image.height, max_px));
   ImageMemory memory = reserve_image_memory(path, texels * sizeof(LinearRgb));
-  const ImageRows light = light_of(image);
+  const ImageRows light = linear_light_of(image);
   const auto kept = std::make_shared<const Kept>(
       Kept{std::move(memory), shrunk_texture(light.width, light.height, max_px, light.read_row)});
   return {{kept, &kept->texture}, hash_file(path).digest};

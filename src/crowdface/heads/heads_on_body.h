@@ -52,7 +52,7 @@ inline RigidMotion rotation_about(const Eigen::Vector3d& middle, const Eigen::Ve
 
 /// Returns the mean of the heads before they are placed on a body.
 inline const Positions& unplaced_mean(const Inputs& inputs) {
-  return inputs.neck ? inputs.neck->unplaced_mean : inputs.mean_head;
+  return inputs.heads_on_body ? inputs.heads_on_body->unplaced_mean : inputs.mean_head;
 }
 
 }  // namespace crowdface

@@ -93,9 +93,9 @@ struct MeasuredLevel {
 struct Inputs {
   std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
   HeadSet head_set;
-  Positions mean_head;               ///< vertex-wise mean of the heads
-  std::vector<ObjFile> head_files;   ///< #heads; topology and positions have moved to `head_set`
-  std::vector<Digest> text_digests;  ///< #heads, hashes of the files' bytes
+  Positions mean_head;              ///< vertex-wise mean of the heads
+  std::vector<ObjFile> head_files;  ///< #heads; topology and positions have moved to `head_set`
+  std::vector<Digest> head_file_digests;  ///< #heads, hashes of the head files' bytes
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
   /// colours.
   std::vector<ColourRows> colours;
@@ -106,7 +106,8 @@ struct Inputs {
   PartList parts;              ///< empty for `parts: none`
   Components skin_components;  ///< the components, with all skin merged into the largest
   std::shared_ptr<const MirrorMap> mirror_map;  ///< null unless the config asks for mirrored faces
-  std::shared_ptr<const HeadsOnBody> neck;      ///< null unless the config has `neck`
+  /// the heads placed on a common body; null unless the config has `neck`
+  std::shared_ptr<const HeadsOnBody> heads_on_body;
   ShapeSet shapes;
   Digest shapes_digest;  ///< hash of the shapes, if there are any
   std::vector<MeasuredLevel> levels;
@@ -115,11 +116,14 @@ struct Inputs {
   Rig rig;
   AttachmentSet attachments;
   RegionWeights regions;
-  std::vector<double> distance_mask;     ///< #V, from `distance.mask`; empty if that is not set
-  double edge_length_mm = 0;             ///< rms edge length of the skin, averaged over the heads
-  std::uint64_t max_level = 0;           ///< L_max
-  std::vector<Digest> head_digests;      ///< #heads, hashes of the positions in use
-  std::vector<Digest> unplaced_digests;  ///< #heads, the same before the heads are placed on a body
+  /// #V, from `distance.mask`: how much each vertex counts when the distance between two faces is
+  /// measured; empty without a mask
+  std::vector<double> distance_weights;
+  double edge_length_mm = 0;         ///< rms edge length of the skin, averaged over the heads
+  std::uint64_t max_level = 0;       ///< L_max
+  std::vector<Digest> head_digests;  ///< #heads, hashes of the positions in `head_set`
+  /// #heads, hashes of the positions that the heads had before they were placed on a body
+  std::vector<Digest> unplaced_head_digests;
   Digest topology_digest;
   Digest mask_digest;  ///< hash of α
   /// colour textures, if they are blended or rendered; otherwise empty

@@ -49,7 +49,7 @@ void write_densities(const Image& image, const std::vector<Number>& numbers, std
 
 }  // namespace
 
-ImageRows light_of(const Image& image) {
+ImageRows linear_light_of(const Image& image) {
   const auto row = [&image, &table = light_of_srgb16()](int y, std::span<Eigen::Array3f> texels) {
     const bool grey = image.channels < 3;
     for (int x = 0; x < image.width; ++x) {
@@ -74,7 +74,7 @@ ImageRows light_of(const Image& image) {
   return light;
 }
 
-ImageRows slopes_of(const Image& image) {
+ImageRows normal_slopes_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
     constexpr float kMinUp = 1.0F / 8;  // steepest slope that MapCoding::slopes() can store
     for (int x = 0; x < image.width; ++x) {

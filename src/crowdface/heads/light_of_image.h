@@ -6,14 +6,15 @@
 
 namespace crowdface {
 
-/// The image in linear light. Integers count as sRGB, floats as linear. If the image is grey, its
-/// first channel becomes all three colour channels of the result. Alpha is ignored.
+/// The image's colours, converted to linear light. Integers count as sRGB, floats as linear. If the
+/// image is grey, its first channel becomes all three colour channels of the result. Alpha is
+/// ignored.
 /// \param image  must outlive the result.
-ImageRows light_of(const Image& image);
+ImageRows linear_light_of(const Image& image);
 
-/// Converts tangent-space normals, stored in 0 … 1, to two slopes: to the right and upwards in the
-/// image.
-ImageRows slopes_of(const Image& image);
+/// Converts an image of tangent-space normals, stored in 0 … 1, to surface slopes: for each texel,
+/// the slope to the right and the slope upwards in the image.
+ImageRows normal_slopes_of(const Image& image);
 /// The unconverted values of the first one or three channels.
 ImageRows values_of(const Image& image);
 

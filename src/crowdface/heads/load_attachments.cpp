@@ -23,11 +23,13 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
     return read_positions(file, inputs.head_set.topology, config.faces.files.front().string());
   };
   if (!asked.file.empty()) return read(asked.file);
-  if (!asked.head) return inputs.neck ? inputs.neck->unplaced_mean : mean_head(inputs.head_set);
-  const auto head = static_cast<std::size_t>(*asked.head);
+  if (!asked.fitted_head)
+    return inputs.heads_on_body ? inputs.heads_on_body->unplaced_mean : mean_head(inputs.head_set);
+  const auto head = static_cast<std::size_t>(*asked.fitted_head);
   // Attachments fit the head as its file stores it. Read the file again if rigid alignment or the
   // neck has moved the loaded head.
-  if (config.faces.align == Align::kRigid || inputs.neck) return read(config.faces.files[head]);
+  if (config.faces.align == Align::kRigid || inputs.heads_on_body)
+    return read(config.faces.files[head]);
   return inputs.head_set.heads[head].positions;
 }
 

@@ -60,7 +60,7 @@ void take_heads(const Config& config, std::vector<HeadFile> heads, Inputs& input
     file.corner_normals = heads[h].mesh->corner_normals;
     inputs.head_set.heads.push_back({config.faces.names[h], std::move(file.positions)});
     inputs.head_files.push_back(std::move(file));
-    inputs.text_digests.push_back(heads[h].text_digest);
+    inputs.head_file_digests.push_back(heads[h].text_digest);
   }
   inputs.head_set.topology = std::move(heads[0].mesh->topology);
   inputs.head_set.uvs = std::move(heads[0].mesh->uvs);
@@ -117,15 +117,16 @@ std::vector<Digest> hash_heads(const HeadSet& heads) {
   return digests;
 }
 
-/// Returns a message if some heads have a texture and other heads have none. Applies only if all
-/// textured heads name the same files. The texture of these heads is then not blended.
-std::optional<std::string> told_of_single(const FoundTextureFiles& textures, const HeadSet& heads) {
+/// Returns a warning that a texture is not blended because some heads lack it; nothing if all or no
+/// heads have a texture. Call only if all heads that have a texture name the same texture files.
+std::optional<std::string> single_texture_warning(const FoundTextureFiles& textures,
+                                                  const HeadSet& heads) {
   std::vector<std::string> with, without;
   for (std::size_t h = 0; h < textures.heads.size(); ++h) {
     (textures.heads[h].files.empty() ? without : with).push_back(heads.heads[h].name);
   }
   if (with.empty() || without.empty()) return std::nullopt;
-  return concat("the ", statement_of(textures.kind).name, " texture of ", join(with),
+  return concat("the ", mtl_statement_of(textures.kind).name, " texture of ", join(with),
                 " is not blended, because the other heads have none (", join(without),
                 "); only faces with such a target get it, unchanged");
 }
@@ -153,7 +154,7 @@ HeadTextures load_sound(FoundTextureFiles& found, Inputs& inputs, const Load& lo
 void read_textures(const Config& config, const CacheFolder& cache, Inputs& inputs,
                    Problems& problems) {
   const auto& sheet = config.output.contact_sheet;
-  const bool shown = (sheet && sheet->texture != SheetTexture::kNo) || inputs.neck;
+  const bool shown = (sheet && sheet->texture != SheetTexture::kNo) || inputs.heads_on_body;
   const bool blend =
       config.textures.blend == TextureBlend::kAuto && (shown || !config.output.meshes.empty());
   if (config.textures.blend == TextureBlend::kNone || !(shown || blend)) return;
@@ -193,7 +194,8 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
         return textures.heads_differ() ? load_blended(textures) : HeadTextures();
       });
       if (!kinds[k].heads_differ()) {
-        if (auto text = told_of_single(kinds[k], inputs.head_set)) inputs.warn(std::move(*text));
+        if (auto text = single_texture_warning(kinds[k], inputs.head_set))
+          inputs.warn(std::move(*text));
         continue;
       }
       inputs.maps.push_back(std::move(maps));
@@ -267,10 +269,11 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
     problems.add(error);
     return std::nullopt;
   }
-  inputs.unplaced_digests = hash_heads(inputs.head_set);
+  inputs.unplaced_head_digests = hash_heads(inputs.head_set);
   load_neck(config, inputs, problems);
   if (!problems.empty()) return std::nullopt;
-  inputs.head_digests = inputs.neck ? hash_heads(inputs.head_set) : inputs.unplaced_digests;
+  inputs.head_digests =
+      inputs.heads_on_body ? hash_heads(inputs.head_set) : inputs.unplaced_head_digests;
   inputs.mean_head = mean_head(inputs.head_set);
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
@@ -297,8 +300,8 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   try {
     inputs.regions = load_regions(config, inputs);
     if (config.distance.mask) {
-      inputs.distance_mask = mask_values(inputs.head_set.topology, inputs.head_set.uvs,
-                                         MaskSource(*config.distance.mask), skin_of(inputs));
+      inputs.distance_weights = mask_values(inputs.head_set.topology, inputs.head_set.uvs,
+                                            MaskSource(*config.distance.mask), skin_of(inputs));
     }
     inputs.max_level = max_level_of(config, inputs.edge_length_mm);
   } catch (const RecoverableError& error) {

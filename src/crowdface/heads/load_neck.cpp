@@ -130,8 +130,9 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
   if (!config.neck.body.empty()) {
     const Positions ring = poses.mean(head_set, rim, rim);
     goal.body = read_neck_body(config, inputs, rim, ring);
-    goal.rotation = goal.body.is_head ? poses.rotation_to(head_set, rim, goal.body.skin_positions)
-                                      : rotation_of_rim(ring, goal.body.rim_positions);
+    goal.rotation = goal.body.is_head_mesh
+                        ? poses.rotation_to(head_set, rim, goal.body.skin_positions)
+                        : rotation_of_rim(ring, goal.body.rim_positions);
     return goal;
   }
   goal.body.area_vectors = Positions::Zero(static_cast<Index>(rim.size()), 3);
@@ -147,8 +148,8 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
 
 /// Warns about heads whose ring lies so far from the body's ring that the bend of the neck is
 /// visible.
-void warn_of_bent(const Config& config, const std::vector<HeadsOnBody::Head>& heads,
-                  Inputs& inputs) {
+void warn_of_visible_bends(const Config& config, const std::vector<HeadsOnBody::Head>& heads,
+                           Inputs& inputs) {
   // The displacement at which the bend's largest slope is one half. The largest slope is 1.5 times
   // the displacement divided by the falloff.
   const double most = config.neck.falloff_mm / 3;
@@ -240,7 +241,7 @@ void place_heads(const Config& config, Inputs& inputs) {
   parallel_for_each(heads.size(), [&](std::size_t h) {
     heads[h] = place(rim, goal, poses.turns[h], mm, head_set.heads[h].positions);
   });
-  warn_of_bent(config, heads, inputs);
+  warn_of_visible_bends(config, heads, inputs);
   const Vector3d middle = ring_middle(goal.body.rim_positions);
   Positions mean = turned_mean(head_set, heads, middle);
   Seam seam{rim,
@@ -249,12 +250,12 @@ void place_heads(const Config& config, Inputs& inputs) {
             NeckBend(head_set.topology, inputs.adjacency, mean, rim, falloff)};
   seam.bend_to_seam(mean);
   const Positions areas = area_vectors_around(head_set.topology, mean, rim);
-  goal.body.face_outward(areas);
+  goal.body.reverse_inward_polygons(areas);
   seam.normals = normals_of(areas, goal.body.area_vectors);
   HeadsOnBody neck{std::move(seam), std::move(heads),   middle, std::move(unplaced_mean), mm,
                    goal.body.mesh,  goal.body.mesh_rim, {}};
   neck.digest = neck_digest(config, neck);
-  inputs.neck = std::make_shared<const HeadsOnBody>(std::move(neck));
+  inputs.heads_on_body = std::make_shared<const HeadsOnBody>(std::move(neck));
 }
 
 }  // namespace

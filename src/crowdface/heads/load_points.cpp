@@ -76,8 +76,8 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
       continue;
     }
     points.positions.push_back(read_set(entry->value, points.names, complaints));
-    if (inputs.neck) {
-      const RigidMotion& placed = inputs.neck->heads[points.meshes.size()].placement;
+    if (inputs.heads_on_body) {
+      const RigidMotion& placed = inputs.heads_on_body->heads[points.meshes.size()].placement;
       Positions& own = points.positions.back();
       for (Index p = 0; p < own.rows(); ++p) own.row(p) = placed.apply(row3(own, p)).transpose();
     }

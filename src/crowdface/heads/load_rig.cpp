@@ -109,7 +109,7 @@ Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
 
 Fit fit_by_place(const GltfRig& rig, const Config& config, const Inputs& inputs) {
   std::vector<const Positions*> meshes;
-  if (config.shapes.heads.empty() && !config.shapes.neutral.empty()) {
+  if (config.shapes.heads_directory.empty() && !config.shapes.neutral.empty()) {
     meshes.push_back(&inputs.shapes.neutral);
   }
   for (const Head& head : inputs.head_set.heads) meshes.push_back(&head.positions);

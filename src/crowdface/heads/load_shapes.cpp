@@ -72,7 +72,7 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
 
 /// Sets a shape's displacements to zero at the ring in which all faces end.
 void hold_ring(const Inputs& inputs, Displacements& moves) {
-  if (inputs.neck) inputs.neck->seam.keep_rim_still(moves);
+  if (inputs.heads_on_body) inputs.heads_on_body->seam.keep_rim_still(moves);
 }
 
 /// Loads the template's shapes; skips shapes that the template lacks.
@@ -104,7 +104,7 @@ struct RestingHead {
 
 RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t head) {
   const Positions& used = inputs.head_set.heads[head].positions;
-  if (config.faces.align != Align::kRigid && !inputs.neck) return {used, {}};
+  if (config.faces.align != Align::kRigid && !inputs.heads_on_body) return {used, {}};
   Positions mesh = read_positions(config.faces.files[head], inputs.head_set.topology,
                                   config.faces.files.front().string());
   std::vector<std::uint32_t> all(static_cast<std::size_t>(mesh.rows()));
@@ -208,7 +208,7 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
   if (config.shapes.names.empty()) return;
   const Source source{config, inputs.head_set.topology, cache};
   const std::size_t before = problems.size();
-  if (config.shapes.heads.empty()) {
+  if (config.shapes.heads_directory.empty()) {
     inputs.shapes = load_template(source, inputs, 0, problems);
   } else {
     load_heads(source, inputs, problems);

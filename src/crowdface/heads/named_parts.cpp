@@ -183,11 +183,12 @@ std::string describe_parts(const Config& config, const Inputs& inputs) {
     if (inputs.parts.classes[c] == PartClass::kSkin) add(lines[0], c);
   }
   for (const Part& part : inputs.parts.parts) {
-    // There may be dozens of eyelash components; successive components of the same material share a
-    // line.
-    const bool again = part.part_class == PartClass::kBound && lines.back().what == "bound" &&
-                       label(lines.back().components[0]) == label(part.components[0]);
-    if (!again) lines.push_back({part_name(part), {}, 0});
+    // Write one line of text for successive components of the same material, because there may be
+    // dozens of eyelash components.
+    const bool joins_last_line = part.part_class == PartClass::kBound &&
+                                 lines.back().what == "bound" &&
+                                 label(lines.back().components[0]) == label(part.components[0]);
+    if (!joins_last_line) lines.push_back({part_name(part), {}, 0});
     for (const std::uint32_t c : part.components) add(lines.back(), c);
   }
   std::string text;

@@ -76,7 +76,7 @@ ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
 
 /// Stores the body's mesh. \throws InvalidInput if the file holds a head instead of a body.
 void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
-  if (body.is_head) {
+  if (body.is_head_mesh) {
     throw InvalidInput("body_texture, show_body and write_body need a body, found a head");
   }
   auto kept = std::make_shared<Attachment>();
@@ -113,7 +113,7 @@ Positions area_vectors_around(const Topology& topology, const Positions& positio
   return areas;
 }
 
-void NeckBody::face_outward(const Positions& head_areas) {
+void NeckBody::reverse_inward_polygons(const Positions& head_areas) {
   if (head_areas.cwiseProduct(area_vectors).sum() >= 0) return;
   area_vectors = -area_vectors;
   if (!mesh) return;
@@ -133,12 +133,12 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
   const double mm = mm_per(config.faces.units);
   const Positions head = mm * ring;
   NeckBody body;
-  body.is_head = first_difference(inputs.head_set.topology, mesh.topology).empty();
-  const bool is_order_known = body.is_head && neck.body_rim.empty();
+  body.is_head_mesh = first_difference(inputs.head_set.topology, mesh.topology).empty();
+  const bool is_order_known = body.is_head_mesh && neck.body_rim.empty();
   std::vector<Rim> rims = {rim};
   if (!neck.body_rim.empty()) {
     rims = {read_rim(neck.body_rim, build_adjacency(mesh.topology))};
-  } else if (!body.is_head) {
+  } else if (!body.is_head_mesh) {
     rims = find_open_rims(mesh.topology, build_adjacency(mesh.topology));
   }
   try {
@@ -151,7 +151,7 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
       mesh = with_polygons(below, std::move(mesh), found);
     }
     body.area_vectors = area_vectors_around(mesh.topology, mesh.positions, found);
-    if (body.is_head) body.skin_positions = mesh.positions;
+    if (body.is_head_mesh) body.skin_positions = mesh.positions;
     if (neck.needs_body_mesh()) keep_body(std::move(mesh), found, body);
   } catch (const InvalidInput& error) {
     refuse_file(neck.body, error.what());

@@ -20,17 +20,17 @@ Positions area_vectors_around(const Topology& topology, const Positions& positio
 struct NeckBody {
   Positions rim_positions;  ///< #rim by 3, in the order of the heads' rim
   Positions area_vectors;   ///< area vectors of its polygons around the rim, #rim by 3
-  bool is_head = false;
+  /// Whether the file contains a head, with the heads' topology, instead of a body.
+  bool is_head_mesh = false;
   Positions skin_positions = {};  ///< positions of the whole mesh if it is a head; else empty
-  /// The body's mesh and its vertices in the order of the rim; null if the config does not need the
-  /// mesh.
+  /// The body's mesh, stored like an attachment; null if the config does not need the mesh.
   std::shared_ptr<Attachment> mesh = {};
-  Rim mesh_rim = {};
+  Rim mesh_rim = {};  ///< the vertices of `mesh` at the rim, in the order of the heads' rim
 
   /// If the body's polygons face inward, reverses them, so that they face outward like the heads'
   /// polygons.
   /// \param head_areas  the area vectors of the heads' polygons around the rim
-  void face_outward(const Positions& head_areas);
+  void reverse_inward_polygons(const Positions& head_areas);
 };
 
 /// Reads the body and matches its rim with the heads' rim. If the body's rim (`neck.body_rim`) is

@@ -51,9 +51,9 @@ std::vector<PictureName> picture_names(const FoundTextureFiles& found,
   std::map<fs::path, std::string> parts;
   std::set<std::string> taken;
   for (const PictureSource& picture : pictures) {
-    const fs::path& file = found.heads[picture.head].files[picture.row].name;
+    const fs::path& file = found.heads[picture.head].files[picture.file_index].name;
     if (parts.contains(file)) continue;
-    const auto face = static_cast<std::size_t>(picture.face);
+    const auto face = static_cast<std::size_t>(picture.polygon);
     std::string part = part_name(materials.names[materials.material_of_face[face]]);
     if (part.empty() || taken.contains(part)) part += std::to_string(parts.size() + 1);
     taken.insert(part);
@@ -61,8 +61,8 @@ std::vector<PictureName> picture_names(const FoundTextureFiles& found,
   }
   std::vector<PictureName> names;
   for (const PictureSource& picture : pictures) {
-    const fs::path& file = found.heads[picture.head].files[picture.row].name;
-    const auto& tile = found.tile[static_cast<std::size_t>(picture.face)];
+    const fs::path& file = found.heads[picture.head].files[picture.file_index].name;
+    const auto& tile = found.tile[static_cast<std::size_t>(picture.polygon)];
     const bool tiled = file.native().find(kTileWord) != std::string::npos;
     names.push_back({parts.size() > 1 ? parts.at(file) : "",
                      tiled ? tile_number(tile[0], tile[1]) : 0, found.kind});

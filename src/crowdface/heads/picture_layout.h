@@ -13,8 +13,8 @@ namespace crowdface {
 /// The first head and polygon that use an image of the layout.
 struct PictureSource {
   std::size_t head = 0;
-  std::uint32_t row = 0;  ///< index of the head's file
-  Index face = 0;
+  std::uint32_t file_index = 0;  ///< index of the image file in the head's `files`
+  Index polygon = 0;
 };
 
 /// Assigns to each polygon the image of the first head that has a texture at this polygon. The

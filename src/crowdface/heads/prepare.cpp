@@ -68,7 +68,8 @@ class HeadPreparation {
     const LevelNodes& nodes = *prepared_.nodes;
     PreparedHead result;
     const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
-    result.trajectory = sample_trajectory(filter(), nodes, fields, prepared_.traced_samples);
+    result.trajectory =
+        sample_smoothing_trajectory(filter(), nodes, fields, prepared_.traced_samples);
     if (config_.smoothing.levels == LevelRepresentation::kCubic) {
       result.levels.fields = fit_cubic(filter(), head.positions, inputs_.max_level).fields;
     }
@@ -116,7 +117,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
 HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   return {inputs.head_set.topology.vertex_count,
           static_cast<Index>(prepared.traced_samples.size()),
-          static_cast<Index>(trajectory_levels(inputs.max_level).size()),
+          static_cast<Index>(stored_smoothing_levels(inputs.max_level).size()),
           static_cast<Index>(prepared.nodes->levels().size()),
           inputs.max_level,
           config.smoothing.levels};
@@ -140,13 +141,13 @@ CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepa
     const double two_edges = 2 * inputs.edge_length_mm / mm_per(config.faces.units);
     Progress progress("comparing heads patch by patch",
                       patch_count(static_cast<std::size_t>(inputs.head_set.topology.vertex_count)));
-    return interpolate_fields(head_levels(config, prepared),
-                              make_tested_levels(*prepared.nodes).levels,
-                              patch_order(inputs.head_set.heads.front().positions, two_edges), left,
-                              [&](std::size_t patches) {
-                                throw_if_interrupted();
-                                progress.step(patches);
-                              });
+    return interpolate_fields(
+        head_levels(config, prepared), make_tested_levels(*prepared.nodes).levels,
+        vertex_order_for_patches(inputs.head_set.heads.front().positions, two_edges), left,
+        [&](std::size_t patches) {
+          throw_if_interrupted();
+          progress.step(patches);
+        });
   });
 }
 
@@ -216,7 +217,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   return prepared;
 }
 
-void require_whole(const Prepared& prepared) {
+void require_not_truncated(const Prepared& prepared) {
   const auto was_truncated = [](const std::shared_ptr<const MappedFile>& mapped) {
     return mapped && mapped->was_truncated();
   };
@@ -238,7 +239,7 @@ std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepar
       };
     } else {
       levels.functions = [nodes = prepared.nodes, mixing = stored.mixing](std::uint64_t level) {
-        return basis_values(*nodes, mixing, level);
+        return level_function_values(*nodes, mixing, level);
       };
     }
     result.push_back(std::move(levels));

@@ -23,7 +23,8 @@ namespace crowdface {
 /// All heads, ready for casting and blending.
 struct Prepared {
   FaceSamples samples;
-  /// the samples, then the other vertices on which the samples' mirror images depend
+  /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
+  /// on which the samples' mirror images depend.
   FaceSamples traced_samples;
   std::vector<Trajectory> trajectories;  ///< #heads, trajectories of the vertices `traced_samples`
   std::vector<StoredLevels> levels;      ///< #heads; no fields with `levels: exact`
@@ -42,7 +43,7 @@ struct TruncatedWhileInUse : IoError {
 /// Checks that no cache entry was truncated while its fields were in use. Call this after using the
 /// fields and before using the results.
 /// \throws TruncatedWhileInUse.
-void require_whole(const Prepared& prepared);
+void require_not_truncated(const Prepared& prepared);
 
 /// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a
 /// warning; a cache that cannot be written only causes a warning.

@@ -115,7 +115,7 @@ Digest HeadMesh::digest() const {
       .digest();
 }
 
-CacheKey read_key(const Digest& text_digest) {
+CacheKey key_of_read_head(const Digest& text_digest) {
   // The key contains the limits, because the cache may hold a file that exceeds the current limits.
   const InputLimits& limits = input_limits();
   return {kReadKind,
@@ -124,11 +124,12 @@ CacheKey read_key(const Digest& text_digest) {
 
 std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text_digest,
                                 ObjFile& head) {
-  auto kept = find_cached<KeptHead>(
-      cache, read_key(text_digest), kHeadArrays, [](const KeptHead& found, const CacheEntry&) {
-        return found.libraries.are_sound() && found.materials.are_sound() &&
-               found.groups.are_sound();
-      });
+  auto kept = find_cached<KeptHead>(cache, key_of_read_head(text_digest), kHeadArrays,
+                                    [](const KeptHead& found, const CacheEntry&) {
+                                      return found.libraries.are_sound() &&
+                                             found.materials.are_sound() &&
+                                             found.groups.are_sound();
+                                    });
   if (!kept) return std::nullopt;
   head.positions = std::move(kept->positions);
   head.material_libraries.clear();
@@ -154,7 +155,7 @@ void cache_head(const fs::path& cache, const Digest& text_digest, const Digest& 
   for (const MaterialRange& range : head.materials)
     kept.materials.add(range.name, range.first_face);
   for (const MaterialRange& range : head.groups) kept.groups.add(range.name, range.first_face);
-  write_entry(cache, read_key(text_digest), arrays_of(kept, kHeadArrays));
+  write_entry(cache, key_of_read_head(text_digest), arrays_of(kept, kHeadArrays));
 }
 
 void cache_mesh(const fs::path& cache, const HeadMesh& mesh) {

@@ -34,6 +34,7 @@ void cache_head(const std::filesystem::path& cache, const Digest& text_digest,
                 const Digest& mesh_digest, const ObjFile& head);
 void cache_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);
 
-CacheKey read_key(const Digest& text_digest);
+/// The cache key of a head as read from its file (kind kReadKind).
+CacheKey key_of_read_head(const Digest& text_digest);
 
 }  // namespace crowdface

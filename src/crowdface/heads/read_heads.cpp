@@ -104,8 +104,8 @@ bool is_worth_keeping(const ObjFile& file) {
 }
 
 /// Turns the polygons of mirrored heads back to the winding in the file, so that the alignment
-/// check reports these heads. A head is mirrored if reading has reversed its polygons, although the
-/// polygons in its file match the polygons of another head.
+/// check reports these heads. A head counts as mirrored if reading has reversed its polygons and
+/// its polygons without this reversal equal the polygons of another head.
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (!head || !head->mesh || !head->file.has_reversed_faces) continue;
@@ -116,7 +116,7 @@ void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
     });
     if (other == files.end()) continue;
     head->file.has_reversed_faces = false;
-    give_mesh(*head, **other, obj_colours(head->file.file.bytes(), head->file.positions.rows()));
+    replace_mesh(*head, **other, obj_colours(head->file.file.bytes(), head->file.positions.rows()));
   }
 }
 
@@ -281,7 +281,7 @@ void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
       return file && file->mesh && file->file.positions.rows() == files[i]->file.positions.rows();
     });
     if (other != files.end()) {
-      give_mesh(*files[i], **other);
+      replace_mesh(*files[i], **other);
       continue;
     }
     errors[i] = InvalidInput(concat(

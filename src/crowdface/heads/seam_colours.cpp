@@ -45,7 +45,7 @@ Positions sampled(const TextureSet& textures, const HeadSet& heads, const Vertex
   return densities;
 }
 
-/// The low frequencies of a head's texture, as optical densities.
+/// Returns the low frequencies of a head's texture at vertices: #vertices by 3 optical densities.
 Positions coarse_of(const TextureBlender& blender, std::size_t head,
                     const std::vector<std::uint32_t>& vertices) {
   Positions densities(static_cast<Index>(vertices.size()), 3);
@@ -80,11 +80,11 @@ std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const Textur
 
 SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
   const HeadSet& heads = inputs.head_set;
-  const Rim& rim = inputs.neck->seam.rim;
+  const Rim& rim = inputs.heads_on_body->seam.rim;
   vertices_ = rim;
   ring_size_ = static_cast<Index>(rim.size());
   EdgeDistances distances(inputs.adjacency, inputs.mean_head);
-  distances.search(rim, kBandMm / inputs.neck->mm_per_unit);
+  distances.search(rim, kBandMm / inputs.heads_on_body->mm_per_unit);
   for (const std::uint32_t v : distances.reached()) {
     if (distances.distance(v) > 0) vertices_.push_back(v);
   }
@@ -130,7 +130,7 @@ Positions SeamColours::blend(const std::vector<double>& weights, Index rows) con
   return blended / total;
 }
 
-Positions SeamColours::ring_densities(const std::vector<double>& weights) const {
+Positions SeamColours::optical_densities_at_ring(const std::vector<double>& weights) const {
   return blend(weights, ring_size_);
 }
 

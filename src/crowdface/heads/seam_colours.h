@@ -17,12 +17,12 @@ class SeamColours {
   ///                 their own.
   SeamColours(const Inputs& inputs, const TextureBlender* blended);
 
-  /// Whether any head has colours in the band.
+  /// Whether the colours of at least one head's skin above the neck's ring are known.
   bool has_colours() const;
   /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
   /// \param weights  #heads; heads without colours are left out. If all weights are zero, all heads
   ///                 get equal weights
-  Positions ring_densities(const std::vector<double>& weights) const;
+  Positions optical_densities_at_ring(const std::vector<double>& weights) const;
   /// Mean colour of the band, linear light.
   Eigen::Array3d mean_colour(const std::vector<double>& weights) const;
 

@@ -31,10 +31,12 @@ void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
 Digest settings_digest(const Config& config, const Inputs& inputs) {
   Hasher hasher;
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
-  for (std::size_t h = 0; h < inputs.unplaced_digests.size(); ++h) {
+  for (std::size_t h = 0; h < inputs.unplaced_head_digests.size(); ++h) {
     // Also hash the text of each head's file: an output mesh copies everything except the positions
     // from the file of its target head.
-    hasher.add(config.faces.names[h]).add(inputs.unplaced_digests[h]).add(inputs.text_digests[h]);
+    hasher.add(config.faces.names[h])
+        .add(inputs.unplaced_head_digests[h])
+        .add(inputs.head_file_digests[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);
   hasher.add(static_cast<int>(config.smoothing.boundary))

@@ -35,7 +35,7 @@ Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
 
 /// Adds to the hash everything that determines the skin of all heads.
 Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
-  for (const Digest& head : inputs.unplaced_digests) hasher.add(head);
+  for (const Digest& head : inputs.unplaced_head_digests) hasher.add(head);
   return hasher.add_array(std::span(inputs.skin_components.component_of_vertex))
       .add(inputs.skin_components.largest());
 }
@@ -108,7 +108,7 @@ bool are_neighbours(const Neighbours& found, std::size_t vertices) {
 
 constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {
   arrays("corners", found.map.corners);
-  arrays("shares", found.map.shares);
+  arrays("shares", found.map.barycentric);
   arrays("without", found.map.unpaired_vertices);
   arrays("added", found.map.unpaired_offsets);
   arrays("normal", found.map.plane.normal);
@@ -123,7 +123,7 @@ bool is_mirror(const FoundMirror& found, std::size_t vertices) {
   const MirrorMap& map = found.map;
   const auto is_place = [&](const Triangle& triangle) { return all_below(triangle, vertices); };
   return map.corners.size() == vertices && std::ranges::all_of(map.corners, is_place) &&
-         map.shares.size() == vertices && std::ranges::all_of(map.shares, are_shares) &&
+         map.barycentric.size() == vertices && std::ranges::all_of(map.barycentric, are_shares) &&
          all_below(map.unpaired_vertices, vertices) &&
          map.unpaired_offsets.rows() == static_cast<Index>(map.unpaired_vertices.size());
 }
@@ -191,7 +191,7 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
   begin_key(key, inputs).add_array(std::span(samples));
-  for (const Digest& head : inputs.unplaced_digests) key.add(head);
+  for (const Digest& head : inputs.unplaced_head_digests) key.add(head);
   return read_or_make(
       cache_of(inputs), {"cells", key.digest()},
       [&] { return find_sample_cells(inputs.adjacency, unplaced_mean(inputs), samples); },

@@ -32,15 +32,15 @@ std::vector<double> skin_tones(const Inputs& inputs) {
   return tones;
 }
 
-ColourShares::ColourShares(const Config& config, const Inputs& inputs)
+HeadColourWeights::HeadColourWeights(const Config& config, const Inputs& inputs)
     : heads_(inputs.head_set.heads.size()),
-      region_shares_(region_shares(
+      region_area_fractions_(region_shares(
           inputs.regions,
           face_vertex_areas(inputs.head_set.topology, inputs.skin_components, inputs.mean_head,
                             FaceArea::kFront, config.faces.front))) {}
 
-std::vector<double> ColourShares::shares_of(const Recipe& recipe) const {
-  return face_colour_weights(recipe, heads_, region_shares_).face;
+std::vector<double> HeadColourWeights::weights_of(const Recipe& recipe) const {
+  return face_colour_weights(recipe, heads_, region_area_fractions_).face;
 }
 
 }  // namespace crowdface

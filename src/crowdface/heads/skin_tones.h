@@ -14,14 +14,15 @@ std::vector<double> skin_tones(const Inputs& inputs);
 
 /// Computes the weights of the heads in the colours of a face: the mean over the regions, weighted
 /// by each region's share of the frontal skin area.
-class ColourShares {
+class HeadColourWeights {
  public:
-  ColourShares(const Config& config, const Inputs& inputs);
-  std::vector<double> shares_of(const Recipe& recipe) const;
+  HeadColourWeights(const Config& config, const Inputs& inputs);
+  /// #heads: the weights for a face; their sum is one.
+  std::vector<double> weights_of(const Recipe& recipe) const;
 
  private:
   std::size_t heads_;
-  std::vector<double> region_shares_;
+  std::vector<double> region_area_fractions_;
 };
 
 }  // namespace crowdface

@@ -23,7 +23,7 @@ class EncodedFile {
   EncodedFile(std::string text) { add(std::move(text)); }  // NOLINT(*-explicit-*)
   /// Appends bytes without copying them. The bytes must outlive this object.
   void refer_to(std::string_view bytes);
-  /// Appends bytes that this object owns.
+  /// Appends a text, which this object then owns.
   void add(std::string text);
   /// Keeps `owner`, which holds referenced bytes, alive as long as this object.
   void keep(std::shared_ptr<const void> owner);

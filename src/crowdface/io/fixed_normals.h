@@ -10,7 +10,7 @@
 namespace crowdface {
 
 /// Vertices whose normals are given and not computed from the mesh.
-struct FixedNormals {
+struct GivenNormals {
   std::vector<std::uint32_t> vertices;
   Positions normals;  ///< #vertices by 3
 

@@ -63,7 +63,7 @@ constexpr std::array kText = {
 
 }  // namespace
 
-void refuse_foreign_file(std::string_view bytes, const std::filesystem::path& path) {
+void refuse_non_mesh_file(std::string_view bytes, const std::filesystem::path& path) {
   const auto refuse = [&](std::string_view what) {
     refuse_file(path, concat("expected a mesh, found ", what));
   };
@@ -80,7 +80,7 @@ void refuse_foreign_file(std::string_view bytes, const std::filesystem::path& pa
   }
 }
 
-std::string_view advice_on_number(std::string_view word) {
+std::string_view advice_on_bad_number(std::string_view word) {
   if (word.find(',') != word.npos) {
     return "; set the program's or the system's number format to a decimal point and export "
            "again";

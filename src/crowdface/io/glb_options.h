@@ -19,16 +19,16 @@ struct GlbMaterial {
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
   /// Index of the base colour image. Viewers multiply the image's colours by `colour`.
   std::optional<std::size_t> image = {};
-  bool uses_overlay =
-      false;  ///< whether the base colour comes from the overlay image; the material is
-              ///< then opaque
+  /// Whether the base colour comes from `GlbOptions::overlay`. The material is then opaque.
+  bool uses_overlay = false;
   std::optional<std::size_t> normal_image = {};  ///< index of the tangent-space normal map
   /// Index of the roughness map, which holds roughness in its green channel.
   std::optional<std::size_t> roughness_image = {};
 };
 
-/// An image that is the same in all files, such as an iris, with texture coordinates for each
-/// vertex. Files that do not embed images name the image file `kFile`.
+/// An image that materials with `uses_overlay` show instead of their own colour, such as an iris.
+/// It is the same in all files and has its own texture coordinates. Files that do not embed images
+/// name the image file `kFile`.
 struct GlbOverlay {
   static constexpr const char* kFile = "topology/iris.png";
 
@@ -66,9 +66,9 @@ struct GlbOptions {
   /// to face.
   std::vector<std::string> point_names;
   GlbSkin skin;  ///< joints below the face's node; their positions differ from face to face
-  std::vector<std::uint32_t> vertex_ids;  ///< #V: values of `_VERTEX_ID`; empty: the values are 0,
-                                          ///< 1, 2, …
-  std::vector<GlbFaceImage> images;       ///< the images embedded in every file
+  /// #V: values of `_VERTEX_ID`; empty: the values are 0, 1, 2, …
+  std::vector<std::uint32_t> vertex_ids;
+  std::vector<GlbFaceImage> images;  ///< the images embedded in every file
   std::optional<GlbOverlay> overlay = {};
   /// For files without embedded images: the path from the file to the folder that contains
   /// `GlbOverlay::kFile`.

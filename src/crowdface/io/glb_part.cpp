@@ -51,13 +51,13 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
                  const std::vector<GlbPartMaterial>& materials,
                  const std::vector<std::uint32_t>& face_materials,
                  const std::vector<GlbImage>& images, const CompressedRows<Influence>& influences,
-                 std::vector<std::string> targets, FixedNormals fixed)
+                 std::vector<std::string> targets, GivenNormals fixed)
     : name_(std::move(name)),
       topology_(topology),
       fans_(topology),
       materials_(materials),
       targets_(std::move(targets)),
-      fixed_normals_(std::move(fixed)) {
+      given_normals_(std::move(fixed)) {
   require(!materials.empty() && static_cast<Index>(face_materials.size()) == topology.face_count(),
           "GlbPart: a material of each face");
   const SplitVertices split = split_vertices(topology);
@@ -148,7 +148,7 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
                      std::span<const Displacements> moves, const PartLook& look) const {
   require_finite(positions, topology_.vertex_count, name_);
   Positions normals = vertex_normals(fans_, topology_, positions);
-  fixed_normals_.copy_to(normals);
+  given_normals_.copy_to(normals);
   const std::size_t length = 2 * source_vertices_.size() * kVectorSize;
   char* const vectors = file.reserve(length);
   char* at = vectors;

@@ -58,7 +58,7 @@ class GlbPart {
           const std::vector<GlbPartMaterial>& materials,
           const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images,
           const CompressedRows<Influence>& influences = {}, std::vector<std::string> targets = {},
-          FixedNormals fixed = {});
+          GivenNormals fixed = {});
 
   /// Adds node, mesh, materials and accessors to a scene.
   /// \param size  bytes in the buffer so far, a multiple of four.
@@ -94,7 +94,7 @@ class GlbPart {
   std::vector<GlbImage> images_;        ///< without `bytes`
   std::vector<GlbSkinAttribute> skin_;  ///< without `bytes`; empty: not skinned
   std::vector<std::string> targets_;
-  FixedNormals fixed_normals_;
+  GivenNormals given_normals_;
   std::string shared_data_;  ///< texture coordinates, influences, triangles, images
 };
 

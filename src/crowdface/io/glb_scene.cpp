@@ -34,7 +34,7 @@ Json vector_json(const Eigen::RowVector3d& vector) {
   return json;
 }
 
-Json material_json(const GlbMaterial& material, std::size_t overlay) {
+Json material_json(const GlbMaterial& material, std::size_t overlay_texture) {
   Json json = Json::object();
   if (!material.name.empty()) json["name"] = material.name;
   Json colour = Json::array();
@@ -46,7 +46,8 @@ Json material_json(const GlbMaterial& material, std::size_t overlay) {
   if (material.image) {
     json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *material.image}};
   } else if (material.uses_overlay) {
-    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", overlay}, {"texCoord", 1}};
+    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", overlay_texture},
+                                                        {"texCoord", 1}};
   }
   if (material.roughness_image) {
     json["pbrMetallicRoughness"]["roughnessFactor"] = 1.0;

@@ -20,8 +20,10 @@ namespace crowdface {
 /// A JSON array of the vector's components, rounded to single precision.
 nlohmann::ordered_json vector_json(const Eigen::RowVector3d& vector);
 
-/// The glTF description of a material. \param overlay index of the overlay among the file's images.
-nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay);
+/// The glTF description of a material.
+/// \param overlay_texture  index of the glTF texture that contains the image `GlbOptions::overlay`,
+///                         such as an iris; used only if `material.uses_overlay`.
+nlohmann::ordered_json material_json(const GlbMaterial& material, std::size_t overlay_texture);
 
 /// The root node of a face, without a name. Its transform converts unit and axes. In a file with a
 /// rig, this node is the parent of the joints, and the mesh has a separate node.

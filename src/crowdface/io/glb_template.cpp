@@ -256,7 +256,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   shared_data_ += indices;
 }
 
-std::size_t GlbTemplate::vector_bytes() const {
+std::size_t GlbTemplate::vector_attribute_bytes() const {
   return (static_cast<std::size_t>(vertex_count_) + copied_vertices_.size()) * kVectorSize;
 }
 
@@ -332,10 +332,10 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   file.add(head);
   char* vectors = file.reserve(encoding_memory_bytes());
   put_vectors(vectors, positions, copied_vertices_);
-  put_vectors(vectors + vector_bytes(), normals, copied_vertices_);
+  put_vectors(vectors + vector_attribute_bytes(), normals, copied_vertices_);
   char* const values = vectors + vertex_bytes();
   if (has_colours_)
-    put_vectors(vectors + 2 * vector_bytes(), linear_light(colours), copied_vertices_);
+    put_vectors(vectors + 2 * vector_attribute_bytes(), linear_light(colours), copied_vertices_);
   if (tangents_) {
     tangents_->write(values - tangents_->count() * Tangents::kSize, positions, normals);
   }
@@ -370,9 +370,9 @@ Positions read_glb_positions(const std::filesystem::path& path, Index vertices) 
   need(chunks.has_value());
   const Json scene = Json::parse(chunks->json, nullptr, false);
   const Json generator = scene.value(Json::json_pointer("/asset/generator"), Json());
-  // The buffer begins with the positions.
-  need(generator == "crowdface" &&
-       static_cast<std::size_t>(vertices) <= chunks->binary.size() / kVectorSize);
+  need(generator == "crowdface");
+  // The binary chunk begins with the positions.
+  need(static_cast<std::size_t>(vertices) <= chunks->binary.size() / kVectorSize);
   return read_singles(chunks->binary.data(), vertices, kVectorSize, path.string());
 }
 

@@ -58,10 +58,11 @@ class GlbTemplate {
   }
 
  private:
-  std::size_t vector_bytes() const;
+  /// Number of bytes of one attribute of three numbers per vertex, such as the positions.
+  std::size_t vector_attribute_bytes() const;
   /// Number of bytes of the positions, normals, colours and tangents of one file.
   std::size_t vertex_bytes() const {
-    return (has_colours_ ? 3 : 2) * vector_bytes() +
+    return (has_colours_ ? 3 : 2) * vector_attribute_bytes() +
            (tangents_ ? tangents_->count() * Tangents::kSize : 0);
   }
 
@@ -79,8 +80,8 @@ class GlbTemplate {
   std::size_t first_target_ = 0;
   GlbSkin skin_;                  ///< without influences
   std::size_t target_bytes_ = 0;  ///< bytes of the displacements of all targets
-  std::string json_;              ///< the scene without bounds and names, which differ from face to
-                                  ///< face
+  /// The scene as JSON, without the bounds and names, because these differ between faces.
+  std::string json_;
 };
 
 /// Reads the positions of a file that `GlbTemplate` wrote.

@@ -205,8 +205,8 @@ std::string_view GltfFile::view(std::size_t number) {
   return part(json);
 }
 
-/// Counts values against the limit of all values read. The file size alone is no limit: many nodes
-/// may use one mesh, and several accessors may share data.
+/// Subtracts `more` from the number of values that may still be read from the file. The file size
+/// alone is no limit: many nodes may use one mesh, and several accessors may share data.
 void GltfFile::reserve_numbers(std::size_t more) {
   if (more > remaining_numbers_) {
     fail("its meshes and skins use far more numbers than its buffers have bytes");
@@ -214,15 +214,16 @@ void GltfFile::reserve_numbers(std::size_t more) {
   remaining_numbers_ -= more;
 }
 
-std::vector<double> GltfFile::read_rows(std::size_t number, std::size_t begin, int type,
+std::vector<double> GltfFile::read_rows(std::size_t view_index, std::size_t byte_offset, int type,
                                         std::size_t count, std::size_t width,
                                         std::size_t accessor) {
-  const std::string_view bytes = view(number);
+  const std::string_view bytes = view(view_index);
   const std::size_t size = size_of_type(type);
-  const std::size_t stride = scene_.at("bufferViews").at(number).value("byteStride", size * width);
-  if (begin > bytes.size() || stride < size * width ||
-      count > (bytes.size() - begin) / stride + 1 ||
-      (count > 0 && (count - 1) * stride + size * width > bytes.size() - begin)) {
+  const std::size_t stride =
+      scene_.at("bufferViews").at(view_index).value("byteStride", size * width);
+  if (byte_offset > bytes.size() || stride < size * width ||
+      count > (bytes.size() - byte_offset) / stride + 1 ||
+      (count > 0 && (count - 1) * stride + size * width > bytes.size() - byte_offset)) {
     fail(concat("accessor ", accessor, " reaches beyond its data"));
   }
   reserve_numbers(count * width);
@@ -230,7 +231,7 @@ std::vector<double> GltfFile::read_rows(std::size_t number, std::size_t begin, i
   numbers.reserve(count * width);
   const auto take = [&]<class T>(T) {
     for (std::size_t row = 0; row < count; ++row) {
-      const char* at = bytes.data() + begin + row * stride;
+      const char* at = bytes.data() + byte_offset + row * stride;
       for (std::size_t c = 0; c < width; ++c) {
         numbers.push_back(static_cast<double>(number_at<T>(at + c * sizeof(T))));
       }

@@ -47,9 +47,13 @@ class GltfFile {
 
  private:
   std::string_view buffer(std::size_t number);
-  /// Reads `count` rows of `width` numbers from buffer view `number`.
-  std::vector<double> read_rows(std::size_t number, std::size_t begin, int type, std::size_t count,
-                                std::size_t width, std::size_t accessor);
+  /// Reads `count` rows of `width` numbers.
+  /// \param view_index  the buffer view that contains the rows
+  /// \param byte_offset  start of the first row in the view
+  /// \param type  component type of the numbers, as glTF numbers the types
+  /// \param accessor  index of the accessor, for messages
+  std::vector<double> read_rows(std::size_t view_index, std::size_t byte_offset, int type,
+                                std::size_t count, std::size_t width, std::size_t accessor);
   void reserve_numbers(std::size_t more);
 
   std::filesystem::path path_;

@@ -37,7 +37,7 @@ struct UvTransform {
   double x = 0, y = 0, rotation = 0, scale_x = 1, scale_y = 1;
 };
 
-/// The range of rows that hold an accessor's vertices among the vertices of the whole file.
+/// The vertices of one accessor, as a range of rows in the list of all vertices of the file.
 struct Rows {
   std::uint32_t first = 0, count = 0;
 };
@@ -363,7 +363,7 @@ class GltfMeshReader {
                ? file_.read_uri(image.at("uri").get<std::string>(), "its texture")
                : std::string(file_.view(image.at("bufferView").get<std::size_t>()))});
     } catch (const std::exception& error) {
-      mesh_.notes.push_back(concat("the ", statement_of(kind).name, " texture of ",
+      mesh_.notes.push_back(concat("the ", mtl_statement_of(kind).name, " texture of ",
                                    quoted(material), " cannot be read: ", error.what()));
     }
   }

@@ -170,10 +170,11 @@ class RigReader {
   }
 
   GltfFile file_;
-  std::vector<std::uint32_t> parents_;   ///< #nodes
-  std::vector<Eigen::Matrix4d> worlds_;  ///< #nodes: transform from the node's axes to the file's
-                                         ///< axes in the rest pose
-  std::vector<std::uint32_t> joint_of_;  ///< #nodes
+  std::vector<std::uint32_t> parents_;  ///< #nodes: index of the parent node, or kNoIndex
+  /// #nodes: transform from the node's axes to the file's axes in the rest pose
+  std::vector<Eigen::Matrix4d> worlds_;
+  /// #nodes: index of the node's joint in `rig_.joints`; kNoIndex if the node is not a joint
+  std::vector<std::uint32_t> joint_of_;
   std::map<std::size_t, Skin> skins_;
   std::vector<Eigen::Vector3d> points_;
   GltfRig rig_;
@@ -184,7 +185,7 @@ class RigReader {
 GltfRig read_gltf_rig(const std::filesystem::path& path) {
   try {
     const MappedFile file(path);
-    refuse_foreign_file(file.bytes(), path);
+    refuse_non_mesh_file(file.bytes(), path);
     return RigReader(file.bytes(), path).read();
   } catch (const Json::exception& error) {
     refuse_file(path, concat("expected a valid glTF 2.0 scene: ", error.what()));

@@ -62,7 +62,7 @@ void check_size(const path& file, const ImageHeader& spec, const ImageLimits& li
     refuse_file(file, concat("expected at most ", limits.max_side, " pixels a side, found ", size));
   }
   const auto most = static_cast<std::int64_t>(input_limits().image_pixels);
-  if (!limits.is_own_file && std::int64_t{spec.width} * spec.height > most) {
+  if (!limits.is_crowdface_file && std::int64_t{spec.width} * spec.height > most) {
     refuse_file(file, concat("expected at most ", most, " pixels (--limit), found ", size));
   }
   if (spec.channels > limits.max_channels) {
@@ -232,7 +232,7 @@ void crop_to_display_window(const path& file, const ImageHeader& facts, const Im
   shown.height = facts.full_height;
   check_size(file, shown, limits);
   const ImageMemory memory =
-      limits.is_own_file ? nullptr : reserve_image_memory(file, pixel_bytes(shown));
+      limits.is_crowdface_file ? nullptr : reserve_image_memory(file, pixel_bytes(shown));
   std::visit([&](auto& pixels) { pixels = in_display_window(pixels, facts); }, image.pixels);
   image.width = facts.full_width;
   image.height = facts.full_height;
@@ -243,7 +243,7 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
   const auto [codec, facts, picture] = open_checked(file, mapped, limits);
   Image image{facts.width, facts.height, facts.channels,     facts.alpha_channel,
               {},          {},           facts.channel_names};
-  if (!limits.is_own_file) image.memory = reserve_image_memory(file, pixel_bytes(facts));
+  if (!limits.is_crowdface_file) image.memory = reserve_image_memory(file, pixel_bytes(facts));
   std::string error;
   if (!codec.read(picture.get(), make_room(file, facts, image), error)) {
     throw_if_interrupted();
@@ -289,7 +289,7 @@ Image read_image(const path& file, const ImageLimits& limits) {
     try {
       return decode(file, mapped, limits);
     } catch (const InvalidInput& again) {
-      if (limits.is_own_file) throw IoError(again.what());
+      if (limits.is_crowdface_file) throw IoError(again.what());
       throw;
     }
   }
@@ -310,7 +310,7 @@ std::string encode_png(int width, int height, int channels, std::span<const std:
 }
 
 std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels) {
-  return encode("png", {ImageToEncode::Form::kStoredPng, width, height, 3, pixels.data()},
+  return encode("png", {ImageToEncode::Form::kUncompressedPng, width, height, 3, pixels.data()},
                 pixels.size());
 }
 
@@ -322,7 +322,7 @@ std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pix
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  return encode("png", {ImageToEncode::Form::kWordPng, width, height, channels, pixels.data()},
+  return encode("png", {ImageToEncode::Form::kPng16, width, height, channels, pixels.data()},
                 pixels.size());
 }
 

@@ -60,10 +60,10 @@ struct ImageLimits {
   int max_side = 16384;  ///< pixels
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
-  bool allows_jpeg = false;              ///< whether to accept JPEG; true for colour textures,
-                                         ///< false for masks
-  bool is_own_file = false;  ///< whether this program wrote the file; if so, `input_limits()` does
-                             ///< not apply
+  /// Whether to accept JPEG; true for colour textures, false for masks.
+  bool allows_jpeg = false;
+  /// Whether crowdface wrote the file. If so, `input_limits()` does not apply.
+  bool is_crowdface_file = false;
 };
 
 /// Thrown if the header of a file is valid but the pixels are damaged.
@@ -91,8 +91,8 @@ struct ImageSize {
   int width = 0;
   int height = 0;
   int channels = 0;
-  bool has_bytes = false;   ///< 8 bits per value
-  bool has_floats = false;  ///< single precision; if neither flag is set, 16 bits per value
+  bool has_8_bit_values = false;  ///< 8 bits per value
+  bool has_floats = false;        ///< single precision; if neither flag is set, 16 bits per value
 };
 ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& limits = {});
 
@@ -102,7 +102,8 @@ ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& 
 /// \throws BrokenPrecondition if the sizes do not match.
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-/// Encodes a PNG without compression, so that the bytes do not depend on the installed zlib.
+/// Encodes a PNG with deflate's uncompressed ("stored") blocks, so that the bytes do not depend on
+/// the installed zlib.
 std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels);
 
 /// Encodes a PNG with 16 bits per value.

@@ -24,11 +24,11 @@ struct ImageHeader {
 
 /// Pixels to be encoded as a file.
 struct ImageToEncode {
-  enum class Form { kPng, kStoredPng, kWordPng, kJpeg, kExr };
+  enum class Form { kPng, kUncompressedPng, kPng16, kJpeg, kExr };
   Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
-  const void* pixels =
-      nullptr;  ///< row-major; floats for OpenEXR, 16-bit numbers for kWordPng, otherwise bytes
+  /// row-major; floats for OpenEXR, 16-bit numbers for kPng16, otherwise bytes
+  const void* pixels = nullptr;
 };
 
 /// Functions that decode and encode image files of some formats. The codec does not check limits;

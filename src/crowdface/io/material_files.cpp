@@ -77,7 +77,7 @@ class Collector {
   }
 
   MaterialFiles take_files() {
-    for (const auto& [relative, texture] : taken_) {
+    for (const auto& [relative, texture] : texture_uses_) {
       if (texture.kinds.size() > 1) continue;
       for (const std::size_t file : texture.files) files_.files[file].kind = *texture.kinds.begin();
     }
@@ -85,9 +85,9 @@ class Collector {
   }
   NamedTextures take_textures() {
     NamedTextures named{std::move(of_kind_), {}, {}};
-    if (materials_.size() == 1) named.only_material = *materials_.begin();
+    if (materials_.size() == 1) named.single_material = *materials_.begin();
     for (auto& [kind, of_material] : named.paths_by_kind) {
-      const auto only = of_material.find(named.only_material);
+      const auto only = of_material.find(named.single_material);
       if (only != of_material.end()) of_material.emplace("", only->second);
     }
     named.warnings = take_files().warnings;
@@ -100,14 +100,17 @@ class Collector {
     std::set<fs::path> known;
     bool full = false;
   };
-  enum class Seen { kNew, kBefore, kTooMany };
+  enum class NameStatus { kNew, kKnown, kTooMany };
 
+  /// Adds a file name to `names`. If `names` is full, warns once and does not add the name.
+  /// \param what   "texture" or "material file", for the warning
   /// \param where  the file that contains the name
-  Seen see(const fs::path& relative, std::string_view what, const fs::path& where, Names& names) {
-    if (names.known.contains(relative)) return Seen::kBefore;
+  NameStatus add_name(const fs::path& relative, std::string_view what, const fs::path& where,
+                      Names& names) {
+    if (names.known.contains(relative)) return NameStatus::kKnown;
     if (names.known.size() < input_limits().textures) {
       names.known.insert(relative);
-      return Seen::kNew;
+      return NameStatus::kNew;
     }
     if (!names.full) {
       files_.warnings.push_back(concat(where.string(), ": names more than ",
@@ -117,7 +120,7 @@ class Collector {
                                        "(--limit textures=NUMBER allows more)"));
     }
     names.full = true;
-    return Seen::kTooMany;
+    return NameStatus::kTooMany;
   }
 
   bool exists(const fs::path& relative) const { return is_file(folder_ / relative); }
@@ -158,12 +161,12 @@ class Collector {
     return std::nullopt;
   }
   void take_renamed(const fs::path& library) {
-    files_.has_renamed_library = true;
+    files_.has_library_at_other_path = true;
     take_library(library);
   }
 
   void take_library(const fs::path& name) {
-    if (see(name, "material file", mesh_, libraries_) != Seen::kNew) return;
+    if (add_name(name, "material file", mesh_, libraries_) != NameStatus::kNew) return;
     if (!take_file(name, "material file")) return;
     files_.files.back().is_library = true;
     const fs::path file = folder_ / name;
@@ -183,15 +186,15 @@ class Collector {
       }
       if (!is_texture_statement(word)) continue;
       const fs::path relative = texture_of(rest, name.parent_path());
-      const Seen seen = see(relative, "texture", file, textures_);
-      if (seen == Seen::kTooMany) continue;
+      const NameStatus status = add_name(relative, "texture", file, textures_);
+      if (status == NameStatus::kTooMany) continue;
       const std::optional<TextureKind> kind = texture_kind_of(word);
       if (kind && stays_inside(relative) &&
           is_inside_folder(folder_ / udim_tile_path(relative, kFirstTile), folder_)) {
         of_kind_[*kind].emplace(material, (folder_ / relative).lexically_normal());
       }
-      taken_[relative].kinds.insert(kind);
-      if (seen == Seen::kNew) take_texture(relative);
+      texture_uses_[relative].kinds.insert(kind);
+      if (status == NameStatus::kNew) take_texture(relative);
     }
   }
 
@@ -201,7 +204,7 @@ class Collector {
   fs::path texture_of(std::string_view rest, const fs::path& folder) {
     const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
     if (!is_new) return known->second;
-    const std::vector<std::string_view> suffixes = word_suffixes(rest);
+    const std::vector<std::string_view> suffixes = suffixes_at_words(rest);
     const bool has_options = rest.starts_with('-');
     known->second = folder / with_forward_slashes(has_options ? suffixes.back() : rest);
     if (textures_.full) return known->second;
@@ -247,7 +250,7 @@ class Collector {
     }
     if (tiles.empty()) take_file(relative, "texture");
     for (std::size_t i = before; i < files_.files.size(); ++i) {
-      taken_[relative].files.push_back(i);
+      texture_uses_[relative].files.push_back(i);
     }
   }
 
@@ -261,14 +264,14 @@ class Collector {
   /// Maps the text of a statement to its texture path. Valid only within one material file.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;
-  /// The kinds for which statements name one texture, and the files of this texture.
-  struct Taken {
+  /// How the material files use one texture.
+  struct TextureUses {
     /// The kinds of the statements that name the texture; an unknown statement adds std::nullopt.
     std::set<std::optional<TextureKind>> kinds;
-    std::vector<std::size_t> files;
+    std::vector<std::size_t> files;  ///< indices of the texture's files (tiles) in `files_.files`
   };
   std::map<TextureKind, std::map<std::string, fs::path>> of_kind_;
-  std::map<fs::path, Taken> taken_;
+  std::map<fs::path, TextureUses> texture_uses_;
 };
 
 Collector collect(const fs::path& mesh, const std::vector<std::string>& libraries) {
@@ -287,7 +290,7 @@ MaterialStatement material_statement(std::string_view line) {
   return {line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank))};
 }
 
-std::vector<std::string_view> word_suffixes(std::string_view text) {
+std::vector<std::string_view> suffixes_at_words(std::string_view text) {
   constexpr std::size_t kMaxSuffixes = 32;
   std::vector<std::string_view> suffixes;
   for (std::size_t end = text.size(); end > 0 && suffixes.size() < kMaxSuffixes;) {

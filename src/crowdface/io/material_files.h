@@ -17,10 +17,9 @@ namespace crowdface {
 struct MaterialFile {
   std::filesystem::path source;       ///< source path
   std::filesystem::path destination;  ///< destination path, relative to the meshes' folder
-  bool is_library = false;            ///< whether the file is a material file; otherwise it is a
-                                      ///< texture
-  /// Kind of the texture. Nothing for a material file, for a texture that statements of several
-  /// kinds name, and for a texture that an unknown statement names.
+  bool is_library = false;            ///< true: a material file; false: a texture
+  /// Kind of the texture. Nothing if the file is a material file, if material files use the texture
+  /// for several kinds, or if an unknown statement names the texture.
   std::optional<TextureKind> kind = {};
 };
 
@@ -31,7 +30,7 @@ struct MaterialFiles {
   std::vector<std::string> warnings;
   /// Whether a material file was found under another path than the mesh names. In this case a
   /// written mesh must name the found file in its `mtllib` line.
-  bool has_renamed_library = false;
+  bool has_library_at_other_path = false;
 };
 
 /// Name of the folder, beside the meshes, that contains only files made by this program.
@@ -47,13 +46,13 @@ MaterialStatement material_statement(std::string_view line);
 bool is_texture_statement(std::string_view word);
 /// All suffixes of a text that begin at one of its last 32 words, longest first. One of them is the
 /// file name in a statement, because the file name comes after the options and may contain spaces.
-std::vector<std::string_view> word_suffixes(std::string_view text);
+std::vector<std::string_view> suffixes_at_words(std::string_view text);
 
 /// Finds the material files that a mesh names, and the textures that these files name. A name with
 /// <UDIM> stands for all existing tiles. Problems become warnings, not errors: files that are
 /// missing or unreadable, paths that lead out of the mesh's folder (which are not followed), names
-/// that a mesh may have (see `mesh_format_of`), names in `topology` or `blended`, and more names
-/// than `input_limits().textures`.
+/// that a mesh may have (see `mesh_format_of`), files in the reserved folders `topology` and
+/// `blended`, and more names than `input_limits().textures`.
 /// \param mesh  path of the OBJ file.
 /// \param libraries  arguments of the `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
@@ -66,7 +65,7 @@ struct NamedTextures {
   std::map<TextureKind, std::map<std::string, std::filesystem::path>> paths_by_kind;
   /// Name of the material if the libraries define exactly one; otherwise empty. Polygons without a
   /// material use this material.
-  std::string only_material;
+  std::string single_material;
   /// Problems with material files and paths, as in `MaterialFiles`.
   std::vector<std::string> warnings;
 };

@@ -33,8 +33,7 @@ enum class DataStorage {
 /// Which normals an encoder needs.
 enum class FileNormals {
   kNone,
-  kOnLevels,    ///< normals only for levels of detail; the full mesh keeps the normals of the OBJ
-                ///< file that it copies
+  kOnLevels,    ///< for levels of detail; the full mesh copies the normals of its OBJ file
   kLikeTarget,  ///< only if the target's file has normals
   kAlways,
 };
@@ -46,8 +45,7 @@ struct MeshFormatTraits {
   std::string_view name;        ///< name in the config: "points"
   std::string_view extension;   ///< ".npy"
   std::string_view report_key;  ///< key of the face's file in report.json
-  bool has_faces;               ///< whether the file stores polygons; needed to write levels of
-                                ///< detail
+  bool has_polygons;            ///< whether the file stores polygons; levels of detail need them
   bool has_material_file;       ///< whether the file refers to an MTL file
   FileNormals normals;
   DataStorage shapes, attachments, textures;
@@ -60,7 +58,7 @@ struct MeshFormatTraits {
 const MeshFormatTraits& traits_of(MeshFormat format);
 /// Whether face files of this format name texture files of attachments. If so, these texture files
 /// are stored beside the meshes.
-inline bool names_attachment_textures(const MeshFormatTraits& format) {
+inline bool refers_to_attachment_textures(const MeshFormatTraits& format) {
   return format.attachments == DataStorage::kOwnFiles ||
          (format.attachments == DataStorage::kInside && format.textures == DataStorage::kOwnFiles);
 }

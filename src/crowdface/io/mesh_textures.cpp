@@ -69,7 +69,7 @@ std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::pat
       write_file(folder / file->second, texture.bytes);
     }
     statements[material_name_of(texture.material)] +=
-        concat(statement_of(texture.kind).word, ' ', file->second, '\n');
+        concat(mtl_statement_of(texture.kind).word, ' ', file->second, '\n');
   }
   std::string text;
   for (const auto& [material, lines] : statements) {

@@ -90,8 +90,8 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
   }
 }
 
-/// Replaces the loader's values with the scan's more accurate values.
-void take_places(ObjScan scan, ObjFile& result) {
+/// Replaces the values that tinyobjloader read with the more accurate values that `scan_obj` read.
+void take_scanned_values(ObjScan scan, ObjFile& result) {
   // Scanned positions are rounded correctly; the loader's positions are not.
   result.positions = std::move(scan.positions);
   result.material_libraries = std::move(scan.material_libraries);
@@ -106,7 +106,7 @@ ObjScan scan_or_mend(ObjFile& obj, const ObjOutline& outline) {
   try {
     return scan_obj(obj.file.bytes(), name, outline, ObjLines::kAll);
   } catch (const InvalidInput&) {
-    refuse_foreign_file(obj.file.bytes(), obj.path);
+    refuse_non_mesh_file(obj.file.bytes(), obj.path);
     auto mended = mend_obj(obj.file.bytes());
     if (!mended) throw;
     obj.file = MappedFile::from_text(std::move(mended->text));
@@ -147,7 +147,7 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
   result.topology.vertex_count = scan.positions.rows();
   compare(scan, attributes, result);
   result.uvs = std::move(scan.uvs);
-  take_places(std::move(scan), result);
+  take_scanned_values(std::move(scan), result);
   return result;
 }
 
@@ -156,7 +156,8 @@ ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file
   ObjFile result;
   result.path = path;
   result.file = std::move(file);
-  take_places(scan_obj(result.file.bytes(), path.string(), outline, ObjLines::kAllButMesh), result);
+  take_scanned_values(scan_obj(result.file.bytes(), path.string(), outline, ObjLines::kAllButMesh),
+                      result);
   return result;
 }
 

@@ -16,8 +16,7 @@ namespace crowdface {
 struct ObjFile {
   std::filesystem::path path;
   MappedFile file;
-  Topology topology;       ///< polygons and vertices as in the file, not triangulated and in the
-                           ///< same order
+  Topology topology;       ///< not triangulated; polygons and corners in the order of the file
   Positions positions;     ///< #V by 3, in file units
   TextureCoordinates uvs;  ///< #T by 2
   /// #C: for each corner, the index of its `vn` line, or kNoIndex. Empty if the file has no `vn`
@@ -29,8 +28,9 @@ struct ObjFile {
   std::vector<std::string> notes;   ///< repairs and ignored statements, one sentence each
   bool is_mended = false;           ///< whether repairs changed the text
   bool has_reversed_faces = false;  ///< see with_outward_faces
-  /// Path of some file in the folder that holds the material files. Empty if the material files are
-  /// in the folder of `path`.
+  /// If the material files are not in the folder of `path`: a path in the material files' folder,
+  /// from which their relative paths start. The file name of this path does not matter. Otherwise
+  /// empty.
   std::filesystem::path material_base;
 
   const std::filesystem::path& material_path() const {
@@ -54,11 +54,10 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
 ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file,
                               const ObjOutline& outline);
 
-/// The material of each polygon.
+/// The materials of a mesh, and the material of each polygon ("face").
 struct FaceMaterials {
-  std::vector<std::string>
-      names;  ///< unique names, in order of their first use by a polygon; the name "" stands for no
-              ///< material
+  /// unique names, in order of their first use by a polygon; the name "" stands for no material
+  std::vector<std::string> names;
   std::vector<std::uint32_t> material_of_face;  ///< #F indices into `names`
 };
 

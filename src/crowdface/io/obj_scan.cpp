@@ -236,7 +236,7 @@ class Scanner {
   double number(std::string_view word, double largest) const {
     const auto value = parse_double(word);
     if (!value)
-      fail(concat("expected a finite number, found ", quoted(word), advice_on_number(word)));
+      fail(concat("expected a finite number, found ", quoted(word), advice_on_bad_number(word)));
     if (std::abs(*value) > largest) {
       fail(concat("expected a coordinate within ±", largest, ", found ", quoted(word),
                   "; move the mesh to the origin before exporting"));

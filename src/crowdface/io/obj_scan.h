@@ -43,8 +43,8 @@ ObjOutline outline_obj(std::string_view text);
 /// Which lines `scan_obj` checks.
 enum class ObjLines {
   kAll,
-  kAllButMesh,  ///< all except `f` and `vt` lines, because an earlier checked text has equal `f`
-                ///< and `vt` lines
+  /// all except `f` and `vt` lines, which are equal to those of a text that was checked earlier
+  kAllButMesh,
 };
 
 /// Checks an OBJ text line by line for errors that the loader accepts: words in place of numbers,

@@ -102,7 +102,7 @@ bool is_zero(const Positions& rows, Index i) {
 }  // namespace
 
 ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool colours,
-                         const FixedNormals& fixed)
+                         const GivenNormals& fixed)
     : text_(target.file.bytes()),
       topology_(topology),
       vertex_count_(topology.vertex_count),
@@ -131,11 +131,11 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
   check_row_counts(target, vertices, vertex_count_, normals);
   if (!has_normals) return;
   fans_.emplace(topology, target.corner_normals, normals);
-  fix_normals(target.corner_normals, fixed);
+  set_given_normals(target.corner_normals, fixed);
 }
 
-void ObjTemplate::fix_normals(const std::vector<std::uint32_t>& corner_rows,
-                              const FixedNormals& fixed) {
+void ObjTemplate::set_given_normals(const std::vector<std::uint32_t>& corner_rows,
+                                    const GivenNormals& fixed) {
   if (fixed.vertices.empty()) return;
   // For each normal, the vertex whose corners use it; kNoIndex if corners of several vertices use
   // the normal.
@@ -154,7 +154,7 @@ void ObjTemplate::fix_normals(const std::vector<std::uint32_t>& corner_rows,
   }
   for (std::uint32_t row = 0; row < vertices.size(); ++row) {
     const auto found = numbers.find(vertices[row]);
-    if (found != numbers.end()) fixed_normals_.emplace_back(row, fixed.normals.row(found->second));
+    if (found != numbers.end()) given_normals_.emplace_back(row, fixed.normals.row(found->second));
   }
 }
 
@@ -172,8 +172,9 @@ void ObjTemplate::add_block(const std::vector<NumberRange>& ranges) {
     old_text -= static_cast<std::size_t>(std::ranges::count_if(
         text_.substr(range.begin, range.length), [](char c) { return !is_blank(c); }));
   }
-  const std::size_t colours = has_colours_ ? (3 * kMaxSingleLength + 5) * ranges.size() : 0;
-  buffer_size_ += 3 * kMaxSingleLength * ranges.size() + colours + old_text + kMaxSingleLength;
+  const std::size_t colours = has_colours_ ? (3 * kMaxFloatTextLength + 5) * ranges.size() : 0;
+  buffer_size_ +=
+      3 * kMaxFloatTextLength * ranges.size() + colours + old_text + kMaxFloatTextLength;
   block.ranges = ranges;
   blocks_.push_back(std::move(block));
 }
@@ -195,7 +196,7 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
   require(!has_colours_ || colours.rows() == vertex_count_, "ObjTemplate: a colour of each vertex");
   Positions normals;
   if (fans_) normals = fans_->normals(topology_, positions, {0, 0, 0});
-  for (const auto& [row, normal] : fixed_normals_) normals.row(row) = normal;
+  for (const auto& [row, normal] : given_normals_) normals.row(row) = normal;
   const Rows rows{positions, normals, colours};
   EncodedFile file;
   char* buffer = file.reserve(buffer_size_);

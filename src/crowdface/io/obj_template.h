@@ -29,7 +29,7 @@ class ObjTemplate {
   /// \param fixed  vertices with given normals. A `vn` line gets the given normal of
   ///               a vertex if no other vertex uses the line.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
-              const FixedNormals& fixed = {});
+              const GivenNormals& fixed = {});
 
   /// Encodes a copy of the file with these positions. Each number is the shortest text that reads
   /// back as the same single-precision value. Each normal is recomputed from the polygons whose
@@ -71,7 +71,8 @@ class ObjTemplate {
     const ColourRows& colours;
   };
 
-  void fix_normals(const std::vector<std::uint32_t>& corner_rows, const FixedNormals& fixed);
+  /// Finds the `vn` lines that get given normals, and fills in `given_normals_`.
+  void set_given_normals(const std::vector<std::uint32_t>& corner_rows, const GivenNormals& fixed);
   void add_block(const std::vector<NumberRange>& ranges);
   char* encode_block(const Block& block, const Rows& rows, char* out) const;
   char* encode_range(const NumberRange& range, const Rows& rows, char* out) const;
@@ -82,9 +83,9 @@ class ObjTemplate {
   bool has_colours_;
   std::vector<Block> blocks_;
   /// The normals whose values are given: row (number of the `vn` line) and value.
-  std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> fixed_normals_;
-  std::optional<NormalFans> fans_;  ///< for each `vn` line, the polygons that use it; empty if no
-                                    ///< polygon uses normals
+  std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> given_normals_;
+  /// For each `vn` line, the polygons that use the line; empty if no polygon uses normals.
+  std::optional<NormalFans> fans_;
   std::size_t buffer_size_ = 0;
 };
 

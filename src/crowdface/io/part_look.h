@@ -9,8 +9,8 @@ namespace crowdface {
 
 /// The tint and the texture that an additional mesh has in the file of one face.
 struct PartLook {
-  std::array<float, 3> tint = {1, 1, 1};  ///< factors by which the materials' colours are
-                                          ///< multiplied, linear RGB
+  /// Factors by which the materials' colours are multiplied, linear RGB.
+  std::array<float, 3> tint = {1, 1, 1};
   /// Text that replaces `UsdaPart::kLookName` in the names of texture files.
   std::string name = {};
   /// Content of a PNG file that belongs to this face only; empty if there is no such file.

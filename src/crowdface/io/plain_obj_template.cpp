@@ -14,10 +14,10 @@ namespace {
 
 constexpr Index kLinesPerBlock = 8192;
 /// Length of the longest line, which is "vn " followed by three numbers with separators.
-constexpr std::size_t kLongestLine = 3 + 3 * (kMaxSingleLength + 1);
+constexpr std::size_t kLongestLine = 3 + 3 * (kMaxFloatTextLength + 1);
 
 void append_single(std::string& out, double value) {
-  char buffer[kMaxSingleLength];
+  char buffer[kMaxFloatTextLength];
   out.append(buffer, write_single(buffer, value));
 }
 

@@ -168,7 +168,7 @@ class PlyReader {
       if (lower.find(none) != lower.npos) return std::numeric_limits<double>::quiet_NaN();
     }
     if (at_ == bytes_.size()) fail(kEndsTooSoon);
-    fail(concat(quoted(word), " is not a number", advice_on_number(word)));
+    fail(concat(quoted(word), " is not a number", advice_on_bad_number(word)));
   }
 
   static std::size_t column_of(const Element& element, std::initializer_list<const char*> names) {

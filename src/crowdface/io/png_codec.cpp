@@ -145,7 +145,7 @@ void flush_nothing(png_structp /*png*/) {}
 /// Sets the compression of face images. Files are at most 7 % larger than with zlib's high levels,
 /// and encoding takes a quarter of the time.
 void set_packing(png_structp png, ImageToEncode::Form form) {
-  if (form == ImageToEncode::Form::kStoredPng) {
+  if (form == ImageToEncode::Form::kUncompressedPng) {
     png_set_compression_level(png, 0);
     return png_set_filter(png, 0, PNG_FILTER_NONE);
   }
@@ -158,7 +158,7 @@ void set_packing(png_structp png, ImageToEncode::Form form) {
 bool write_png(const ImageToEncode& picture, std::string& bytes, std::string& error) {
   constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                   PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
-  const int bits = picture.form == ImageToEncode::Form::kWordPng ? 16 : 8;
+  const int bits = picture.form == ImageToEncode::Form::kPng16 ? 16 : 8;
   const std::size_t row = static_cast<std::size_t>(picture.width) *
                           static_cast<std::size_t>(picture.channels * bits / 8);
   MadePng made(bytes);

@@ -21,8 +21,9 @@
 namespace crowdface {
 namespace {
 
-/// Says in messages which libraries are being loaded: "the libraries that …".
-std::atomic<const char*> starting_for{"run"};
+/// Names the libraries that are being loaded. The text continues the phrase "the libraries that";
+/// for example: "images need (OpenImageIO)".
+std::atomic<const char*> starting_libraries{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only
 // async-signal-safe functions.
@@ -31,7 +32,7 @@ std::atomic<const char*> starting_for{"run"};
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
   };
   say("error: the libraries that ");
-  say(starting_for.load());
+  say(starting_libraries.load());
   say(" cannot be started: out of memory, or of threads?\n");
   ::_exit(static_cast<int>(ExitCode::kIoError));
 }
@@ -52,8 +53,8 @@ void end_if_starting() {
 /// a logger that waits for a thread that could not start.
 class StartOfLibraries {
  public:
-  explicit StartOfLibraries(const char* needs) {
-    starting_for = needs;
+  explicit StartOfLibraries(const char* dependents) {
+    starting_libraries = dependents;
     [[maybe_unused]] static const int registered = std::atexit(end_if_starting);
     starting = 1;
     struct sigaction action {};
@@ -81,9 +82,10 @@ class StartOfLibraries {
   std::terminate_handler end_before_ = nullptr;
 };
 
-void* open_library(const std::string& name, int flags, const char* needs, const char* failure) {
+void* open_library(const std::string& name, int flags, const char* dependents,
+                   const char* failure) {
   std::optional<StartOfLibraries> start;
-  if (guarded) start.emplace(needs);
+  if (guarded) start.emplace(dependents);
   try {
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);
   } catch (...) {  // the dynamic loader stays locked, so recovery is impossible
@@ -98,20 +100,20 @@ void guard_library_loading() {
   guarded = true;
 }
 
-void* load_library_function(const char* library, const char* function, const char* needs,
+void* load_library_function(const char* library, const char* function, const char* dependents,
                             const char* failure) {
   // A third-party program may link `library`, so that it is loaded already. Otherwise load it from
   // a folder relative to the executable.
-  void* opened = open_library(library, RTLD_NOLOAD, needs, failure);
+  void* opened = open_library(library, RTLD_NOLOAD, dependents, failure);
   std::string why;
   if (opened == nullptr) {
     std::error_code ignored;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
     const auto file = program.parent_path() / CROWDFACE_LIBRARIES / library;
-    opened = open_library(file.lexically_normal().string(), 0, needs, failure);
+    opened = open_library(file.lexically_normal().string(), 0, dependents, failure);
     if (opened == nullptr) why = ::dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread
   }
-  if (opened == nullptr) opened = open_library(library, 0, needs, failure);
+  if (opened == nullptr) opened = open_library(library, 0, dependents, failure);
   if (opened == nullptr) {
     throw IoError(concat(
         failure, ", because a library cannot be loaded (is the installation complete?): ", why));

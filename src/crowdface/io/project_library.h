@@ -8,10 +8,12 @@ namespace crowdface {
 /// libraries have the same place relative to the program in the build folder and after
 /// installation.
 /// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
-/// \param needs, failure  texts for messages: "images need (OpenImageIO)", "images cannot be read".
+/// \param dependents  the part "…" of the message "the libraries that … cannot be started", for
+///                 example "images need (OpenImageIO)".
+/// \param failure  beginning of other messages; for example "images cannot be read".
 /// \throws IoError if the library is missing from its installed place, cannot be loaded, or lacks
 ///     the function.
-void* load_library_function(const char* library, const char* function, const char* needs,
+void* load_library_function(const char* library, const char* function, const char* dependents,
                             const char* failure);
 
 /// Installs handlers of signals and of exit. If a library aborts, calls exit, or needs longer than

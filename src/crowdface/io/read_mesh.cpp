@@ -147,7 +147,7 @@ const std::vector<std::string_view>& mesh_extensions() {
 FileMesh read_mesh(const fs::path& path) {
   const MappedFile file(path);
   const std::string kind = kind_of(file.bytes(), path);
-  if (kind != ".obj") refuse_foreign_file(file.bytes(), path);
+  if (kind != ".obj") refuse_non_mesh_file(file.bytes(), path);
   FileMesh mesh;
   if (kind == ".obj") {
     mesh = mesh_of_obj(read_obj(path));

@@ -22,13 +22,13 @@ inline float to_single(double value) {
 }
 
 /// Length of the longest text that `write_single` writes, such as "-1.17549435e-38".
-inline constexpr std::size_t kMaxSingleLength = 15;
+inline constexpr std::size_t kMaxFloatTextLength = 15;
 
 /// Writes the shortest text that reads back as the same single-precision number. `out` needs room
-/// for kMaxSingleLength characters.
+/// for kMaxFloatTextLength characters.
 /// \return the end of the output.
 inline char* write_single(char* out, double value) {
-  return std::to_chars(out, out + kMaxSingleLength, to_single(value)).ptr;
+  return std::to_chars(out, out + kMaxFloatTextLength, to_single(value)).ptr;
 }
 
 /// Rounds positions as every mesh format stores them. Results computed from the rounded positions

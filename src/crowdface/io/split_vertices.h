@@ -14,8 +14,8 @@ namespace crowdface {
 /// each with the texture coordinate of its first corner. Copies for further texture coordinates
 /// follow, in order of corners. Depends only on the topology.
 struct SplitVertices {
-  std::vector<std::uint32_t> vertices;  ///< #S: the original vertex of each split vertex;
-                                        ///< vertices[i] is i for i < #V
+  /// #S: the original vertex of each split vertex; vertices[i] is i for i < #V
+  std::vector<std::uint32_t> vertices;
   /// #S: for each split vertex, its row in the texture coordinates, or kNoIndex; empty if the mesh
   /// has no texture coordinates
   std::vector<std::uint32_t> uvs;

@@ -57,7 +57,7 @@ class StlText {
     if (!number && at_ == text_.size())
       fail_stl(name_, "it ends too soon: copy or export it again");
     if (!number) {
-      fail_stl(name_, concat(quoted(word), " is not a number", advice_on_number(word)));
+      fail_stl(name_, concat(quoted(word), " is not a number", advice_on_bad_number(word)));
     }
     return *number;
   }

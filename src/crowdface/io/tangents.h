@@ -41,8 +41,8 @@ class Tangents {
   };
   std::vector<std::uint32_t> vertices_;  ///< #S: the original vertex of each split vertex
   std::vector<float> signs_;  ///< #S: −1 where the texture coordinates are mirrored, else 1
-  std::vector<UvTriangle> triangles_;  ///< the triangles whose area in texture coordinates is not
-                                       ///< zero
+  /// the triangles whose area in texture coordinates is not zero
+  std::vector<UvTriangle> triangles_;
 };
 
 }  // namespace crowdface

@@ -16,8 +16,9 @@ struct TextureStatement {
   std::string_view name;  ///< name of the kind in file names
 };
 
-/// One entry for each TextureKind, in the order of the enumeration. `map_Bump`, also spelled
-/// `map_bump` and `bump`, names height maps; many programs use it for normal maps.
+/// The statements of MTL files that name textures: one for each TextureKind, in the order of the
+/// enumeration. `map_Bump`, also spelled `map_bump` and `bump`, names height maps; many programs
+/// use it for normal maps.
 inline constexpr std::array kTextureStatements = {
     TextureStatement{TextureKind::kColour, "map_Kd", "colour"},
     TextureStatement{TextureKind::kNormal, "norm", "normal"},
@@ -31,8 +32,8 @@ constexpr bool is_shown_in_previews(TextureKind kind) {
   return kind == TextureKind::kNormal || kind == TextureKind::kRoughness;
 }
 
-/// The entry of kTextureStatements for a kind.
-constexpr const TextureStatement& statement_of(TextureKind kind) {
+/// The MTL statement that names textures of this kind.
+constexpr const TextureStatement& mtl_statement_of(TextureKind kind) {
   return kTextureStatements[static_cast<std::size_t>(kind)];
 }
 

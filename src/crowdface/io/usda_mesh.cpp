@@ -38,34 +38,34 @@ std::string corner_counts(const Topology& topology) {
 
 }  // namespace
 
-UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Form& form)
-    : vertex_count_(topology.vertex_count), subdivision_(form.subdivision) {
+UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Options& options)
+    : vertex_count_(topology.vertex_count), subdivision_(options.subdivision) {
   faces_ =
       concat("            uniform bool doubleSided = 1\n            int[] faceVertexCounts = ",
              corner_counts(topology),
              "\n            int[] faceVertexIndices = ", usda_list(topology.corner_vertices), '\n');
   if (!topology.corner_uvs.empty()) faces_ += uv_lines(topology, uvs);
-  faces_ += concat(form.lines, "            uniform token subdivisionScheme = \"",
+  faces_ += concat(options.extra_prim_lines, "            uniform token subdivisionScheme = \"",
                    subdivision_ == Subdivision::kNone ? "none" : "catmullClark", "\"\n");
-  std::vector<std::vector<std::uint32_t>> of_material(form.materials.size());
+  std::vector<std::vector<std::uint32_t>> of_material(options.materials.size());
   for (Index f = 0; f < topology.face_count() && !of_material.empty(); ++f) {
     const std::size_t material =
-        form.face_materials.empty() ? 0 : form.face_materials[static_cast<std::size_t>(f)];
+        options.face_materials.empty() ? 0 : options.face_materials[static_cast<std::size_t>(f)];
     of_material[material].push_back(static_cast<std::uint32_t>(f));
   }
   UsdaNames names, beside;  // subsets and shapes are siblings
   for (std::size_t m = 0; m < of_material.size(); ++m) {
-    const std::string& name = form.materials[m];
+    const std::string& name = options.materials[m];
     const bool is_used = !of_material[m].empty();
     materials_.push_back(is_used ? names.add(name.empty() ? "material" : name) : "");
     subsets_.push_back(is_used ? usda_list(of_material[m]) : "");
     if (is_used) beside.add(concat(materials_.back(), "_faces"));
   }
-  for (const GlbTarget& target : form.targets) {
+  for (const GlbTarget& target : options.targets) {
     shapes_.push_back(beside.add(target.name));
-    tokens_.push_back(usda_string(target.name));
+    quoted_shape_names_.push_back(usda_string(target.name));
     indices_.push_back(target.vertices.empty() ? "" : usda_list(target.vertices));
-    target_rows_ +=
+    max_displacement_count_ +=
         target.vertices.empty() ? static_cast<std::size_t>(vertex_count_) : target.vertices.size();
   }
 }
@@ -110,7 +110,7 @@ void UsdaMesh::add_shapes(EncodedFile& file, const PrimPaths& place,
   for (const std::string& shape : shapes_) {
     targets.push_back(concat('<', place.face_prim, '/', place.name, '/', shape, '>'));
   }
-  file.add(concat("            uniform token[] skel:blendShapes = ", usda_list(tokens_),
+  file.add(concat("            uniform token[] skel:blendShapes = ", usda_list(quoted_shape_names_),
                   "\n            rel skel:blendShapeTargets = ", usda_list(targets),
                   "\n            rel skel:skeleton = <", place.face_prim, "/skeleton>\n"));
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
@@ -160,7 +160,8 @@ std::size_t UsdaMesh::memory_bytes() const {
 
 std::size_t UsdaMesh::encoding_memory_bytes() const {
   // Each array is in memory twice: as formatted text and as its copy in the file.
-  return 2 * kMaxUsdaRowLength * (3 * static_cast<std::size_t>(vertex_count_) + target_rows_);
+  return 2 * kMaxUsdaRowLength *
+         (3 * static_cast<std::size_t>(vertex_count_) + max_displacement_count_);
 }
 
 }  // namespace crowdface

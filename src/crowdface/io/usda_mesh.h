@@ -26,7 +26,8 @@ inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 /// displacements only once.
 class UsdaMesh {
  public:
-  struct Form {
+  /// The contents of the prim that are the same in all files, apart from the polygons.
+  struct Options {
     Subdivision subdivision = Subdivision::kNone;
     std::vector<std::string> materials = {};  ///< names; may be empty
     /// #F indices into `materials`; empty: all polygons use the first material
@@ -34,11 +35,11 @@ class UsdaMesh {
     /// Blend shapes, each with the vertices that it moves. If a target lists no vertices here, the
     /// file of each face lists the moved vertices together with their displacements.
     std::vector<GlbTarget> targets = {};
-    std::string lines = {};  ///< additional lines of the prim
+    std::string extra_prim_lines = {};  ///< text lines that are added to the prim
   };
 
   /// \param uvs  #T by 2; may be empty.
-  UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Form& form);
+  UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Options& options);
 
   /// Paths and names of a prim and its related prims in one layer.
   struct PrimPaths {
@@ -58,8 +59,8 @@ class UsdaMesh {
 
   /// Prim names of the materials; the name of a material that no polygon uses is empty.
   const std::vector<std::string>& materials() const { return materials_; }
-  /// Names of the targets, in quotes.
-  const std::vector<std::string>& tokens() const { return tokens_; }
+  /// Names of the blend shapes, in quotes.
+  const std::vector<std::string>& quoted_shape_names() const { return quoted_shape_names_; }
 
   std::size_t memory_bytes() const;
   /// Memory needed for one call of `add`, in bytes.
@@ -72,14 +73,16 @@ class UsdaMesh {
 
   Index vertex_count_;
   Subdivision subdivision_;
-  std::string faces_;  ///< the prim's text that is the same in all files (no positions, normals and
-                       ///< colours)
+  /// the prim's text that is the same in all files (no positions, normals and colours)
+  std::string faces_;
+  /// prim names of the materials; empty for a material that no polygon uses
   std::vector<std::string> materials_;
   std::vector<std::string> subsets_;  ///< for each material, the text that lists its polygons
   std::vector<std::string> shapes_;   ///< prim names of the blend shapes
-  std::vector<std::string> tokens_;
+  std::vector<std::string> quoted_shape_names_;
   std::vector<std::string> indices_;  ///< formatted vertex indices of each target
-  std::size_t target_rows_ = 0;       ///< upper bound of the number of displacements in all targets
+  /// upper bound of the number of displacements in all blend shapes together
+  std::size_t max_displacement_count_ = 0;
 };
 
 }  // namespace crowdface

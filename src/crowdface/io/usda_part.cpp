@@ -9,13 +9,13 @@
 namespace crowdface {
 namespace {
 
-UsdaMesh::Form form_of(const std::vector<UsdaPart::Material>& materials,
-                       std::vector<std::uint32_t> face_materials,
-                       const std::vector<std::string>& targets) {
-  UsdaMesh::Form form{.face_materials = std::move(face_materials)};
-  for (const UsdaPart::Material& material : materials) form.materials.push_back(material.name);
-  for (const std::string& target : targets) form.targets.push_back({target, {}});
-  return form;
+UsdaMesh::Options mesh_options_of(const std::vector<UsdaPart::Material>& materials,
+                                  std::vector<std::uint32_t> face_materials,
+                                  const std::vector<std::string>& targets) {
+  UsdaMesh::Options options{.face_materials = std::move(face_materials)};
+  for (const UsdaPart::Material& material : materials) options.materials.push_back(material.name);
+  for (const std::string& target : targets) options.targets.push_back({target, {}});
+  return options;
 }
 
 }  // namespace
@@ -23,12 +23,12 @@ UsdaMesh::Form form_of(const std::vector<UsdaPart::Material>& materials,
 UsdaPart::UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
                    const std::vector<Material>& materials,
                    std::vector<std::uint32_t> face_materials,
-                   const std::vector<std::string>& targets, FixedNormals fixed)
+                   const std::vector<std::string>& targets, GivenNormals fixed)
     : name_(std::move(name)),
       topology_(topology),
       fans_(topology_),
-      mesh_(topology_, uvs, form_of(materials, std::move(face_materials), targets)),
-      fixed_normals_(std::move(fixed)) {
+      mesh_(topology_, uvs, mesh_options_of(materials, std::move(face_materials), targets)),
+      given_normals_(std::move(fixed)) {
   for (const Material& material : materials) surfaces_.push_back(material.surface);
 }
 
@@ -37,7 +37,7 @@ void UsdaPart::add_mesh(EncodedFile& file, const std::string& root, const Positi
   file.add("\n");
   require_finite(positions, topology_.vertex_count, what);
   Positions normals = vertex_normals(fans_, topology_, positions);
-  fixed_normals_.copy_to(normals);
+  given_normals_.copy_to(normals);
   mesh_.add(file, {root + "/face", name_, concat(root, '/', name_, "_materials")}, positions,
             normals, moves, what);
 }

@@ -20,7 +20,7 @@ namespace crowdface {
 /// `UsdaTemplate`, the object is built once.
 class UsdaPart {
  public:
-  /// Placeholder in file names. `PartLook::name` replaces it.
+  /// Placeholder in the names of texture files. The `PartLook::name` of each face replaces it.
   static constexpr std::string_view kLookName = "<LOOK>";
 
   struct Material {
@@ -36,7 +36,7 @@ class UsdaPart {
   /// \param fixed  vertices with given normals.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
            const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
-           const std::vector<std::string>& targets, FixedNormals fixed = {});
+           const std::vector<std::string>& targets, GivenNormals fixed = {});
 
   /// Adds the mesh below the face's prim. The file references memory of this object.
   /// \param root  path of the face's root prim.
@@ -58,7 +58,7 @@ class UsdaPart {
   NormalFans fans_;
   UsdaMesh mesh_;
   std::vector<UsdaSurface> surfaces_;
-  FixedNormals fixed_normals_;
+  GivenNormals given_normals_;
 };
 
 /// A `UsdaPart` and its positions for the layer of one face.

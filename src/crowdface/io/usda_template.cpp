@@ -85,12 +85,14 @@ UsdaSurface surface_of(const GlbMaterial& material, std::span<const std::string>
 UsdaMesh mesh_of(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options,
                  Subdivision subdivision) {
   if (topology.face_count() == 0) throw InvalidInput("USD: expected a mesh with faces");
-  UsdaMesh::Form form{.subdivision = subdivision,
-                      .face_materials = options.face_materials,
-                      .targets = options.targets};
-  for (const GlbMaterial& material : options.materials) form.materials.push_back(material.name);
-  if (options.overlay) form.lines = overlay_lines(topology, options);
-  return {topology, uvs, form};
+  UsdaMesh::Options mesh_options{.subdivision = subdivision,
+                                 .face_materials = options.face_materials,
+                                 .targets = options.targets};
+  for (const GlbMaterial& material : options.materials) {
+    mesh_options.materials.push_back(material.name);
+  }
+  if (options.overlay) mesh_options.extra_prim_lines = overlay_lines(topology, options);
+  return {topology, uvs, mesh_options};
 }
 
 /// The prims that drive blend shapes. UsdSkel allows blend shapes only with a skeleton, so the text
@@ -130,7 +132,7 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
                                  std::span<const PlacedUsdaPart> parts,
                                  const ColourRows& colours) const {
   const std::string prim = usda_name(name), root = "/" + prim, face = root + "/face";
-  const bool acts = !mesh_.tokens().empty();
+  const bool acts = !mesh_.quoted_shape_names().empty();
   EncodedFile file;
   file.add(concat("#usda 1.0\n(\n    customLayerData = {\n        ", kCreator,
                   "\n    }\n    defaultPrim = \"", prim, "\"\n", layer_metadata_,
@@ -140,7 +142,7 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
   for (const PlacedUsdaPart& part : parts) {
     part.part->add_mesh(file, root, *part.positions, part.moves, name);
   }
-  if (acts) file.add(skeleton_text(root, mesh_.tokens()));
+  if (acts) file.add(skeleton_text(root, mesh_.quoted_shape_names()));
   add_points(file, points, name);
   file.add("    }\n");
   std::vector<UsdaSurface> surfaces;

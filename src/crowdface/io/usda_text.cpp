@@ -12,7 +12,7 @@ namespace {
 constexpr Index kRowsOfText = 8192;
 
 void append_row(std::string& out, const Positions& rows, Index i) {
-  char buffer[kMaxUsdaRowLength + kMaxSingleLength];
+  char buffer[kMaxUsdaRowLength + kMaxFloatTextLength];
   char* at = buffer;
   if (i > 0) *at++ = ',';
   for (Index c = 0; c < 3; ++c) {
@@ -80,7 +80,7 @@ std::string usda_rows(const Positions& rows) {
 std::string usda_uvs(const TextureCoordinates& uvs) {
   std::string text = "[";
   for (Index i = 0; i < uvs.rows(); ++i) {
-    char buffer[2 * kMaxSingleLength];
+    char buffer[2 * kMaxFloatTextLength];
     char* at = buffer;
     if (i > 0) *at++ = ',';
     *at++ = '(';

@@ -23,7 +23,7 @@ DetailLevel level_of(const SplitMesh& split, std::vector<Triangle> triangles,
       vertices.push_back(split.corners[corner].vertex);
       uvs.push_back(split.corners[corner].uv);
     }
-    level.source_faces.push_back(split.face_of_material[split.corners[triangle[0]].material]);
+    level.source_faces.push_back(split.first_face_of_material[split.corners[triangle[0]].material]);
   }
   level.vertices = renumber(vertices, heads.topology.vertex_count);
   level.topology.vertex_count = static_cast<Index>(level.vertices.size());

@@ -43,25 +43,27 @@ double walk(const DetailLevel& level, const VertexFaces& around, const Positions
 
 }  // namespace
 
-LevelMap find_level_triangles(const Topology& whole, const Adjacency& adjacency,
-                              const DetailLevel& level, const Positions& typical) {
+NearestLevelTriangles find_level_triangles(const Topology& whole, const Adjacency& adjacency,
+                                           const DetailLevel& level,
+                                           const Positions& typical_positions) {
   std::vector<bool> dropped(static_cast<std::size_t>(whole.vertex_count), false);
   for (const std::uint32_t vertex : whole.corner_vertices) dropped[vertex] = true;
   for (const std::uint32_t vertex : level.vertices) dropped[vertex] = false;
-  LevelMap map;
+  NearestLevelTriangles map;
   for (std::uint32_t v = 0; v < dropped.size(); ++v) {
     if (dropped[v]) map.vertices.push_back(v);
   }
   if (level.vertices.empty()) return map;
-  const Positions rows = level.restrict_rows(typical);
+  const Positions rows = level.restrict_rows(typical_positions);
   std::vector<std::uint32_t> all(level.vertices.size());
   std::iota(all.begin(), all.end(), 0U);
   const PointGrid grid(rows, all);
   const VertexFaces around(level.topology);
-  const std::vector<std::uint32_t> starts = nearest_along_edges(adjacency, typical, level.vertices);
+  const std::vector<std::uint32_t> starts =
+      nearest_along_edges(adjacency, typical_positions, level.vertices);
   map.triangles.resize(map.vertices.size());
   parallel_for_each(map.vertices.size(), kVerticesPerBlock, [&](std::size_t i) {
-    const Eigen::Vector3d point = row3(typical, map.vertices[i]);
+    const Eigen::Vector3d point = row3(typical_positions, map.vertices[i]);
     const std::uint32_t start = starts[map.vertices[i]];
     const SurfacePoint place =
         nearest_point_from(level.topology, around, rows,
@@ -71,7 +73,7 @@ LevelMap find_level_triangles(const Topology& whole, const Adjacency& adjacency,
   return map;
 }
 
-LevelError level_error(const DetailLevel& level, const LevelMap& map,
+LevelError level_error(const DetailLevel& level, const NearestLevelTriangles& map,
                        std::span<const Positions* const> meshes) {
   const VertexFaces around(level.topology);
   std::vector<double> distances(map.triangles.size());

@@ -12,25 +12,26 @@ namespace crowdface {
 
 /// For each vertex of the whole mesh that a level does not contain: the level's triangle that is
 /// nearest to the vertex. This triangle is found by a walk along the surface of one head.
-struct LevelMap {
+struct NearestLevelTriangles {
   /// The vertices that polygons of the whole mesh use but that the level does not contain,
   /// ascending.
   std::vector<std::uint32_t> vertices;
   /// #vertices: for each vertex, the nearest triangle, given by indices of the level's vertices
   std::vector<Triangle> triangles;
 };
-/// Finds the triangles of a LevelMap.
+/// Finds the triangle of the level that is nearest to each vertex outside the level.
 ///
-/// \param typical  #V by 3: the head on which the distances are measured.
-LevelMap find_level_triangles(const Topology& whole, const Adjacency& adjacency,
-                              const DetailLevel& level, const Positions& typical);
+/// \param typical_positions  #V by 3: the head on which the distances are measured.
+NearestLevelTriangles find_level_triangles(const Topology& whole, const Adjacency& adjacency,
+                                           const DetailLevel& level,
+                                           const Positions& typical_positions);
 
 /// Returns the error over all meshes together, in the unit of their positions. The error is an
 /// upper bound, because on some mesh the nearest triangle may not be the mapped triangle. If a
 /// vertex is far from its mapped triangle, neighbouring triangles are searched too.
 ///
 /// \param meshes  each #V by 3, at least one.
-LevelError level_error(const DetailLevel& level, const LevelMap& map,
+LevelError level_error(const DetailLevel& level, const NearestLevelTriangles& map,
                        std::span<const Positions* const> meshes);
 
 }  // namespace crowdface

@@ -54,11 +54,13 @@ class EdgeDistances {
 
   const Adjacency& adjacency_;
   const Positions& positions_;
-  std::vector<double> distances_;  ///< smallest distance found so far; final when the vertex is
-                                   ///< settled
-  std::vector<std::uint32_t> sources_, reached_, touched_;
-  std::vector<bool> settled_;
-  std::vector<QueueEntry> queue_;  ///< a heap; the nearest vertex comes first
+  /// #V: smallest distance found so far; final when the vertex is settled
+  std::vector<double> distances_;
+  std::vector<std::uint32_t> sources_;  ///< #V: index of the source from which the distance is
+  std::vector<std::uint32_t> reached_;  ///< the settled vertices, nearest first
+  std::vector<std::uint32_t> touched_;  ///< the vertices whose distance is finite
+  std::vector<bool> settled_;           ///< #V
+  std::vector<QueueEntry> queue_;       ///< a heap; the nearest vertex comes first
 };
 
 /// For each vertex, the index in `sources` of the nearest source, #V; kNoIndex if no source is

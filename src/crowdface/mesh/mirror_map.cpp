@@ -18,10 +18,10 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
   Positions image(positions.rows(), 3);
   parallel_for_each(positions.rows(), kRows, [&](Index v) {
     const auto i = static_cast<std::size_t>(v);
-    Eigen::Vector3d place = map.shares[i][0] * positions.row(map.corners[i][0]).transpose();
+    Eigen::Vector3d place = map.barycentric[i][0] * positions.row(map.corners[i][0]).transpose();
     if (!map.is_vertex(static_cast<std::uint32_t>(v))) {
       for (std::size_t c = 1; c < 3; ++c) {
-        place += map.shares[i][c] * positions.row(map.corners[i][c]).transpose();
+        place += map.barycentric[i][c] * positions.row(map.corners[i][c]).transpose();
       }
     }
     image.row(v) = map.plane.mirrored(place).transpose();

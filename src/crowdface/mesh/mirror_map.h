@@ -25,16 +25,16 @@ struct MirrorPlane {
 struct MirrorMap {
   MirrorPlane plane;
   std::vector<Triangle> corners;  ///< #V: the triangle that holds the mirror point of each vertex
-  std::vector<std::array<double, 3>>
-      shares;  ///< #V: barycentric coordinates of the mirror point; {1, 0, 0} if the mirror point
-               ///< is a vertex
+  /// #V: barycentric coordinates of the mirror point in its triangle; {1, 0, 0} if the mirror point
+  /// is a vertex
+  std::vector<std::array<double, 3>> barycentric;
   std::vector<std::uint32_t> unpaired_vertices;  ///< vertices without a mirror point, ascending
   /// #unpaired_vertices by 3: offsets that are added to the mirror images of the unpaired vertices,
   /// so that mirroring moves these vertices of the mean head only a little.
   Positions unpaired_offsets;
 
   /// Whether the mirror point of vertex v is a vertex.
-  bool is_vertex(std::uint32_t v) const { return shares[v][0] == 1; }
+  bool is_vertex(std::uint32_t v) const { return barycentric[v][0] == 1; }
 };
 
 /// Returns the mirrored head M(A), #V by 3, for a head A = `positions`. Each vertex moves to the

@@ -37,13 +37,14 @@ Positions face_area_vectors(const Topology& topology, const Positions& positions
 
 NormalFans::NormalFans(const Topology& topology) : faces_(VertexFaces(topology)) {}
 
-NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows,
-                       Index rows)
-    : faces_(compressed_rows<std::uint32_t>(static_cast<std::size_t>(rows), [&](const auto& put) {
+NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> normal_of_corner,
+                       Index count)
+    : faces_(compressed_rows<std::uint32_t>(static_cast<std::size_t>(count), [&](const auto& put) {
         for (Index f = 0; f < topology.face_count(); ++f) {
           const auto [begin, end] = topology.corners(f);
           for (auto c = begin; c < end; ++c) {
-            if (corner_rows[c] != kNoIndex) put(corner_rows[c], static_cast<std::uint32_t>(f));
+            const std::uint32_t normal = normal_of_corner[c];
+            if (normal != kNoIndex) put(normal, static_cast<std::uint32_t>(f));
           }
         }
       })) {}

@@ -15,9 +15,10 @@ class NormalFans {
  public:
   /// Makes the lists for one normal per vertex.
   explicit NormalFans(const Topology& topology);
-  /// \param corner_rows  #C: the row of the normal that each corner uses, or kNoIndex.
-  /// \param rows         number of normals.
-  NormalFans(const Topology& topology, std::span<const std::uint32_t> corner_rows, Index rows);
+  /// \param normal_of_corner  #C: index of the normal that each corner uses, or kNoIndex.
+  /// \param count             number of normals.
+  NormalFans(const Topology& topology, std::span<const std::uint32_t> normal_of_corner,
+             Index count);
 
   /// Unit normals, #rows by 3. Each unit normal is the normalised, area-weighted sum of the normals
   /// of its polygons, added in ascending order of polygon number. Polygons need not be flat
@@ -31,14 +32,14 @@ class NormalFans {
   Positions normals(const Positions& areas, const Eigen::RowVector3d& fallback) const;
 
   Index rows() const { return static_cast<Index>(faces_.group_count()); }
-  /// The polygons that meet at one normal, ascending.
+  /// The polygons whose normals are added to get the normal of a row, ascending.
   std::span<const std::uint32_t> polygons_at(Index row) const { return faces_.items_of(row); }
   std::size_t memory_bytes() const {
     return (faces_.offsets.size() + faces_.items.size()) * sizeof(std::uint32_t);
   }
 
  private:
-  CompressedRows<std::uint32_t> faces_;  ///< polygons that meet at each normal, ascending
+  CompressedRows<std::uint32_t> faces_;  ///< the polygons of each normal, ascending
 };
 
 /// Unit normals of the vertices, #V by 3, as NormalFans computes normals; (0, 0, 1) where the sum

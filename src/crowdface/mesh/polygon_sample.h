@@ -6,10 +6,11 @@
 
 namespace crowdface {
 
-/// A point in a polygon: corner 0, plus s times the vector from corner 0 to corner `fan`, plus t
-/// times the vector from corner 0 to corner `fan` + 1.
+/// A point in a triangle of a polygon's fan. The triangle's corners are the polygon's corners 0,
+/// `second_corner` and `second_corner` + 1. The point is corner 0, plus s times the vector from
+/// corner 0 to the second corner, plus t times the vector from corner 0 to the third corner.
 struct PolygonSample {
-  std::size_t fan = 1;
+  std::size_t second_corner = 1;
   double s = 0, t = 0;  ///< not negative; s + t is at most 1
 };
 
@@ -20,8 +21,8 @@ inline PolygonSample polygon_sample(std::size_t number, std::size_t corners) {
   const auto n = static_cast<double>(number);
   const double s = std::fmod(0.5 + 0.7548776662466927 * n, 1.0);
   const double t = std::fmod(0.5 + 0.5698402909980532 * n, 1.0);
-  const std::size_t fan = 1 + number % (corners - 2);
-  return s + t > 1 ? PolygonSample{fan, 1 - s, 1 - t} : PolygonSample{fan, s, t};
+  const std::size_t second = 1 + number % (corners - 2);
+  return s + t > 1 ? PolygonSample{second, 1 - s, 1 - t} : PolygonSample{second, s, t};
 }
 
 }  // namespace crowdface

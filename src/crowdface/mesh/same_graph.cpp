@@ -76,7 +76,8 @@ class Graph {
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::uint64_t> sums(colours_.size(), mixed(static_cast<std::uint64_t>(round)));
       for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
-        // Hash the colours of the polygon's vertices in order, starting at this corner.
+        // Hash the graph colours (labels, not RGB) of the polygon's vertices in order, starting at
+        // this corner.
         std::uint64_t seen = face_size(c) + (twins_[c] == kNoIndex ? 1000U : 0U);
         std::uint32_t at = c;
         for (std::uint32_t k = face_size(c); k > 1; --k) {
@@ -128,8 +129,9 @@ class Matcher {
   /// Matched vertices of a and b.
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-  /// One start corner for each edge-connected set of polygons. The start corner's vertex has the
-  /// colour that is rarest in the set. Larger sets come first.
+  /// One start corner for each edge-connected set of polygons; larger sets come first. The start
+  /// corner's vertex has the rarest Weisfeiler-Leman colour (a hash of the graph around the vertex)
+  /// in the set, because only few vertices can match such a vertex.
   std::vector<std::uint32_t> seeds() const {
     const Topology& topology = a_.topology();
     DisjointSets groups(static_cast<std::size_t>(topology.face_count()));

@@ -18,7 +18,7 @@ using Eigen::Index;
 /// Vertex positions, #V by 3, in the unit of the mesh's file.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// Positions or displacements in single precision, #rows by 3.
-using SingleRows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using FloatPositions = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// Texture coordinates, #T by 2.
 using TextureCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
@@ -30,10 +30,10 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 /// Polygon f owns the corners [face_offsets[f], face_offsets[f + 1]).
 struct Topology {
   Index vertex_count = 0;
-  std::vector<std::uint32_t> corner_vertices;     ///< #C, each < vertex_count
-  std::vector<std::uint32_t> corner_uvs;          ///< #C: rows of the texture coordinates, or
-                                                  ///< kNoIndex; may be empty
-  std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1, ascending
+  std::vector<std::uint32_t> corner_vertices;  ///< #C, each < vertex_count
+  /// #C: rows of the texture coordinates, or kNoIndex; may be empty
+  std::vector<std::uint32_t> corner_uvs;
+  std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1: first corner of each polygon
 
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }
   Index corner_count() const { return static_cast<Index>(corner_vertices.size()); }

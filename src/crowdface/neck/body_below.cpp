@@ -45,8 +45,8 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   }
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  // #F: the element of a part's root polygon holds the sum, over the part's polygons, of the
-  // heights above the edges of the loop.
+  // Sum for each part: how much higher the part's polygons along the loop are than their edges in
+  // the loop. The index is the part's root polygon.
   std::vector<double> above(faces, 0.0);
   visit_edges(topology, [&](std::uint32_t f, const Edge& edge) { edges.emplace_back(edge, f); });
   std::ranges::sort(edges);

@@ -128,15 +128,17 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
 /// The order whose rim fits best if the rim may be rotated.
 /// \param orders  all orders of one direction, then all orders of the other direction
 const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
-  // A rim with equal left and right sides also fits upside down, in the other direction.
-  constexpr double kAlike = 1.2;
+  // A rim with equal left and right sides also fits upside down, in the other direction. If the
+  // larger of the two fit errors is at most kMaxErrorRatio times the smaller, choose the direction
+  // with the smaller rotation.
+  constexpr double kMaxErrorRatio = 1.2;
   const std::span all(orders);
   const auto left = [](const OrderedRim& one) { return one.fit.left; };
   const OrderedRim* best = &*std::ranges::min_element(all.first(of_one_direction), {}, left);
   if (all.size() == of_one_direction) return *best;
   const OrderedRim* other = &*std::ranges::min_element(all.subspan(of_one_direction), {}, left);
   if (other->fit.left < best->fit.left) std::swap(best, other);
-  const bool alike = other->fit.left <= kAlike * best->fit.left + kRoundingMm;
+  const bool alike = other->fit.left <= kMaxErrorRatio * best->fit.left + kRoundingMm;
   return alike && other->fit.degrees < best->fit.degrees ? *other : *best;
 }
 
@@ -160,8 +162,8 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
   constexpr double kLong = 0.5, kSameHeightMm = 10;
   double longest = 0;
   for (const Rim& rim : rims) longest = std::max(longest, length_of(rim, positions));
-  std::vector<std::pair<double, const Rim*>> long_ones;  // long rims with their heights, lowest
-                                                         // first
+  // The long rims, with the heights of their centroids.
+  std::vector<std::pair<double, const Rim*>> long_ones;
   for (const Rim& rim : rims) {
     if (length_of(rim, positions) < kLong * longest) continue;
     long_ones.emplace_back(centroid(positions(rim, kAllColumns)).dot(up), &rim);
@@ -180,8 +182,9 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
 
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
                     double reach_mm, RimOrder order) {
-  // If the head is rotated, the order with the smallest distances may be wrong. After a rotation is
-  // fitted for each order, the true order fits much better than the wrong order.
+  // An order assigns the vertices of the body's rim to the vertices of the head's rim. If the head
+  // is rotated, the order with the smallest distances may be wrong. After a rotation is fitted for
+  // each order, the true order fits much better than a wrong order.
   constexpr double kMuchBetter = 0.85;
   std::vector<OrderedRim> orders;
   const bool is_free = order == RimOrder::kFree;

@@ -35,7 +35,7 @@ std::vector<Triangle> triangles_around(const Topology& topology, const Adjacency
 
 }  // namespace
 
-struct NeckBend::Factors {
+struct NeckBend::Factorisation {
   SparseMatrix from_rim;  ///< #moved by #rim
   Eigen::SimplicialLDLT<SparseMatrix> inner;
 };
@@ -74,13 +74,13 @@ NeckBend::NeckBend(const Topology& topology, const Adjacency& adjacency, const P
   const SparseMatrix energy = bending_energy(
       laplacian(triangles, own), vertex_areas(triangles, own), Eigen::VectorXd::Ones(own.rows()));
   const auto inner = static_cast<Index>(vertices_.size());
-  auto factors = std::make_unique<Factors>();
-  factors->from_rim = energy.block(0, inner, inner, static_cast<Index>(rim.size()));
-  factors->inner.compute(energy.topLeftCorner(inner, inner));
-  if (factors->inner.info() != Eigen::Success) {
+  auto factorisation = std::make_unique<Factorisation>();
+  factorisation->from_rim = energy.block(0, inner, inner, static_cast<Index>(rim.size()));
+  factorisation->inner.compute(energy.topLeftCorner(inner, inner));
+  if (factorisation->inner.info() != Eigen::Success) {
     throw Error(ExitCode::kBug, "the bending energy of the neck cannot be factorised");
   }
-  factors_ = std::move(factors);
+  factorisation_ = std::move(factorisation);
 }
 
 NeckBend::~NeckBend() = default;
@@ -88,8 +88,8 @@ NeckBend::NeckBend(NeckBend&&) noexcept = default;
 
 Positions NeckBend::bend(const Positions& rim_moves) const {
   if (vertices_.empty()) return Positions(0, 3);
-  const Eigen::MatrixXd right = -(factors_->from_rim * rim_moves);
-  return factors_->inner.solve(right);
+  const Eigen::MatrixXd right = -(factorisation_->from_rim * rim_moves);
+  return factorisation_->inner.solve(right);
 }
 
 }  // namespace crowdface

@@ -30,9 +30,9 @@ class NeckBend {
   Positions bend(const Positions& rim_moves) const;
 
  private:
-  struct Factors;
+  struct Factorisation;
   std::vector<std::uint32_t> vertices_;
-  std::unique_ptr<const Factors> factors_;
+  std::unique_ptr<const Factorisation> factorisation_;
 };
 
 }  // namespace crowdface

@@ -18,8 +18,8 @@ using Rim = std::vector<std::uint32_t>;
 /// omitted, because they are not simple loops.
 std::vector<Rim> find_open_rims(const Topology& topology, const Adjacency& adjacency);
 
-/// The closed loop that all mesh edges between two of the given vertices form; empty if these edges
-/// do not form exactly one loop.
+/// Returns the closed loop of the mesh edges whose ends are both among `vertices`; empty if these
+/// edges do not form exactly one loop.
 Rim rim_through(std::span<const std::uint32_t> vertices, const Adjacency& adjacency);
 
 }  // namespace crowdface

@@ -36,11 +36,12 @@ HttpAnswer binary_answer(std::string bytes);
 class PageFiles {
  public:
   /// \param folder     folder with the built pages; nothing if the pages were not built
-  /// \param page_name  NAME, such as "editor"
+  /// \param page_name  NAME in the names of the files, such as "editor"
   PageFiles(std::optional<std::filesystem::path> folder, std::string page_name);
 
-  /// The file with this name; an empty name means NAME.html. If the page was not built, NAME.html
-  /// is a notice that says how to build the page. \return nothing if the page has no such file.
+  /// The file with this name. The empty name stands for the page itself, such as editor.html; if
+  /// the page was not built, this file is a notice that says how to build the page. \return nothing
+  /// if the page has no such file.
   std::optional<HttpAnswer> file(std::string_view name) const;
 
  private:

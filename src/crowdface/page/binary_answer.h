@@ -18,7 +18,7 @@ namespace crowdface {
 /// bytes. All numbers are little-endian.
 class BinaryAnswer {
  public:
-  /// The JSON object of the answer, without the key `arrays`, which `bytes` adds.
+  /// The JSON object of the answer. The function bytes() adds the key `arrays` to its text.
   nlohmann::ordered_json head = nlohmann::ordered_json::object();
 
   template <class T>

@@ -31,10 +31,10 @@ constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSof
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
 /// The vertical range of an ear consists of the heights at which the ear protrudes by more than
 /// this fraction of its maximum protrusion.
-constexpr double kOfMost = 0.4;
+constexpr double kMinProtrusionFraction = 0.4;
 constexpr int kBins = 96;
 
-/// Weight of the band of the ears at a point, 0 … 1.
+/// Weight of the ear region at a point, 0 … 1.
 double ear_share(const EarBox& ears, double face, double side, double height, double front) {
   const double around = kAroundEar * face, soft = kEarSoft * face;
   const auto inside = [&](double from, double to, double x) {
@@ -104,10 +104,11 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     at = i;
   }
   if (most < kMinEar * face) return std::nullopt;
-  // Find the range of heights around `at` in which the ears protrude by more than kOfMost.
+  // Find the range of heights around `at` in which the ears protrude by more than the fraction
+  // kMinProtrusionFraction of their maximum protrusion.
   int bottom = at, top = at;
-  while (bottom > 0 && stands_out(bottom - 1) > kOfMost * most) --bottom;
-  while (top < kBins - 1 && stands_out(top + 1) > kOfMost * most) ++top;
+  while (bottom > 0 && stands_out(bottom - 1) > kMinProtrusionFraction * most) --bottom;
+  while (top < kBins - 1 && stands_out(top + 1) > kMinProtrusionFraction * most) ++top;
   EarBox ears{low + bottom * step, low + top * step, std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   // From the vertices at these heights, compute the inner rim of the ears and their extent from
@@ -116,7 +117,7 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     const Eigen::Vector3d p = row3(positions, v);
     const double height = p.dot(axes.up), front = p.dot(axes.front);
     if (!skin[static_cast<std::size_t>(v)] || height < ears.bottom || height > ears.top) continue;
-    if (breadth_at(p) - head_at(height) < kOfMost * most) continue;
+    if (breadth_at(p) - head_at(height) < kMinProtrusionFraction * most) continue;
     ears.back = std::min(ears.back, front);
     ears.front = std::max(ears.front, front);
     ears.inner = std::min(ears.inner, head_at(height));

@@ -15,7 +15,8 @@
 
 namespace crowdface {
 
-/// Regions of a head that can be computed from the head's shape.
+/// Bands around a head, used as mask regions, that can be computed from the head's shape. Unrelated
+/// to bands of detail.
 enum class Band : std::uint8_t {
   kBrow,   ///< brows and above
   kNose,   ///< eyes and nose

@@ -50,11 +50,11 @@ DepthMap::AxisCells DepthMap::cells_at(double offset, double extent, Index count
   AxisCells cells;
   if (!(offset >= 0 && offset <= extent)) return cells;
   const double place = offset / cell_size_;
-  cells.nearest = std::min(static_cast<Index>(place), count - 1);
+  cells.containing = std::min(static_cast<Index>(place), count - 1);
   if (place < 0.5) return cells;
   const auto below = static_cast<Index>(place - 0.5);
   if (below + 1 >= count) return cells;
-  cells.below = below;
+  cells.centre_below = below;
   cells.weight_above = place - 0.5 - static_cast<double>(below);
   return cells;
 }
@@ -86,15 +86,16 @@ double DepthMap::depth(double lateral, double height) const {
 }
 
 double DepthMap::depth_in_cells(const AxisCells& column, const AxisCells& row) const {
-  if (column.nearest < 0 || row.nearest < 0) return kNoDepth;
-  if (column.below >= 0 && row.below >= 0) {
-    const double* corner = &depths_[static_cast<std::size_t>(row.below * columns_ + column.below)];
+  if (column.containing < 0 || row.containing < 0) return kNoDepth;
+  if (column.centre_below >= 0 && row.centre_below >= 0) {
+    const double* corner =
+        &depths_[static_cast<std::size_t>(row.centre_below * columns_ + column.centre_below)];
     const double s = column.weight_above, t = row.weight_above;
     const double depth = (1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
                          t * ((1 - s) * corner[columns_] + s * corner[columns_ + 1]);
     if (std::isfinite(depth)) return depth;
   }
-  return depths_[static_cast<std::size_t>(row.nearest * columns_ + column.nearest)];
+  return depths_[static_cast<std::size_t>(row.containing * columns_ + column.containing)];
 }
 
 std::size_t DepthMap::cell_index(double x, double y) const {

@@ -35,13 +35,11 @@ class DepthMap {
   double depth(double lateral, double height) const;
 
  private:
-  /// The squares around a coordinate along one axis of the grid. `nearest` is the index of the
-  /// square that contains the coordinate. `below` is the index of the last square whose centre is
-  /// below the coordinate, and `weight_above` the interpolation weight of square below + 1. −1: no
-  /// such square.
+  /// The squares around a coordinate along one axis of the grid.
   struct AxisCells {
-    Index nearest = -1, below = -1;
-    double weight_above = 0;
+    Index containing = -1;    ///< the square that contains the coordinate; −1: none
+    Index centre_below = -1;  ///< the last square whose centre is below the coordinate; −1: none
+    double weight_above = 0;  ///< interpolation weight of square `centre_below` + 1
   };
   AxisCells cells_at(double offset, double extent, Index count) const;
   /// Depth at a point of the grid: interpolated bilinearly between the centres of the four nearest

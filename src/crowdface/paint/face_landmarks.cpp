@@ -333,15 +333,15 @@ class LandmarkSearch {
     keep(name + "_right", rays_.from_front(-across, up), reason);
   }
 
-  /// The wings of the nose: between the base and the tip of the nose, the height at which the steep
-  /// slope from wing to cheek is farthest from the symmetry plane.
+  /// Finds the wings of the nose: the points, between the heights of the nose's base and tip, where
+  /// the steep slope from wing to cheek is farthest from the symmetry plane.
   void nose_wings() {
     const char* const reason = "the nose has no wings that stand out from the cheeks";
     const auto tip = at("nose_tip"), base = at("nose_base");
     if (!tip || !base) return miss({"nose_wing_left", "nose_wing_right"}, reason);
     constexpr double kFrom = 9, kTo = 25, kStep = 0.25, kSpan = 1, kMinSlope = 0.6;
-    // At the distance kBeside outside the steepest slope of the wing, the cheek's slope is at most
-    // kFlatter times this steepest slope.
+    // The point kBeside outward from the wing's steepest point lies on the cheek. The slope there
+    // must be at most kFlatter times the wing's steepest slope.
     constexpr double kBeside = 4, kFlatter = 0.7;
     const auto slope = [&](double x, double up) {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);

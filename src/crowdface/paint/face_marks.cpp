@@ -171,7 +171,8 @@ class Outline {
 
 // Lengths in millimetres on a face of average size. Heights are relative to the eyes of the mean
 // relief.
-constexpr double kSlitMm = 11;  ///< an open mouth is a narrower hollow
+/// Hollows of the profile that are narrower than this, such as an open mouth, are filled.
+constexpr double kMaxSlitMm = 11;
 constexpr double kBridgeMm = 5, kTipMm = -34;
 constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
@@ -249,7 +250,7 @@ double edge_length_near(const Topology& topology, const HeadShape& head, const R
 
 }  // namespace
 
-HeadShape shape_of_mean(const HeadSet& heads) {
+HeadShape mean_head_shape(const HeadSet& heads) {
   HeadShape head;
   head.positions = mean_head(heads);
   const Adjacency adjacency = build_adjacency(heads.topology);
@@ -303,7 +304,7 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   // head has no effect.
   const double across = match.eye_midpoint.dot(match.frame.side());
   const Outline outline(topology, head.positions, head.is_skin, match.frame, across, mm);
-  const Outline closed = outline.without_slits(kSlitMm * mm);
+  const Outline closed = outline.without_slits(kMaxSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
   // penalty, and thus the mean face, has more weight on such a mesh.

@@ -35,7 +35,7 @@ struct HeadShape {
       eyeball_centres;  ///< centres of the eyeballs, if the head has eyeballs
 };
 /// Returns the shape of the mean of all heads.
-HeadShape shape_of_mean(const HeadSet& heads);
+HeadShape mean_head_shape(const HeadSet& heads);
 
 /// Offset of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
 double symmetry_offset(const Topology& topology, const HeadShape& head, const HeadAxes& axes);

@@ -85,8 +85,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   parallel_for_each(of_scale.size(), [&](std::size_t k) {
     Candidate& best = of_scale[k];
     const double scale = best.scale;
-    const double top = box.max().y() - 0.5 * kReliefTopMm * scale,
-                 low = box.min().y() + kReliefTopMm * scale;
+    const double top = box.max().y() - 0.5 * kReliefTopRowMm * scale,
+                 low = box.min().y() + kReliefTopRowMm * scale;
     // Try all heights, and lateral positions up to a quarter of the breadth from the middle.
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {
@@ -106,7 +106,7 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
 
 ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
   const double depth =
-      candidate.fit.offset + candidate.fit.amplitude * mean_face_depth_mm(kCellBetweenEyes);
+      candidate.fit.offset + candidate.fit.amplitude * depth_of_mean_face_mm(kCellBetweenEyes);
   return {candidate.fit.correlation,
           candidate.score,
           0,
@@ -411,8 +411,8 @@ Positions sample_skin(const Topology& topology, const Positions& positions,
     for (Index i = made; i < std::min(until, count); ++i) {
       const PolygonSample at = polygon_sample(static_cast<std::size_t>(i), face.size());
       const Eigen::Vector3d a = row3(positions, face[0]);
-      const Eigen::Vector3d b = row3(positions, face[at.fan]);
-      const Eigen::Vector3d c = row3(positions, face[at.fan + 1]);
+      const Eigen::Vector3d b = row3(positions, face[at.second_corner]);
+      const Eigen::Vector3d c = row3(positions, face[at.second_corner + 1]);
       samples.row(i) = (a + at.s * (b - a) + at.t * (c - a)).transpose();
     }
     made = std::max(made, std::min(until, count));
@@ -437,8 +437,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     parallel_for_each(views.size(), [&](std::size_t i) {
       found[i] = search_view(samples, views[i], eyes, coarseness);
     });
-    // Refine the best views before comparing them, because a view with a wrong rotation agrees less
-    // only after refinement.
+    // Refine the best views before comparing them: before refinement, a view with a wrong rotation
+    // may have as high a score as the right view.
     std::vector<std::size_t> order(views.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return found[i].score; });

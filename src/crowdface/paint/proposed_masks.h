@@ -10,7 +10,8 @@
 
 namespace crowdface {
 
-/// Parses a list such as "brow,nose,mouth". The list must contain brow, nose and mouth.
+/// Parses a list of regions such as "brow,nose,mouth" (see Band). The list must contain brow, nose
+/// and mouth.
 /// \throws UsageError otherwise.
 std::vector<Band> parse_bands(std::string_view text);
 /// Returns the names of bands, as in kBandNames.

@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMiddleMm = kReliefTopMm - kReliefSpacingMm * (kReliefRows - 1) / 2;
+constexpr double kMiddleMm = kReliefTopRowMm - kReliefSpacingMm * (kReliefRows - 1) / 2;
 // Mean of 16 synthetic heads: depth in mm relative to the tip of the nose, negative behind the tip.
 // The first column is at the middle of the face, the last at the side.
 constexpr std::array<std::array<double, kHalfReliefColumns>, kReliefRows> kMeanRelief = {{
@@ -50,7 +50,7 @@ struct Terms {
     for (int c = 0; c < kReliefCells; ++c) {
       const double x = cell_lateral_mm(c) / kUnitMm, y = (cell_height_mm(c) - kMiddleMm) / kUnitMm;
       Coefficients& terms = of_cell[static_cast<std::size_t>(c)];
-      terms = Coefficients(1, x, y, x * x, y * y, mean_face_depth_mm(c));
+      terms = Coefficients(1, x, y, x * x, y * y, depth_of_mean_face_mm(c));
       products += terms * terms.transpose();
     }
   }
@@ -103,7 +103,7 @@ struct CellFit {
 
 }  // namespace
 
-double mean_face_depth_mm(int cell) {
+double depth_of_mean_face_mm(int cell) {
   const int column = std::abs(cell % kReliefColumns - (kHalfReliefColumns - 1));
   return kMeanRelief[static_cast<std::size_t>(cell / kReliefColumns)]
                     [static_cast<std::size_t>(column)];

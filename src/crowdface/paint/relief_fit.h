@@ -13,7 +13,10 @@ namespace crowdface {
 inline constexpr int kReliefRows = 17, kHalfReliefColumns = 6,
                      kReliefColumns = 2 * kHalfReliefColumns - 1,
                      kReliefCells = kReliefRows * kReliefColumns;
-inline constexpr double kReliefSpacingMm = 8, kReliefTopMm = 32;
+/// Distance between neighbouring rows and columns of the grid.
+inline constexpr double kReliefSpacingMm = 8;
+/// Height of the top row of the grid above the eyes.
+inline constexpr double kReliefTopRowMm = 32;
 /// Index of the cell that lies between the eyes.
 inline constexpr int kCellBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
 
@@ -24,10 +27,11 @@ constexpr double cell_lateral_mm(int cell) {
 /// Height of a cell above the eyes of the mean face, in mm.
 constexpr double cell_height_mm(int cell) {
   const int row = cell / kReliefColumns;
-  return kReliefTopMm - kReliefSpacingMm * row;
+  return kReliefTopRowMm - kReliefSpacingMm * row;
 }
-/// Depth of the mean face in a cell, relative to the tip of the nose; negative behind the tip.
-double mean_face_depth_mm(int cell);
+/// Depth of the mean face in a cell of the grid, relative to the tip of the nose; negative behind
+/// the tip.
+double depth_of_mean_face_mm(int cell);
 
 /// Depth of a cell without a surface.
 inline constexpr double kNoDepth = -std::numeric_limits<double>::infinity();

@@ -43,8 +43,8 @@ class SurfaceDistance {
   const Positions& positions_;
   Adjacency adjacency_;
   VertexFaces faces_;
-  /// #V: the next vertex in the cyclic list of boundary vertices of different components that
-  /// coincide; a vertex without a twin links to itself.
+  /// #V: twins are boundary vertices of different components at the same position. Each vertex
+  /// links to its next twin in a cyclic list; a vertex without a twin links to itself.
   std::vector<std::uint32_t> twins_;
   PointGrid grid_;
 };

@@ -30,10 +30,10 @@ std::vector<std::uint32_t> ring_of(const Topology& topology, const VertexFaces& 
 }  // namespace
 
 Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
-                 const PointGrid& skin, std::vector<std::uint32_t> bound)
-    : bound_(std::move(bound)) {
+                 const PointGrid& skin, std::vector<std::uint32_t> vertices_to_bind)
+    : bound_vertices_(std::move(vertices_to_bind)) {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> known;
-  for (const std::uint32_t v : bound_) {
+  for (const std::uint32_t v : bound_vertices_) {
     const Eigen::Vector3d point = positions.row(v).transpose();
     const SurfacePoint place =
         nearest_point_around(topology, faces, positions, skin.nearest(point).vertex, point);
@@ -86,8 +86,8 @@ std::vector<Eigen::Vector3d> Anchors::offsets(const Positions& head) const {
   std::vector<Frame> frames;
   for (std::size_t s = 0; s < skin_triangles_.size(); ++s) frames.push_back(frame_at(s, head));
   std::vector<Eigen::Vector3d> result;
-  for (std::size_t i = 0; i < bound_.size(); ++i) {
-    const Eigen::Vector3d offset = head.row(bound_[i]).transpose() - origin(i, head);
+  for (std::size_t i = 0; i < bound_vertices_.size(); ++i) {
+    const Eigen::Vector3d offset = head.row(bound_vertices_[i]).transpose() - origin(i, head);
     const Frame& frame = frames[triangle_indices_[i]];
     result.emplace_back(offset.dot(frame[0]), offset.dot(frame[1]), offset.dot(frame[2]));
   }
@@ -102,8 +102,8 @@ void Anchors::place_vertices(const Positions& target, std::span<const Eigen::Vec
     still.push_back(is_unmoved(s, target, result));
     frames.push_back(still.back() ? Frame{} : frame_at(s, result));
   }
-  for (std::size_t i = 0; i < bound_.size(); ++i) {
-    const std::uint32_t v = bound_[i];
+  for (std::size_t i = 0; i < bound_vertices_.size(); ++i) {
+    const std::uint32_t v = bound_vertices_[i];
     if (still[triangle_indices_[i]]) {
       result.row(v) = target.row(v);
       continue;
@@ -115,35 +115,37 @@ void Anchors::place_vertices(const Positions& target, std::span<const Eigen::Vec
   }
 }
 
-Ties::Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
-           std::span<const std::uint32_t> bound, double reach) {
+PartWeights::PartWeights(const Positions& positions,
+                         const std::vector<std::span<const std::uint32_t>>& rigid,
+                         std::span<const std::uint32_t> bound, double reach) {
   std::vector<PointGrid> grids;
   grids.reserve(rigid.size());
   for (const auto& vertices : rigid) grids.emplace_back(positions, vertices);
   for (const std::uint32_t v : bound) {
-    const std::size_t first = ties_.size();
+    const std::size_t first = weights_.size();
     double sum = 0;
     for (std::uint32_t part = 0; part < grids.size(); ++part) {
       const auto nearest = grids[part].nearest(positions.row(v).transpose(), reach);
       if (nearest.vertex == kNoIndex) continue;
-      const double share = biweight(nearest.distance / reach);
-      ties_.push_back({v, part, share});
-      sum += share;
+      const double weight = biweight(nearest.distance / reach);
+      weights_.push_back({v, part, weight});
+      sum += weight;
     }
     // Scale the vertex's weights to a sum of at most one, so that a vertex between two parts
     // follows both parts.
-    for (std::size_t i = first; i < ties_.size(); ++i) ties_[i].share /= std::max(1.0, sum);
+    for (std::size_t i = first; i < weights_.size(); ++i) weights_[i].weight /= std::max(1.0, sum);
   }
 }
 
-void Ties::pull(const Positions& target, std::span<const RigidMotion> motions,
-                Positions& result) const {
-  for (std::size_t i = 0; i < ties_.size();) {
-    const std::uint32_t v = ties_[i].vertex;
+void PartWeights::pull(const Positions& target, std::span<const RigidMotion> motions,
+                       Positions& result) const {
+  for (std::size_t i = 0; i < weights_.size();) {
+    const std::uint32_t v = weights_[i].vertex;
     const Eigen::Vector3d bound = result.row(v).transpose();
     Eigen::Vector3d change = Eigen::Vector3d::Zero();
-    for (; i < ties_.size() && ties_[i].vertex == v; ++i) {
-      change += ties_[i].share * (motions[ties_[i].part].apply(target.row(v).transpose()) - bound);
+    for (; i < weights_.size() && weights_[i].vertex == v; ++i) {
+      const auto& [vertex, part, weight] = weights_[i];
+      change += weight * (motions[part].apply(target.row(v).transpose()) - bound);
     }
     result.row(v) = (bound + change).transpose();
   }

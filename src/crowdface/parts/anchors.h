@@ -23,16 +23,19 @@ class Anchors {
   Anchors() = default;
   /// \param positions  The head on which the nearest skin is found.
   /// \param skin       Grid of the skin's vertices at these positions.
-  /// \param bound      Vertices to bind, ascending.
+  /// \param vertices_to_bind  Vertices of bound parts, ascending.
   Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
-          const PointGrid& skin, std::vector<std::uint32_t> bound);
+          const PointGrid& skin, std::vector<std::uint32_t> vertices_to_bind);
 
-  const std::vector<std::uint32_t>& bound_vertices() const { return bound_; }
+  const std::vector<std::uint32_t>& bound_vertices() const { return bound_vertices_; }
 
   /// Returns the offset of each bound vertex on a head, in the vertex's coordinate frame.
   std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
-  /// Moves the bound vertices of `result` to the target's offsets in the frames of `result`.
-  /// Where the surrounding skin has not moved, a vertex gets exactly the target's position.
+  /// Places each bound vertex of `result` at the given offset in the vertex's coordinate frame on
+  /// `result`. Where the surrounding skin has not moved, a vertex gets exactly the target's
+  /// position.
+  ///
+  /// \param offsets  #bound_vertices: offsets on the target.
   void place_vertices(const Positions& target, std::span<const Eigen::Vector3d> offsets,
                       Positions& result) const;
 
@@ -49,39 +52,41 @@ class Anchors {
   bool is_unmoved(std::size_t triangle_index, const Positions& before,
                   const Positions& after) const;
 
-  std::vector<std::uint32_t> bound_;             ///< ascending
+  std::vector<std::uint32_t> bound_vertices_;    ///< ascending
   std::vector<std::uint32_t> triangle_indices_;  ///< #bound: index into `skin_triangles_`
   std::vector<std::array<double, 3>> shares_;    ///< #bound: barycentric coordinates of each anchor
   std::vector<Triangle> skin_triangles_;         ///< triangles of the skin
   CompressedRows<RingVertex> rings_;  ///< #skin_triangles_: the skin around each triangle
 };
 
-/// Ties bound vertices to nearby rigid parts, such as gums to teeth.
-class Ties {
+/// The weights with which bound vertices follow the motions of nearby rigid parts. For example,
+/// gums follow teeth.
+class PartWeights {
  public:
-  Ties() = default;
+  PartWeights() = default;
   /// \param positions  The head on which distances are measured.
   /// \param rigid      Vertices of each rigid part.
-  /// \param bound      Vertices that may be tied.
-  /// \param reach      Distance from a part beyond which vertices are not tied. The nearer a
-  ///                   vertex, the more it follows the part; a vertex at the part follows it
-  ///                   completely.
-  Ties(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
-       std::span<const std::uint32_t> bound, double reach);
+  /// \param bound      Vertices that may follow a part.
+  /// \param reach      Distance from a part beyond which vertices do not follow the part. The
+  ///                   nearer a vertex, the more it follows the part; a vertex at the part follows
+  ///                   it completely.
+  PartWeights(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
+              std::span<const std::uint32_t> bound, double reach);
 
-  /// Moves the tied vertices of `result` towards the positions that the motions of the rigid parts
-  /// give them.
+  /// Moves the vertices of `result` that have weights towards the positions that the motions of the
+  /// rigid parts give them.
   ///
   /// \param target   The head that the face is built on.
   /// \param motions  #rigid: motion of each part from `target`.
   void pull(const Positions& target, std::span<const RigidMotion> motions, Positions& result) const;
 
  private:
-  struct Tie {
+  struct PartWeight {
     std::uint32_t vertex, part;
-    double share;  ///< weight of the part's motion; the weights of a vertex sum to at most one
+    /// weight of the part's motion at the vertex; the weights of a vertex sum to at most one
+    double weight;
   };
-  std::vector<Tie> ties_;  ///< the ties of each vertex are consecutive
+  std::vector<PartWeight> weights_;  ///< the entries of each vertex are consecutive
 };
 
 }  // namespace crowdface

@@ -59,10 +59,10 @@ BallMap::BallMap(const Topology& topology, const VertexFaces& faces, const Posit
   max_radius_ = static_cast<double>(*std::ranges::max_element(radii_));
 }
 
-BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& from) const {
-  const double distance = from.norm();
+BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& centre_to_point) const {
+  const double distance = centre_to_point.norm();
   if (!(distance > 0)) return {-radius_, axes_.front};
-  const Eigen::Vector3d direction = from / distance;
+  const Eigen::Vector3d direction = centre_to_point / distance;
   const double down = 1 / std::max(1 + direction.dot(axes_.front), 0.1);
   const double p = direction.dot(side_) * down, q = direction.dot(axes_.up) * down;
   constexpr double kPerWidth = (kNodesPerSide - 1) / (2 * kHalfWidth),

@@ -22,14 +22,15 @@ class BallMap {
           std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre, double radius,
           const HeadAxes& axes);
 
+  /// Gap between the eyeball's surface and a point.
   struct Gap {
     double gap = 0;          ///< signed distance from the surface; negative: inside
     Eigen::Vector3d normal;  ///< outward unit normal
   };
   /// Returns the approximate gap between the surface and a point (exact to first order).
   ///
-  /// \param from  Vector from the eyeball's centre to the point.
-  Gap gap_at(const Eigen::Vector3d& from) const;
+  /// \param centre_to_point  Vector from the eyeball's centre to the point.
+  Gap gap_at(const Eigen::Vector3d& centre_to_point) const;
 
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }

@@ -156,8 +156,8 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
     ++shapes[c].polygon_count;
     area[c] += face_area_vector(topology, f, positions).norm() / 2;
   }
-  // Treat an edge between two boundary vertices as open. This is wrong for a few edges across
-  // narrow strips, but the openness of strips is large anyway.
+  // Count each edge between two boundary vertices as a boundary edge. A narrow strip also has such
+  // edges across its middle, but even without these edges its isoperimetric ratio is large.
   for (Index i = 0; i < topology.vertex_count; ++i) {
     if (!adjacency.boundary[static_cast<std::size_t>(i)]) continue;
     for (const std::uint32_t n : adjacency.items_of(i)) {
@@ -169,7 +169,7 @@ std::vector<ComponentShape> component_shapes(const Topology& topology, const Adj
     ComponentShape& shape = shapes[c];
     shape.vertex_count = static_cast<Index>(members[c].size());
     if (area[c] > 0)
-      shape.openness = perimeter[c] * perimeter[c] / (4 * std::numbers::pi * area[c]);
+      shape.isoperimetric_ratio = perimeter[c] * perimeter[c] / (4 * std::numbers::pi * area[c]);
     const Eigen::Vector3d sides = bounding_box(positions, members[c]).sizes();
     shape.extent = sides.norm();
     shape.thickness = sides.minCoeff();

@@ -21,10 +21,10 @@ struct ComponentShape {
   Index polygon_count = 0;
   double extent = 0;     ///< diagonal of the bounding box
   double thickness = 0;  ///< shortest side of the bounding box
-  /// Perimeter² / (4π · area), where the perimeter is the total length of open edges. 0 for a
+  /// Perimeter² / (4π · area), where the perimeter is the total length of boundary edges. 0 for a
   /// closed surface, ½ for a hemisphere, 1 for a disc, more for a strip; independent of the number
   /// of vertices.
-  double openness = 0;
+  double isoperimetric_ratio = 0;
   /// 90th percentile of the vertices' distances from the skin, at most kFarFromSkin.
   double skin_distance = 0;
   /// The least-squares sphere through the vertices. `roughness` is the root mean square distance of

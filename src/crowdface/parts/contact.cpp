@@ -17,10 +17,11 @@ namespace {
 /// Largest number of vertices of a part that are used; a part with more vertices is subsampled
 /// evenly.
 constexpr std::size_t kMaxVertices = 2500;
-/// kClusterPairs: largest number of pairs in a cluster. kMoreSlack: the heights (distances from the
-/// skin) within a cluster may differ this many times more in a new face than in the heads.
+/// Largest number of pairs in a cluster.
 constexpr std::size_t kClusterPairs = 16;
-constexpr double kMoreSlack = 1.5;
+/// Cluster::slack is the largest height difference within the cluster on any head, times this
+/// factor, because the difference may be larger on a new face.
+constexpr double kSlackFactor = 1.5;
 /// Fractions of the reach (about 4 mm). kNear: a vertex's exact height (distance from the skin) is
 /// measured if its approximate height is at most this. kFree: smallest height of vertices that
 /// count as outside the skin.
@@ -78,7 +79,7 @@ void PartContact::find_starts(const Positions& positions, std::span<const std::u
   // If two start vertices are nearer to each other than this distance, searches from both find the
   // same point of the skin.
   const double apart = 0.3 * reach_;
-  // In every head, find the skin vertex that is nearest to each pair's vertex.
+  // In every head, find the skin vertex that is nearest to the part's vertex of each pair.
   std::vector<std::vector<std::uint32_t>> nearest(heads.size());
   parallel_for_each(heads.size(), [&](std::size_t i) {
     const Positions& head = heads[i].positions;
@@ -97,7 +98,8 @@ void PartContact::find_starts(const Positions& positions, std::span<const std::u
       nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
-  // Keep the start vertices that are far enough from each other.
+  // For each pair, keep at most kStarts of these skin vertices as starts of the search for the
+  // nearest skin. Omit a vertex that is closer than `apart` to another start of the pair.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     auto& starts = pairs_[i].starts;
     std::size_t count = 1;
@@ -148,7 +150,7 @@ void PartContact::find_clusters(const Positions& positions, const std::vector<He
       };
       const double here = rough(cluster.middle());
       for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
-        cluster.slack = std::max(cluster.slack, kMoreSlack * (here - rough(i)));
+        cluster.slack = std::max(cluster.slack, kSlackFactor * (here - rough(i)));
       }
     }
   }
@@ -196,12 +198,12 @@ PartContact::Height PartContact::height(std::size_t pair, const Eigen::Vector3d&
 }
 
 RigidMotion PartContact::keep_out_of_skin(const Positions& target, const RigidMotion& motion,
-                                          const Positions& after, double margin) const {
+                                          const Positions& moved_face, double margin) const {
   constexpr int kSteps = 4;
   RigidMotion cleared = motion;
   const auto rough = [&](const Pair& pair) {
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
-    return approximate_height(pair, point, after);
+    return approximate_height(pair, point, moved_face);
   };
   std::vector<std::uint32_t> near;
   for (const Cluster& cluster : clusters_) {
@@ -212,13 +214,14 @@ RigidMotion PartContact::keep_out_of_skin(const Positions& target, const RigidMo
     }
   }
   for (int k = 0; k < kSteps; ++k) {
-    if (!step(target, motion, after, margin, near, cleared)) break;
+    if (!step(target, motion, moved_face, margin, near, cleared)) break;
   }
   return cleared;
 }
 
-bool PartContact::step(const Positions& target, const RigidMotion& start, const Positions& after,
-                       double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const {
+bool PartContact::step(const Positions& target, const RigidMotion& start,
+                       const Positions& moved_face, double margin, std::vector<std::uint32_t>& near,
+                       RigidMotion& motion) const {
   const Eigen::Vector3d middle = motion.apply(middle_);
   const Eigen::Vector3d shifted = middle - start.apply(middle_);
   const double radius = motion.scale * radius_;
@@ -230,7 +233,7 @@ bool PartContact::step(const Positions& target, const RigidMotion& start, const 
   for (const std::uint32_t i : near) {
     const Pair& pair = pairs_[i];
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
-    const Height now = height(i, point, after);
+    const Height now = height(i, point, moved_face);
     if (now.height > kFar * reach_) continue;
     near[kept++] = i;
     const Eigen::Vector3d from = point - middle;

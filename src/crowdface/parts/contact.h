@@ -43,11 +43,11 @@ class PartContact {
   ///
   /// \param target  The head with the part before the motion.
   /// \param motion  Motion of the surrounding skin.
-  /// \param after   The face with the moved skin.
+  /// \param moved_face  The face with the moved skin.
   /// \param margin  Distance that the part keeps from the skin, where the part is outside the skin
   /// in all heads.
   RigidMotion keep_out_of_skin(const Positions& target, const RigidMotion& motion,
-                               const Positions& after, double margin) const;
+                               const Positions& moved_face, double margin) const;
 
   std::size_t size() const { return pairs_.size(); }
 
@@ -80,7 +80,7 @@ class PartContact {
   ///
   /// \param near  Indices of pairs to check; the function removes pairs that are far from the skin.
   /// \return      false if no pair violates a limit.
-  bool step(const Positions& target, const RigidMotion& start, const Positions& after,
+  bool step(const Positions& target, const RigidMotion& start, const Positions& moved_face,
             double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
   const Topology* topology_ = nullptr;

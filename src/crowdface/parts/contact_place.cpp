@@ -13,9 +13,10 @@
 namespace crowdface {
 namespace {
 
-/// Pairs within kCourse spacings of a section determine the local direction of the group. Pairs
-/// within kUp spacings determine the section's `up`.
-constexpr double kCourse = 4, kUp = 1.5;
+/// Search radii around a section's middle, in multiples of the distance between sections. The pairs
+/// within kDirectionReach determine the direction along the gap. The pairs within kUpReach
+/// determine the section's `up`.
+constexpr double kDirectionReach = 4, kUpReach = 1.5;
 
 /// Returns the direction, perpendicular to `up`, in which the midpoints of the pairs near a point
 /// are spread most.
@@ -55,8 +56,10 @@ bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoin
 
 double GapSection::gap(const Positions& positions) const {
   double lowest = std::numeric_limits<double>::max(), highest = -lowest;
-  for (const EdgePoint& point : high) lowest = std::min(lowest, height_of(point, up, positions));
-  for (const EdgePoint& point : low) highest = std::max(highest, height_of(point, up, positions));
+  for (const EdgePoint& point : high_profile)
+    lowest = std::min(lowest, height_of(point, up, positions));
+  for (const EdgePoint& point : low_profile)
+    highest = std::max(highest, height_of(point, up, positions));
   return lowest - highest;
 }
 
@@ -70,10 +73,10 @@ std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double
     for (std::size_t i = 0; i < group.size(); ++i) {
       const double distance = (group[i].middle - middle).norm();
       nearest[i] = std::min(nearest[i], distance);
-      if (distance <= kUp * spacing) up += group[i].up;
+      if (distance <= kUpReach * spacing) up += group[i].up;
     }
     up = up.normalized();
-    sections.push_back({middle, up, course(group, middle, kCourse * spacing, up), {}, {}});
+    sections.push_back({middle, up, course(group, middle, kDirectionReach * spacing, up), {}, {}});
     next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
   }
   return sections;
@@ -96,14 +99,14 @@ void cut_profiles(const Adjacency& adjacency, const Positions& mean,
       const Eigen::Vector3d position =
           ((1 - point.fraction) * mean.row(a) + point.fraction * mean.row(b)).transpose();
       if ((position - section.middle).norm() > reach) continue;
-      (side[a] > 0 ? section.high : section.low).push_back(point);
+      (side[a] > 0 ? section.high_profile : section.low_profile).push_back(point);
     }
   }
 }
 
 Clearance::Clearance(const GapSection& section, const Adjacency& adjacency)
-    : points_(section.low), up_(section.up), inward_(section.inward()) {
-  points_.insert(points_.end(), section.high.begin(), section.high.end());
+    : points_(section.low_profile), up_(section.up), inward_(section.inward()) {
+  points_.insert(points_.end(), section.high_profile.begin(), section.high_profile.end());
   const auto add_pieces = [&](std::size_t begin, std::size_t end, std::vector<Segment>& pieces) {
     for (std::size_t i = begin; i < end; ++i) {
       bool alone = true;
@@ -115,8 +118,8 @@ Clearance::Clearance(const GapSection& section, const Adjacency& adjacency)
       if (alone) pieces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i)});
     }
   };
-  add_pieces(0, section.low.size(), low_);
-  add_pieces(section.low.size(), points_.size(), high_);
+  add_pieces(0, section.low_profile.size(), low_);
+  add_pieces(section.low_profile.size(), points_.size(), high_);
 }
 
 std::vector<double> Clearance::coordinates(const Eigen::Vector3d& direction,

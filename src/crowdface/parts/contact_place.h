@@ -27,7 +27,8 @@ struct GapSection {
   /// `middle`: position on the mean head. `up`: unit vector from the low side to the high side.
   Eigen::Vector3d middle, up;
   Eigen::Vector3d plane_normal;  ///< unit normal of the cutting plane
-  std::vector<EdgePoint> low, high;
+  /// The points of the two profiles, on the low and on the high side.
+  std::vector<EdgePoint> low_profile, high_profile;
 
   /// Returns the height of the lowest point of the high profile above the highest point of the low
   /// profile; negative if they overlap.
@@ -80,9 +81,9 @@ class Clearance {
              low_weights[0] * heights[low[0]] - low_weights[1] * heights[low[1]];
     }
   };
-  /// Returns the pairs of opposite points at all depths where a segment of either profile begins or
-  /// ends opposite a segment of the other profile. Segments are straight, so the gap is smallest at
-  /// one of these depths. If no segments overlap in depth, returns the two points that are nearest
+  /// For each profile point with a segment of the other profile at the same depth, returns this
+  /// point and the opposite point on that segment. Segments are straight, so the gap is smallest at
+  /// one of these pairs. If no segments overlap in depth, returns the two points that are nearest
   /// in depth.
   ///
   /// \param depths  Depths of all points.

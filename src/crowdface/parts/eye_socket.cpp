@@ -29,18 +29,22 @@ constexpr double kMeans = 20, kMeanOff = 0.004;
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
 /// Largest decrease and increase of the eyeball's size.
 constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
-/// Fractions of the radius. kMargin: clearance that is kept where no head has a lid inside the
-/// eyeball (0.025 mm). kFreeOfLids: smallest gap that counts as outside (−0.04 mm).
-constexpr double kMargin = 0.002, kFreeOfLids = -0.003;
+/// Gap that is kept at lid vertices that are outside the eyeball in all heads: fraction of the
+/// radius (0.025 mm).
+constexpr double kMargin = 0.002;
+/// A lid vertex with a larger gap counts as outside the eyeball, although the vertex may be up to
+/// 0.04 mm inside: fraction of the radius.
+constexpr double kMinOutsideGap = -0.003;
 /// Fractions of the radius. Lid vertices farther from the eyeball than this distance need no check,
 /// because the eyeball moves by a smaller distance: kFarFirst in the first step, kFarLater in later
 /// steps.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
-/// Penalties for violations, as multiples of the radius. kNewLidPenalty: for lid vertices that are
-/// outside the eyeball in all heads. kMeanGapPenalty: for the mean gaps. kDeepLidPenalty: for all
-/// other lid vertices.
+/// Penalties for violated constraints, as multiples of the radius. kNewLidPenalty: a lid vertex is
+/// inside the eyeball or too close to it, but outside in all heads. kMeanGapPenalty: the mean gap
+/// of a lid differs too much from the target's. kDeepLidPenalty: a lid vertex that is inside the
+/// eyeball in some head is deeper inside than in all heads.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
 /// Unknowns of an optimisation step of an eyeball. All of them are lengths.
@@ -122,46 +126,48 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
   }
 }
 
-RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& motion,
-                           const Positions& after) const {
-  return iterate_steps(target, motion, motion, SizeMode::kFree, after);
+RigidMotion EyeSocket::fit(std::size_t target, const RigidMotion& skin_motion,
+                           const Positions& face) const {
+  return iterate_steps(target, skin_motion, skin_motion, SizeMode::kFree, face);
 }
 
-RigidMotion EyeSocket::fit_translation(std::size_t target, const RigidMotion& motion,
-                                       const RigidMotion& fitted, const Positions& after) const {
-  return iterate_steps(target, motion, fitted, SizeMode::kKept, after);
+RigidMotion EyeSocket::fit_translation(std::size_t target, const RigidMotion& skin_motion,
+                                       const RigidMotion& scaled_motion,
+                                       const Positions& face) const {
+  return iterate_steps(target, skin_motion, scaled_motion, SizeMode::kKept, face);
 }
 
-RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& motion,
-                                     RigidMotion fitted, SizeMode size_mode,
-                                     const Positions& after) const {
+RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& skin_motion,
+                                     RigidMotion motion, SizeMode size_mode,
+                                     const Positions& face) const {
   constexpr int kSteps = 4;
-  if (lids_.rim.empty()) return fitted;
+  if (lids_.rim.empty()) return motion;
   std::vector<LidPoint> lids;
   lids.reserve(lids_.vertices.size());
   for (std::uint32_t i = 0; i < lids_.vertices.size(); ++i) {
-    lids.push_back({after.row(lids_.vertices[i]).transpose(), i});
+    lids.push_back({face.row(lids_.vertices[i]).transpose(), i});
   }
   for (int k = 0; k < kSteps; ++k) {
     const RigidMotion next =
-        step(target, motion, fitted, k == 0 ? kFarFirst : kFarLater, size_mode, lids);
-    const double change = (next.moved_pivot - fitted.moved_pivot).norm();
-    fitted = next;
+        step(target, skin_motion, motion, k == 0 ? kFarFirst : kFarLater, size_mode, lids);
+    const double change = (next.moved_pivot - motion.moved_pivot).norm();
+    motion = next;
     if (change < kDoneShift * maps_[target].radius()) break;
   }
-  return fitted;
+  return motion;
 }
 
-RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
-                            double far, SizeMode size_mode, std::vector<LidPoint>& lids) const {
+RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
+                            const RigidMotion& motion, double far, SizeMode size_mode,
+                            std::vector<LidPoint>& lids) const {
   const BallMap& map = maps_[target];
   const double radius = motion.scale * map.radius();
   // A gap is measured along the normal of the eyeball, so the gap is a little smaller than the
   // distance along the ray from the centre.
   const double outside = motion.scale * map.max_radius() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
-  const Eigen::Vector3d shifted = centre - start.apply(map.centre());
-  const double grown = (motion.scale / start.scale - 1) * radius;
+  const Eigen::Vector3d shifted = centre - skin_motion.apply(map.centre());
+  const double grown = (motion.scale / skin_motion.scale - 1) * radius;
   const auto rim = static_cast<double>(lids_.rim.size());
   QuadraticProgram program(kBallUnknowns);
   struct {
@@ -194,13 +200,12 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& start, const 
       of.count += 1;
     }
     const double least = smallest_gaps_[lid.index];
-    const bool never = least > kFreeOfLids * map.radius();
+    const bool never = least > kMinOutsideGap * map.radius();
     a[never ? kNewLidSlack : kDeepLidSlack] = 1;
     program.add_lower_bound(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
+  lids.resize(kept);  // Later steps skip the lid vertices that are too far from the eyeball.
   // Keep the mean gap of each lid, within a tolerance.
-  lids.resize(kept);
-
   for (auto& of : mean) {
     if (of.count == 0) continue;
     for (double& value : of.a) value /= of.count;

@@ -41,20 +41,22 @@ class EyeSocket {
   /// if the vertex is inside the eyeball.
   const std::vector<double>& gaps(std::size_t head) const { return gaps_[head]; }
 
-  /// Fits the eyeball of `target` behind the lids of a face. Translates the eyeball and scales it
-  /// slightly, so that the mean gap to each lid equals the gap on the target, and the gaps at the
-  /// rim are as near as possible to the target's gaps. No lid vertex is deeper inside the eyeball
-  /// than in the head where this vertex is deepest. A lid vertex that is outside in all heads stays
-  /// outside.
+  /// Fits the eyeball of a head behind the lids of a face that is built on this head. Translates
+  /// the eyeball and scales it slightly, so that the mean gap to each lid is the same as on the
+  /// head, and the gaps at the rim are nearly the same. No lid vertex gets deeper inside the
+  /// eyeball than its largest depth in any head. A lid vertex that is outside the eyeball in all
+  /// heads stays outside.
   ///
-  /// \param motion  Motion of the skin around the eye.
-  /// \param after   The face with the moved skin.
-  RigidMotion fit(std::size_t target, const RigidMotion& motion, const Positions& after) const;
-  /// Fits an eyeball of given size by translation only.
+  /// \param target       Index of the head.
+  /// \param skin_motion  Motion of the skin around the eye, from the head to the face.
+  /// \param face         The face, with the moved skin.
+  /// \return             Motion of the eyeball from the head to the face.
+  RigidMotion fit(std::size_t target, const RigidMotion& skin_motion, const Positions& face) const;
+  /// Fits an eyeball of given size: improves the translation of a motion, and keeps its scale.
   ///
-  /// \param fitted  Result of `fit`, scaled to the wanted size.
-  RigidMotion fit_translation(std::size_t target, const RigidMotion& motion,
-                              const RigidMotion& fitted, const Positions& after) const;
+  /// \param scaled_motion  Result of `fit`, scaled to the wanted size.
+  RigidMotion fit_translation(std::size_t target, const RigidMotion& skin_motion,
+                              const RigidMotion& scaled_motion, const Positions& face) const;
   Eigen::Vector3d centre(std::size_t target) const { return maps_[target].centre(); }
 
  private:
@@ -66,10 +68,10 @@ class EyeSocket {
   /// Returns `motion` improved by one step of the optimisation.
   /// \param far  The function removes lid points that are farther away than this fraction of the
   ///             radius.
-  RigidMotion step(std::size_t target, const RigidMotion& start, const RigidMotion& motion,
+  RigidMotion step(std::size_t target, const RigidMotion& skin_motion, const RigidMotion& motion,
                    double far, SizeMode size_mode, std::vector<LidPoint>& lids) const;
-  RigidMotion iterate_steps(std::size_t target, const RigidMotion& start, RigidMotion fitted,
-                            SizeMode size_mode, const Positions& after) const;
+  RigidMotion iterate_steps(std::size_t target, const RigidMotion& skin_motion, RigidMotion motion,
+                            SizeMode size_mode, const Positions& face) const;
 
   Lids lids_;
   std::vector<BallMap> maps_;               ///< #heads

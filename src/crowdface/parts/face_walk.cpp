@@ -11,8 +11,8 @@ namespace crowdface {
 MirroredWalk::MirroredWalk(const Topology& topology, const VertexFaces& vertex_faces)
     : topology_(topology),
       vertex_faces_(vertex_faces),
-      partners_(static_cast<std::size_t>(topology.vertex_count), kNoIndex),
-      vertices_of_partners_(partners_),
+      partner_of_vertex_(static_cast<std::size_t>(topology.vertex_count), kNoIndex),
+      vertex_of_partner_(partner_of_vertex_),
       is_visited_(static_cast<std::size_t>(topology.face_count()), false) {}
 
 std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge) const {
@@ -41,11 +41,11 @@ bool MirroredWalk::visit_faces(DirectedEdge here, DirectedEdge there) {
 /// Records a pair.
 /// \return  false if either vertex already has another partner.
 bool MirroredWalk::add_pair(MirroredPair pair) {
-  std::uint32_t& partner = partners_[pair.vertex];
+  std::uint32_t& partner = partner_of_vertex_[pair.vertex];
   if (partner != kNoIndex) return partner == pair.partner;
-  if (vertices_of_partners_[pair.partner] != kNoIndex) return false;
+  if (vertex_of_partner_[pair.partner] != kNoIndex) return false;
   partner = pair.partner;
-  vertices_of_partners_[pair.partner] = pair.vertex;
+  vertex_of_partner_[pair.partner] = pair.vertex;
   pairs_.push_back(pair);
   return true;
 }
@@ -76,7 +76,8 @@ bool MirroredWalk::walk(DirectedEdge edge, DirectedEdge other,
     const auto face = topology_.face(faces_[f].here.face);
     for (std::size_t i = 0; i < face.size(); ++i) {
       const std::uint32_t from = face[i], to = face[(i + 1) % face.size()];
-      if (!visit_faces({to, from}, {partners_[from], partners_[to]})) return false;
+      if (!visit_faces({to, from}, {partner_of_vertex_[from], partner_of_vertex_[to]}))
+        return false;
     }
   }
   return true;
@@ -84,8 +85,8 @@ bool MirroredWalk::walk(DirectedEdge edge, DirectedEdge other,
 
 void MirroredWalk::reset() {
   for (const auto [vertex, partner] : pairs_) {
-    partners_[vertex] = kNoIndex;
-    vertices_of_partners_[partner] = kNoIndex;
+    partner_of_vertex_[vertex] = kNoIndex;
+    vertex_of_partner_[partner] = kNoIndex;
   }
   for (const FacePair& faces : faces_) is_visited_[faces.here.face] = false;
   pairs_.clear();

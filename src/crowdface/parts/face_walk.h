@@ -65,8 +65,10 @@ class MirroredWalk {
   const Topology& topology_;
   const VertexFaces& vertex_faces_;
   // State of the current walk:
-  /// #V: the partner of each vertex, and the vertex whose partner it is; kNoIndex if there is none
-  std::vector<std::uint32_t> partners_, vertices_of_partners_;
+  /// #V: for each vertex of the first side, its mirror partner on the second side; kNoIndex if no
+  /// partner is known
+  std::vector<std::uint32_t> partner_of_vertex_;
+  std::vector<std::uint32_t> vertex_of_partner_;  ///< #V: the inverse of partner_of_vertex_
   /// #F: whether the walk has visited the polygon on the first side
   std::vector<bool> is_visited_;
   std::vector<FacePair> faces_;  ///< visited faces, in the order of visits

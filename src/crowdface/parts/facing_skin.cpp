@@ -25,8 +25,8 @@ namespace {
 // Lengths are fractions of the skin's extent, about 43 cm.
 constexpr double kReach = 0.008;    // largest distance of skin that nearly touches
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
-// largest overlap of facing skin. Touching lips overlap a little on the mean head, less than the
-// thickness of a lid
+// Largest overlap of facing skin. An overlap is allowed because touching lips overlap a little on
+// the mean head. The limit is less than the thickness of an eyelid.
 constexpr double kOverlap = 0.0005;
 constexpr double kAside = 0.0035;  // smallest gap that the test of kSideways assumes
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
@@ -120,7 +120,7 @@ void agree_on_sides(FacingGroup& group) {
   }
 }
 
-/// Returns the mean length of the edges at the low vertices of the pairs.
+/// Returns the mean length of the mesh edges at one vertex of each pair, FacingPair::low.
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {

@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// Two vertices of the skin that face each other across a narrow gap, as on two lips.
 struct FacingPair {
-  std::uint32_t low = 0, high = 0;  ///< vertices
+  std::uint32_t low = 0, high = 0;  ///< vertex indices: on the low and high side
   Eigen::Vector3d middle;           ///< midpoint
   Eigen::Vector3d up;               ///< unit vector from the low side to the high side
 };

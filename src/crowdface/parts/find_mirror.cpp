@@ -166,7 +166,7 @@ class PlaceFinder {
       const SurfacePoint place =
           nearest_point_from(topology_, vertex_faces_, mean_, near.vertex, point);
       found.map.corners[v] = place.corners;
-      found.map.shares[v] = place.shares;
+      found.map.barycentric[v] = place.shares;
       if (place.shares[0] == 1) mark_unpaired(found.map, v);
       distances[i] = place.distance;
     });
@@ -177,13 +177,13 @@ class PlaceFinder {
 
   static void set_partner(MirrorMap& map, std::uint32_t vertex, std::uint32_t partner) {
     map.corners[vertex] = {partner, partner, partner};
-    map.shares[vertex] = {1, 0, 0};
+    map.barycentric[vertex] = {1, 0, 0};
   }
   /// Marks a vertex as having no mutual partner: the stored mirror point does not change, but
   /// MirrorMap::is_vertex becomes false.
   static void mark_unpaired(MirrorMap& map, std::uint32_t vertex) {
     std::swap(map.corners[vertex][0], map.corners[vertex][1]);
-    map.shares[vertex] = {0, 1, 0};
+    map.barycentric[vertex] = {0, 1, 0};
   }
 
  private:
@@ -230,7 +230,7 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
   for (const std::uint32_t v : skin) {
     if (map.is_vertex(v)) fit.add(row3(mean, v), row3(mean, map.corners[v][0]));
   }
-  if (fit.count() * 2 >= static_cast<double>(skin.size())) map.plane = fit.plane(side);
+  if (fit.pair_count() * 2 >= skin.size()) map.plane = fit.plane(side);
   const double best = mean_square(map, mean);
   const MirrorPlane fitted = map.plane;
   Index axis = 0;
@@ -241,8 +241,8 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
 }
 
 /// Computes offsets for vertices without partner, so that mirroring keeps the mean head's shape
-/// there. The offset grows continuously from zero with the distance beyond `reach`, so that the
-/// surface has no step.
+/// there. An offset points from the vertex's mirror image to the vertex. Its length is the distance
+/// between both minus `reach`, or zero for shorter distances, so that the surface has no step.
 void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
   map.unpaired_offsets.resize(static_cast<Index>(map.unpaired_vertices.size()), 3);
@@ -270,7 +270,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   MirrorMap& map = found.map;
   const VertexFaces around(topology);
   map.corners.resize(components.component_of_vertex.size());
-  map.shares.resize(components.component_of_vertex.size());
+  map.barycentric.resize(components.component_of_vertex.size());
   const Box box = bounding_box(mean, skin);
   const double extent = box.sizes().maxCoeff();
   // Find the mirror plane of the skin.

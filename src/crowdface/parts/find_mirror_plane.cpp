@@ -89,14 +89,14 @@ void PlaneFit::add(const Eigen::Vector3d& point, const Eigen::Vector3d& partner)
   const Eigen::Vector3d joining = point - partner;
   scatter_ += joining * joining.transpose();
   midpoint_sum_ += 0.5 * (point + partner);
-  ++count_;
+  ++pair_count_;
 }
 
 MirrorPlane PlaneFit::plane(const Eigen::Vector3d& side) const {
   MirrorPlane plane;
   plane.normal = symmetric_eigen(scatter_).eigenvectors.col(0).normalized();
   if (plane.normal.dot(side) < 0) plane.normal = -plane.normal;
-  plane.offset = plane.normal.dot(midpoint_sum_ / count_);
+  plane.offset = plane.normal.dot(midpoint_sum_ / static_cast<double>(pair_count_));
   return plane;
 }
 

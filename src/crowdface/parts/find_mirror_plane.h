@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,12 +21,13 @@ class PlaneFit {
   ///
   /// \param side  Vector into the half space to which the normal points.
   MirrorPlane plane(const Eigen::Vector3d& side) const;
-  double count() const { return count_; }
+  /// Returns the number of pairs added so far.
+  std::size_t pair_count() const { return pair_count_; }
 
  private:
   Eigen::Matrix3d scatter_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d midpoint_sum_ = Eigen::Vector3d::Zero();
-  double count_ = 0;
+  std::size_t pair_count_ = 0;
 };
 
 /// Finds the plane in which a surface is most nearly symmetric, by iterative closest points (Besl &

@@ -25,7 +25,7 @@ constexpr std::size_t kMaxSocketVertices = 4000;
 /// tested for contact. kContactMargin: smallest clearance that is kept.
 constexpr double kContactReach = 0.01, kContactMargin = 0.0005;
 /// Largest distance at which gums follow a tooth, as a fraction of the skin's extent.
-constexpr double kTieReach = 0.01;
+constexpr double kToothReach = 0.01;
 
 /// Returns the area of each vertex (#V): the vertex's share of the areas of the polygons that
 /// contain it.
@@ -50,7 +50,7 @@ bool have_same_positions(const Positions& before, const Positions& after,
 
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<double> unit_weights;  ///< #vertices: equal weights, for fits of the part's shape
+  std::vector<double> equal_weights;  ///< #vertices: equal weights, for fits of the part's shape
   Socket socket;
   bool is_eyeball = false;
   EyeSocket eye;        ///< used for eyeballs
@@ -83,11 +83,11 @@ Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
 }
 
 EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMean& skin) {
-  const std::vector<double> unit_weights(part.vertices.size(), 1.0);
+  const std::vector<double> equal_weights(part.vertices.size(), 1.0);
   std::vector<BallMap> maps(skin.heads.heads.size());
   parallel_for_each(maps.size(), [&](std::size_t i) {
     const Positions& head = skin.heads.heads[i].positions;
-    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, unit_weights);
+    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, equal_weights);
     maps[i] = BallMap(skin.heads.topology, skin.around, head, part.surface,
                       motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
   });
@@ -99,7 +99,7 @@ EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMea
 RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& skin) {
   RigidPart bound;
   bound.vertices = part.vertices;
-  bound.unit_weights.assign(part.vertices.size(), 1.0);
+  bound.equal_weights.assign(part.vertices.size(), 1.0);
   bound.is_eyeball = part.is_eyeball;
   if (!part.is_eyeball) {
     bound.socket = socket_of(part, kSocketReach * skin.extent, skin);
@@ -124,7 +124,7 @@ struct PartFollower::State {
   std::vector<RigidPart> rigid;
   Anchors anchors;
   std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< #heads: offsets of the bound vertices
-  Ties ties;                                          ///< ties of bound vertices to teeth
+  PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
 
   /// The motion of the skin around a part, and the motion of the part.
   struct Found {
@@ -170,11 +170,11 @@ PartFollower::PartFollower(const HeadSet& heads, const PartList& parts, const He
   parallel_for_each(rigid.size(),
                     [&](std::size_t p) { state->rigid[p] = bind_rigid(*rigid[p], parts, skin); });
 
-  std::vector<std::span<const std::uint32_t>> tying;
+  std::vector<std::span<const std::uint32_t>> teeth;
   for (const RigidPart& part : state->rigid) {
-    if (!part.is_eyeball) tying.emplace_back(part.vertices);
+    if (!part.is_eyeball) teeth.emplace_back(part.vertices);
   }
-  state->ties = Ties(mean, tying, bound, kTieReach * state->extent);
+  state->tooth_weights = PartWeights(mean, teeth, bound, kToothReach * state->extent);
   state->anchors = Anchors(heads.topology, state->around, mean, skin.grid, std::move(bound));
   state->offsets.resize(heads.heads.size());
   parallel_for_each(heads.heads.size(), [&](std::size_t i) {
@@ -234,7 +234,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
   }
   // First move the blended part rigidly onto the target's part, so that only the shape of the
   // blended part is kept.
-  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.unit_weights);
+  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.equal_weights);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();
   }
@@ -256,7 +256,7 @@ void PartFollower::follow(Index target, Positions& result) const {
     if (!state_->rigid[p].is_eyeball) motions.push_back(found[p].part);
   }
   state_->anchors.place_vertices(before, state_->offsets[t], result);
-  state_->ties.pull(before, motions, result);
+  state_->tooth_weights.pull(before, motions, result);
 }
 
 }  // namespace crowdface

@@ -22,7 +22,7 @@ namespace {
 
 // smallest extent of a component that counts as skin; the largest component always does
 constexpr double kSkinExtent = 0.5;
-constexpr double kOpen = 0.7;            // openness: a hemisphere has 0.5, a disc 1
+constexpr double kOpen = 0.7;            // isoperimetric ratio: a hemisphere has 0.5, a disc 1
 constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
 // largest distance of components that nearly touch, such as teeth
 constexpr double kTouch = 0.006;
@@ -31,13 +31,14 @@ constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
 /// has a diagonal of 3.5 radii, half a ball 3, and neither is thinner than one radius. A row of
 /// teeth fits a sphere too, but is half as thick.
 constexpr double kWhole = 2.6, kThick = 0.8;
-// largest roughness of an eyeball, in radii: the cornea deviates from the sphere
-constexpr double kRound = 0.1;
+// largest root mean square distance of an eyeball's surface from the fitted sphere, in radii; not
+// zero, because the cornea bulges out of the sphere
+constexpr double kMaxRoughness = 0.1;
 static_assert(kBoundDistance < kFarFromSkin);
 
 PartClass class_by_shape(const ComponentShape& shape, double extent) {
   if (shape.polygon_count == 0 || shape.extent > kSkinExtent * extent) return PartClass::kSkin;
-  const bool open = shape.openness > kOpen;
+  const bool open = shape.isoperimetric_ratio > kOpen;
   return open && shape.skin_distance < kBoundDistance * extent ? PartClass::kBound
                                                                : PartClass::kRigid;
 }
@@ -45,7 +46,7 @@ PartClass class_by_shape(const ComponentShape& shape, double extent) {
 bool is_eyeball(const ComponentShape& shape, double extent) {
   return shape.radius > kEyeRadius[0] * extent && shape.radius < kEyeRadius[1] * extent &&
          shape.extent > kWhole * shape.radius && shape.thickness > kThick * shape.radius &&
-         shape.roughness < kRound * shape.radius;
+         shape.roughness < kMaxRoughness * shape.radius;
 }
 
 /// Bounding box in the head's axes: side, up, front.

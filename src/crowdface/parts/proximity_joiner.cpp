@@ -20,10 +20,10 @@ ProximityJoiner::ProximityJoiner(const Positions& points, std::vector<std::uint3
       groups_(groups),
       tree_(std::move(rows), points, kMaxInLeaf),
       boxes_(tree_.nodes.size()),
-      only_groups_(tree_.nodes.size(), kNoIndex) {
+      common_groups_(tree_.nodes.size(), kNoIndex) {
   for (std::size_t n = tree_.nodes.size(); n-- > 0;) {
     for (const std::uint32_t row : rows_of(n)) boxes_[n].extend(row3(points_, row));
-    only_groups_[n] = only_group(n);
+    common_groups_[n] = common_group(n);
   }
 }
 
@@ -42,7 +42,7 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
   // The distance of a box uses the same arithmetic as the distances of points below. So rounding
   // cannot make a box farther away than the points in it.
   if (boxes_[n].exteriorDistance(place) > reach) return;
-  std::uint32_t& only = only_groups_[n];
+  std::uint32_t& only = common_groups_[n];
   if (only != kNoIndex && groups_.root(only) == groups_.root(component)) return;
   if (tree_.nodes[n].is_leaf()) {
     for (const std::uint32_t row : rows_of(n)) {
@@ -53,16 +53,16 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
     join_near(n + 1, place, reach, component);
     join_near(tree_.nodes[n].second_child, place, reach, component);
   }
-  if (only == kNoIndex) only = only_group(n);
+  if (only == kNoIndex) only = common_group(n);
 }
 
-/// Returns a component of the group that contains all points of the node, or kNoIndex if the points
-/// belong to several groups. Uses the stored values of the node's children, which may be out of
-/// date.
-std::uint32_t ProximityJoiner::only_group(std::size_t n) {
+/// If all points of the node belong to the same group, returns one of the group's components, which
+/// stands for the group; otherwise kNoIndex. Uses the stored values of the node's children, which
+/// may be out of date.
+std::uint32_t ProximityJoiner::common_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];
   if (!node.is_leaf()) {
-    const std::uint32_t a = only_groups_[n + 1], b = only_groups_[node.second_child];
+    const std::uint32_t a = common_groups_[n + 1], b = common_groups_[node.second_child];
     const bool one = a != kNoIndex && b != kNoIndex && groups_.root(a) == groups_.root(b);
     return one ? a : kNoIndex;
   }

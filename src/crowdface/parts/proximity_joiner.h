@@ -34,17 +34,16 @@ class ProximityJoiner {
   std::span<const std::uint32_t> rows_of(std::size_t node) const;
   void join_near(std::size_t node, const Eigen::Vector3d& place, double reach,
                  std::uint32_t component);
-  std::uint32_t only_group(std::size_t node);
+  std::uint32_t common_group(std::size_t node);
 
   const Positions& points_;
   const std::vector<std::uint32_t>& components_;
   DisjointSets& groups_;
   MedianSplitTree tree_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
-  std::vector<std::uint32_t>
-      /// For each node whose points are known to belong to one group, a component of this group;
-      /// otherwise kNoIndex.
-      only_groups_;
+  /// #nodes: if all points of the node are known to belong to the same group, a component of this
+  /// group; otherwise kNoIndex
+  std::vector<std::uint32_t> common_groups_;
 };
 
 }  // namespace crowdface

@@ -138,8 +138,9 @@ class Table {
     }
   }
 
-  /// Computes the violation of each constraint, measured along its normal in x.
-  void missing(const Vector& y, std::vector<double>& result) const {
+  /// Computes the violation of each constraint: the signed distance, in units of x, by which y
+  /// misses the constraint; negative if y fulfils the constraint.
+  void compute_violations(const Vector& y, std::vector<double>& result) const {
     result = lower_;
     for (std::size_t i = 0; i < unknowns_; ++i) {
       const double* column = normals_.data() + i * count_;
@@ -201,19 +202,19 @@ QuadraticProgram::Vector QuadraticProgram::solve(double tolerance) const {
   const Matrix l = cholesky(quadratic_, n);
   const Table table(bounds_, l, n);
   Vector y = solve_lower(l, linear_, n);
-  std::vector<double> missing(bounds_.size());
+  std::vector<double> violations(bounds_.size());
   Active active;
   for (int step = 0; step < kMaxSteps; ++step) {
-    table.missing(y, missing);
+    table.compute_violations(y, violations);
     double worst = tolerance;
-    std::size_t which = missing.size();
+    std::size_t which = violations.size();
     // Pick the most violated constraint.
-    for (std::size_t b = 0; b < missing.size(); ++b) {
-      if (missing[b] <= worst) continue;
-      worst = missing[b];
+    for (std::size_t b = 0; b < violations.size(); ++b) {
+      if (violations[b] <= worst) continue;
+      worst = violations[b];
       which = b;
     }
-    if (which == missing.size()) break;
+    if (which == violations.size()) break;
     if (!move_onto(active, table.normal(which), table.lower(which), y, n)) break;
   }
   return backward(l, y, n);

@@ -17,8 +17,9 @@ namespace {
 constexpr double kSectionSpacing = 0.008;  // spacing of the sections
 constexpr double kProfile = 0.015;         // length of a profile to either side of a section
 constexpr double kMotionReach = 0.07;      // radius of the skin that moves around a section
-// distance along the surface within which the two sides are distinguished
-constexpr double kSide = 0.09;
+// distance along the surface, from the contact, within which each vertex is assigned to one of the
+// contact's two sides (such as upper and lower lip)
+constexpr double kSideReach = 0.09;
 constexpr double kRounding = 0.006;  // width of the smoothing of the sides' borders
 constexpr double kTolerance = 1e-5;  // tolerance of a gap
 constexpr double kMinWeight = 1e-3;  // vertices with smaller weights do not move
@@ -27,11 +28,12 @@ constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices 
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;
 constexpr int kRounds = 3;
-/// A gap may miss its range by this fraction of its section's amplitude (the size of the section's
-/// correction). This tolerance makes the amplitudes of neighbouring sections more equal.
+/// Regularisation: the gap of a section may miss its range by this fraction of the section's
+/// amplitude (the size of its correction), so that neighbouring sections get similar amplitudes.
 constexpr double kEvenness = 0.001;
-/// Largest amplitude of a section, as a multiple of the largest deviation of a gap from its range.
-constexpr double kMax = 4;
+/// Largest amplitude of a section (the size of the section's correction), as a multiple of the
+/// largest deviation of a gap from its range.
+constexpr double kMaxCorrection = 4;
 
 /// Smooth kernel, 1 at 0, and 0 from 1 on (Wendland 1995, C² in three dimensions). The kernel is
 /// positive definite, so amplitudes exist for any wanted gaps.
@@ -90,8 +92,8 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   constexpr double kMaxSteps = 1e4;
   const int steps = static_cast<int>(std::min(std::ceil(4 * edges), kMaxSteps));
 
-  // The skin outside this area belongs to no side; an extra row with the value 0 represents this
-  // skin.
+  // Skin outside `sides.vertices` is neither on the low nor on the high side. One extra row, with
+  // the value 0, represents all of this skin.
   const auto rows = sides.vertices.size();
   std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
   for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
@@ -138,32 +140,33 @@ SkinContacts::SkinContacts(const HeadSet& heads, const Adjacency& adjacency,
 
 void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
                        double extent) {
-  Sides sides = find_sides(group, adjacency, mean, kSide * extent);
+  Sides sides = find_sides(group, adjacency, mean, kSideReach * extent);
   SectionGroup section_group;
   section_group.begin = sections_.size();
   for (GapSection& section : distribute_gap_sections(group, kSectionSpacing * extent)) {
     cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, section);
-    if (section.low.empty() || section.high.empty()) continue;
+    if (section.low_profile.empty() || section.high_profile.empty()) continue;
     clearances_.emplace_back(section, adjacency);
     sections_.push_back(std::move(section));
   }
   section_group.end = sections_.size();
   if (section_group.begin == section_group.end) return;
   round_off(adjacency, mean, kRounding * extent, sides);
-  find_kernels(mean, sides.vertices, sides.side, extent, section_group);
-  find_motions(section_group);
+  compute_kernels(mean, sides.vertices, sides.side, extent, section_group);
+  compute_point_motions(section_group);
   section_groups_.push_back(std::move(section_group));
 }
 
-void SkinContacts::find_kernels(const Positions& mean, std::span<const std::uint32_t> around,
-                                const std::vector<double>& side, double extent,
-                                SectionGroup& section_group) const {
-  const double reach = kMotionReach * extent;
-  for (const std::uint32_t v : around) {
+void SkinContacts::compute_kernels(const Positions& mean_head,
+                                   std::span<const std::uint32_t> near_skin,
+                                   const std::vector<double>& sides, double skin_extent,
+                                   SectionGroup& section_group) const {
+  const double reach = kMotionReach * skin_extent;
+  for (const std::uint32_t v : near_skin) {
     std::vector<KernelValue> kernels;
     for (std::size_t p = section_group.begin; p < section_group.end; ++p) {
-      const double distance = (row3(mean, v) - sections_[p].middle).norm() / reach;
-      const double weight = side[v] * bump(distance);
+      const double distance = (row3(mean_head, v) - sections_[p].middle).norm() / reach;
+      const double weight = sides[v] * bump(distance);
       if (std::abs(weight) > kMinWeight) {
         kernels.push_back({static_cast<std::uint32_t>(p), weight});
       }
@@ -174,7 +177,7 @@ void SkinContacts::find_kernels(const Positions& mean, std::span<const std::uint
   }
 }
 
-void SkinContacts::find_motions(SectionGroup& section_group) const {
+void SkinContacts::compute_point_motions(SectionGroup& section_group) const {
   section_group.point_motions.resize(section_group.end - section_group.begin);
   for (std::size_t p = section_group.begin; p < section_group.end; ++p) {
     const Eigen::Vector3d &up = sections_[p].up, deep = sections_[p].inward();
@@ -187,7 +190,7 @@ void SkinContacts::find_motions(SectionGroup& section_group) const {
         point_motions.depths.back() += share * weight * deep.dot(sections_[section].up);
       }
     };
-    for (const auto* profile : {&sections_[p].low, &sections_[p].high}) {
+    for (const auto* profile : {&sections_[p].low_profile, &sections_[p].high_profile}) {
       for (const EdgePoint& point : *profile) {
         for (PointMotions& point_motions : section_group.point_motions) {
           point_motions.heights.push_back(0);
@@ -316,8 +319,9 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (missing <= tolerance_) break;
+      // The largest deviation in the first round limits the amplitudes in all rounds.
+      if (round == 0) most = kMaxCorrection * missing;
       // Solve for the amplitudes with these facing points.
-      if (round == 0) most = kMax * missing;
       changes = find_amplitudes(section_group, ranges, most, profiles, amplitudes);
     }
     if (most > 0) move(section_group, amplitudes, positions);

@@ -56,8 +56,8 @@ class SkinContacts {
     std::uint32_t section;
     double weight;  ///< positive on the high side, negative on the low side
   };
-  /// The movement of all profile points of a group, section after section, if the amplitude of
-  /// one section grows by one.
+  /// The changes of height and depth of a group's profile points if the amplitude of one section
+  /// grows by one. The points have the same order as in Profiles.
   struct PointMotions {
     std::vector<double> heights, depths;
   };
@@ -69,9 +69,11 @@ class SkinContacts {
     std::vector<PointMotions> point_motions;  ///< #sections of the group
   };
 
-  /// The current profiles at a group's sections.
+  /// The current positions of the profile points of all sections of a group. Each section has two
+  /// profiles, see GapSection.
   struct Profiles {
-    /// coordinates of all points, section after section
+    /// coordinates of all points: first the points of the group's first section, then the points of
+    /// its second section, and so on
     std::vector<double> heights, depths;
     std::vector<std::size_t> begins;  ///< index of each section's first point
     /// #sections: opposite points of the two profiles
@@ -82,17 +84,24 @@ class SkinContacts {
 
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
-  void find_kernels(const Positions& mean, std::span<const std::uint32_t> around,
-                    const std::vector<double>& side, double extent,
-                    SectionGroup& section_group) const;
-  void find_motions(SectionGroup& section_group) const;
-  /// A change of a section's amplitude.
+  /// Sets the vertices and the kernels of a group.
+  ///
+  /// \param mean_head    #V by 3: the mean head.
+  /// \param near_skin    The skin around the group, ascending.
+  /// \param sides        #V: ½ on the high side, −½ on the low side, smooth between the sides.
+  /// \param skin_extent  Extent of the whole skin.
+  void compute_kernels(const Positions& mean_head, std::span<const std::uint32_t> near_skin,
+                       const std::vector<double>& sides, double skin_extent,
+                       SectionGroup& section_group) const;
+  /// Sets the point motions of a group, from its kernels.
+  void compute_point_motions(SectionGroup& section_group) const;
+  /// A change of a section's amplitude, the factor of the section's kernel in the displacement.
   struct AmplitudeChange {
     std::size_t section;  ///< index within the group
     double amount;
   };
-  /// Finds the amplitudes that bring the gaps into their ranges (skin_contacts.cpp explains the
-  /// method).
+  /// Finds the amplitudes of a group's kernels that bring the gaps into their ranges
+  /// (skin_contacts.cpp explains the method). Updates the heights of `profiles`.
   ///
   /// \param max_amplitude  Limit for the absolute value of each amplitude.
   /// \param amplitudes  Amplitudes of the group's sections; updated.

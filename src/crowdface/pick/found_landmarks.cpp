@@ -44,12 +44,12 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
 
 /// Repeatedly removes the worst landmark, until a similarity transform fits all remaining landmarks
 /// to within kOffMm.
-void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmarks) {
+void drop_outliers(const WrapTemplate& wrap_template, std::vector<WrapLandmark>& landmarks) {
   while (landmarks.size() > kMinLandmarks) {
-    const Similarity back = inverse(pose_of_landmarks(shape.positions, landmarks));
+    const Similarity back = inverse(pose_of_landmarks(wrap_template.positions, landmarks));
     const auto off = [&](const WrapLandmark& landmark) {
       return (apply_similarity(back, landmark.scan_position) -
-              row3(shape.positions, landmark.vertex))
+              row3(wrap_template.positions, landmark.vertex))
           .norm();
     };
     const auto worst = std::ranges::max_element(landmarks, {}, off);
@@ -61,15 +61,18 @@ void drop_outliers(const WrapTemplate& shape, std::vector<WrapLandmark>& landmar
 }  // namespace
 
 std::vector<WrapLandmark> find_landmarks(
-    const WrapTemplate& shape, const std::map<std::string, std::uint32_t>& template_vertices,
-    const Scan& scan, const PoseHint& given) {
+    const WrapTemplate& wrap_template,
+    const std::map<std::string, std::uint32_t>& template_vertices, const Scan& scan,
+    const PoseHint& given) {
   PoseHint hint = given;
   if (!hint.face) hint.face = find_scan_face(scan, hint);
   // Estimate the pose of the template on the scan.
-  const SkinMesh& bent = shape.reduced_skin ? shape.reduced_skin->mesh : shape.skin;
-  Positions rest = shape.skin.rows_of(shape.positions);
-  if (shape.reduced_skin) rest = bent.rows_of(rest);
-  const Similarity pose = guess_pose(bent, rest, shape.axes, ScanSurface(scan), hint, shape.face);
+  const SkinMesh& bent =
+      wrap_template.reduced_skin ? wrap_template.reduced_skin->mesh : wrap_template.skin;
+  Positions rest = wrap_template.skin.rows_of(wrap_template.positions);
+  if (wrap_template.reduced_skin) rest = bent.rows_of(rest);
+  const Similarity pose =
+      guess_pose(bent, rest, wrap_template.axes, ScanSurface(scan), hint, wrap_template.face_match);
   const Positions placed = inverse(pose).apply(scan.positions);
   std::optional<ReliefMatch> face = hint.face;
   if (face) {
@@ -81,7 +84,7 @@ std::vector<WrapLandmark> find_landmarks(
   // template.
   const std::array ways = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
-      propose_on(scan, placed, shape.axes)};
+      propose_on(scan, placed, wrap_template.axes)};
   std::vector<WrapLandmark> most;
   for (const auto& of_scan : ways) {
     std::vector<WrapLandmark> landmarks;
@@ -92,10 +95,10 @@ std::vector<WrapLandmark> find_landmarks(
           found == of_scan.end())
         continue;
       const std::uint32_t vertex = of_template->second, there = found->second;
-      if ((row3(placed, there) - row3(shape.positions, vertex)).norm() > kFarMm) continue;
+      if ((row3(placed, there) - row3(wrap_template.positions, vertex)).norm() > kFarMm) continue;
       landmarks.push_back({name, vertex, row3(scan.positions, there), true, kFoundErrorMm});
     }
-    drop_outliers(shape, landmarks);
+    drop_outliers(wrap_template, landmarks);
     if (landmarks.size() > most.size()) most = std::move(landmarks);
   }
   return most;

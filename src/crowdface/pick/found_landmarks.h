@@ -18,7 +18,8 @@ namespace crowdface {
 /// \param template_vertices  landmarks of the template by name, as vertex numbers (see propose_landmarks)
 /// \param hint  up and front direction of the scan
 std::vector<WrapLandmark> find_landmarks(
-    const WrapTemplate& shape, const std::map<std::string, std::uint32_t>& template_vertices,
-    const Scan& scan, const PoseHint& hint);
+    const WrapTemplate& wrap_template,
+    const std::map<std::string, std::uint32_t>& template_vertices, const Scan& scan,
+    const PoseHint& hint);
 
 }  // namespace crowdface

@@ -148,7 +148,7 @@ std::string_view opening_comments(std::string_view text) {
   return text.substr(0, end);
 }
 
-bool has_more_comments(std::string_view text) {
+bool has_comments_after_opening(std::string_view text) {
   // A " #" inside a quoted name also counts as a comment. The user then gets a needless warning.
   text.remove_prefix(opening_comments(text).size());
   return text.find(" #") != std::string_view::npos || text.find("\n#") != std::string_view::npos ||

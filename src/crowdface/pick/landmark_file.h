@@ -63,7 +63,7 @@ std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
 
 /// The comment lines at the start of a text, with their line ends.
 std::string_view opening_comments(std::string_view text);
-/// Whether the text may have comments after the opening comments.
-bool has_more_comments(std::string_view text);
+/// Whether the text may have comments after its opening comments (see opening_comments).
+bool has_comments_after_opening(std::string_view text);
 
 }  // namespace crowdface

@@ -87,7 +87,7 @@ std::vector<PickedLandmark> PickSession::landmarks() const {
 
 bool PickSession::loses_comments() const {
   const std::lock_guard lock(mutex_);
-  return has_more_comments(last_file_text_);
+  return has_comments_after_opening(last_file_text_);
 }
 
 std::string PickSession::text_on_disk() const {

@@ -11,11 +11,12 @@
 
 namespace crowdface {
 
-std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape) {
+std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_template) {
   std::map<std::string, std::uint32_t> proposals;
-  if (!shape.face) return proposals;
-  const FaceLandmarks found = find_face_landmarks(shape.topology, shape.components, shape.parts,
-                                                  head_shape(shape), *shape.face);
+  if (!wrap_template.face_match) return proposals;
+  const FaceLandmarks found =
+      find_face_landmarks(wrap_template.topology, wrap_template.components, wrap_template.parts,
+                          head_shape(wrap_template), *wrap_template.face_match);
   for (const auto& [name, place] : found.points) {
     const auto nearest = std::ranges::max_element(place.shares) - place.shares.begin();
     proposals[name] = place.corners[static_cast<std::size_t>(nearest)];
@@ -23,39 +24,40 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape
   return proposals;
 }
 
-PickableMesh make_pickable(const WrapTemplate& shape, const Positions& positions) {
-  std::vector<Triangle> skin = shape.skin.triangles, others;
+PickableMesh make_pickable(const WrapTemplate& wrap_template, const Positions& positions) {
+  std::vector<Triangle> skin = wrap_template.skin.triangles, others;
   for (Triangle& t : skin) {
-    for (std::uint32_t& v : t) v = shape.skin.vertices[v];
+    for (std::uint32_t& v : t) v = wrap_template.skin.vertices[v];
   }
-  for (const Triangle& t : occluding_triangles(shape)) {
-    const PartClass of_part = shape.parts.classes[shape.components.component_of_vertex[t[0]]];
+  for (const Triangle& t : occluding_triangles(wrap_template)) {
+    const PartClass of_part =
+        wrap_template.parts.classes[wrap_template.components.component_of_vertex[t[0]]];
     if (of_part != PartClass::kSkin) others.push_back(t);
   }
   return {positions, std::move(skin), others};
 }
 
-SkinRegions face_regions(const WrapTemplate& shape) {
-  if (!shape.face) return {};
-  const HeadShape head = head_shape(shape);
-  const FaceMarks marks = marks_of_face(shape.topology, head, *shape.face);
+SkinRegions face_regions(const WrapTemplate& wrap_template) {
+  if (!wrap_template.face_match) return {};
+  const HeadShape head = head_shape(wrap_template);
+  const FaceMarks marks = marks_of_face(wrap_template.topology, head, *wrap_template.face_match);
   std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth};
   for (const Band more : {Band::kEars, Band::kNeck}) {
     bands.push_back(more);
     try {
-      propose_bands(shape.topology, head, marks, bands);
+      propose_bands(wrap_template.topology, head, marks, bands);
     } catch (const InvalidInput&) {
       bands.pop_back();
     }
   }
-  const auto alpha = propose_bands(shape.topology, head, marks, bands);
+  const auto alpha = propose_bands(wrap_template.topology, head, marks, bands);
   SkinRegions regions;
   for (const Band band : bands) {
     for (const auto& [name, known] : kBandNames) {
       if (known == band) regions.names.emplace_back(name);
     }
   }
-  for (const std::uint32_t v : shape.skin.vertices) {
+  for (const std::uint32_t v : wrap_template.skin.vertices) {
     Index most = 0;
     alpha.row(v).maxCoeff(&most);
     regions.region_of_vertex.push_back(static_cast<std::size_t>(most));
@@ -63,10 +65,11 @@ SkinRegions face_regions(const WrapTemplate& shape) {
   return regions;
 }
 
-MirrorPlane symmetry_plane(const WrapTemplate& shape, const Positions& positions) {
-  HeadShape head = head_shape(shape);
+MirrorPlane symmetry_plane(const WrapTemplate& wrap_template, const Positions& positions) {
+  HeadShape head = head_shape(wrap_template);
   head.positions = positions;
-  return {shape.axes.side(), symmetry_offset(shape.topology, head, shape.axes)};
+  return {wrap_template.axes.side(),
+          symmetry_offset(wrap_template.topology, head, wrap_template.axes)};
 }
 
 }  // namespace crowdface

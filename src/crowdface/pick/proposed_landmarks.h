@@ -14,17 +14,17 @@ namespace crowdface {
 
 /// Finds the landmarks of a template's face by their shape (find_face_landmarks).
 /// \return vertex numbers of the template by name; empty if no face is found.
-std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& shape);
+std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_template);
 
 /// A mesh of the template whose skin can be picked and whose eyes and teeth occlude the skin.
 /// \param positions  #V by 3
-PickableMesh make_pickable(const WrapTemplate& shape, const Positions& positions);
+PickableMesh make_pickable(const WrapTemplate& wrap_template, const Positions& positions);
 
 /// Regions of the skin: brow, nose and mouth, and ears and neck if they are found. Empty if no face
 /// is found.
-SkinRegions face_regions(const WrapTemplate& shape);
+SkinRegions face_regions(const WrapTemplate& wrap_template);
 
 /// The symmetry plane between the left and right half of a template.
-MirrorPlane symmetry_plane(const WrapTemplate& shape, const Positions& positions);
+MirrorPlane symmetry_plane(const WrapTemplate& wrap_template, const Positions& positions);
 
 }  // namespace crowdface

@@ -17,8 +17,9 @@ namespace crowdface {
 struct LandmarkPose {
   Similarity pose;  ///< maps the template (mm) to the scan, in the unit of the scan
   struct Residual {
-    /// Distance between both landmarks of the pair after a fit to the other pairs, in mm. With
-    /// three pairs: after a fit to all three pairs.
+    /// Distance in mm between the pair's template landmark, transformed by a fit, and the pair's
+    /// scan landmark. The fit uses all other pairs; if there are only three pairs, it uses all
+    /// three.
     double distance_mm = 0;
     /// Whether the distance is far larger than those of the other pairs, probably because a
     /// landmark was misplaced; `pose` does not use outliers.

@@ -82,7 +82,7 @@ AttachmentMaterial AttachmentSurfaces::material_of(const SurfaceMaterial& source
   if (!source.colour_map.empty()) {
     const Picture& picture = colour_maps_.get(source.colour_map, [&] {
       const Image image = read_image(source.colour_map, {.allows_jpeg = true});
-      const ImageRows light = light_of(image);
+      const ImageRows light = linear_light_of(image);
       Texture colours = shrunk_texture(image.width, image.height, max_px_, light.read_row);
       auto read = std::make_unique<Picture>();
       if (image.alpha_channel >= 0) {

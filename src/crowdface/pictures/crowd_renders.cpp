@@ -130,7 +130,8 @@ FacePictures CrowdRenders::render_files(const std::string& id, Index target,
   return pictures;
 }
 
-std::string CrowdRenders::head_script(Index head, std::span<const Displacements> moves) const {
+std::string CrowdRenders::gallery_script_of_head(Index head,
+                                                 std::span<const Displacements> moves) const {
   const auto& [name, positions] = inputs_.head_set.heads[static_cast<std::size_t>(head)];
   const std::optional<TextureSet> texture_set = texture_set_of(head);
   const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
@@ -220,7 +221,7 @@ std::string CrowdRenders::render_png(const Positions& positions, Index head) con
 }
 
 Rgb8Image read_render(const std::filesystem::path& path) {
-  Image image = read_image(path, {.is_own_file = true});
+  Image image = read_image(path, {.is_crowdface_file = true});
   Rgb8Image result(image.width, image.height);
   if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
       bytes != nullptr && image.channels == 3) {

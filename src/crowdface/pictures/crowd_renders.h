@@ -74,16 +74,16 @@ class CrowdRenders {
                             const std::vector<PlacedAttachment>& placed = {},
                             const ColourRows& colours = {},
                             const BlendedPicture* body = nullptr) const;
-  /// The script of a head for the gallery.
-  std::string head_script(Index head, std::span<const Displacements> moves) const;
+  /// The JavaScript file that gives the gallery page the data of a head.
+  std::string gallery_script_of_head(Index head, std::span<const Displacements> moves) const;
 
   /// Textures of a head; nothing if the head has no textures or if textures are not shown.
   std::optional<TextureSet> texture_set_of(Index head) const;
   /// Vertex colours of a head; nothing if the head has no vertex colours or if textures replace
   /// them.
   std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
-  /// Returns an empty texture set for a face's own textures, which the caller adds. Returns nothing
-  /// if faces have no own textures or if textures are not shown.
+  /// Returns a texture set without textures, to which the caller adds the face's own textures.
+  /// Returns nothing if faces have no own textures or if textures are not shown.
   std::optional<FaceTextureSet> face_texture_set(Index target) const;
   /// Returns a texture set that contains the face's own textures.
   std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,
@@ -110,7 +110,7 @@ class CrowdRenders {
   Rgb8Image render_front(const Positions& positions, const VertexColours* colours = nullptr) const;
 
  private:
-  /// The body's texture for a recipe; nothing if images do not show the body.
+  /// The body's texture for a recipe; nothing if the rendered images do not show the body.
   std::optional<BlendedPicture> blend_body_texture(const Recipe& recipe) const;
 
   PicturedMesh mesh_;

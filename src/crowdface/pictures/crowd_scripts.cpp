@@ -174,7 +174,8 @@ std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, s
                 ");\n");
 }
 
-/// Evenly spaced faces, at most kMaxOnPlane, for the plane view.
+/// Every k-th face of the crowd, for the plane view, with the smallest k that gives at most
+/// kMaxOnPlane faces.
 Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const Digest& settings) {
   Json json = Json::object();
   const std::size_t step = (crowd.size() + kMaxOnPlane - 1) / kMaxOnPlane;

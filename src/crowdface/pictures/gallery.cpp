@@ -208,7 +208,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   const double least = min_displacement();
   for (const Shape& shape : inputs_.shapes.shapes) {
     // Store the vertices of the reduced mesh that the shape moves visibly.
-    ShownMoves& shown = shown_moves_.emplace_back();
+    ShownShape& shown = shown_shapes_.emplace_back();
     const auto& moved = shape.moves.vertices;
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
       const auto at = std::ranges::lower_bound(moved, mesh_.vertices[v]);
@@ -229,7 +229,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
       shapes.begin());
   Positions acting = mean;
   shapes[most_moving_shape_].moves.add_to(acting);
-  visibility_in_most_moving_ =
+  visibility_in_most_moving_shape_ =
       vertex_visibility(pictured_mesh_.topology(), surfaces.kinds, acting, mesh_.vertices);
   // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
   for (float& open : visibility_) open = std::max(open, kMinLight);
@@ -238,7 +238,7 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
 std::string GalleryMeshes::pack_shapes(std::span<const Displacements> shape_moves) const {
   std::string bytes;
   for (std::size_t s = 0; s < shape_moves.size(); ++s) {
-    for (const std::uint32_t row : shown_moves_[s].rows) {
+    for (const std::uint32_t row : shown_shapes_[s].rows) {
       bytes += pack_displacement(shape_moves[s].moves.row(row), packing_frame_);
     }
   }
@@ -314,9 +314,10 @@ std::string GalleryMeshes::shared_script() const {
     return base64(bytes);
   };
   json["light"] = light(visibility_);
-  if (!shown_moves_.empty())
-    json["widest"] = {{"shape", most_moving_shape_}, {"light", light(visibility_in_most_moving_)}};
-  for (const ShownMoves& shown : shown_moves_) {
+  if (!shown_shapes_.empty())
+    json["widest"] = {{"shape", most_moving_shape_},
+                      {"light", light(visibility_in_most_moving_shape_)}};
+  for (const ShownShape& shown : shown_shapes_) {
     json["moved"].push_back(base64(little_endian(shown.vertices)));
   }
   return call("setMesh", json);
@@ -343,7 +344,7 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
                                 packing_frame_, positions, lean);
   if (texture_set != nullptr) bytes += pack_roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
-  if (!shown_moves_.empty())
+  if (!shown_shapes_.empty())
     parts.push_back(concat("\"moves\":\"", base64(pack_shapes(moves)), '"'));
   if (!placed.empty()) {
     std::vector<std::string> packed;

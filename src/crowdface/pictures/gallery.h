@@ -63,7 +63,8 @@ class GalleryMeshes {
   const Inputs& inputs_;
   const PicturedMesh& pictured_mesh_;  ///< the mesh before reduction
   PreviewMesh mesh_;
-  std::vector<std::uint32_t> draft_triangles_;  ///< draft_triangles of mesh_
+  /// triangles of a coarser mesh with vertices of `mesh_`, see draft_triangles
+  std::vector<std::uint32_t> draft_triangles_;
   VertexFaces vertex_faces_;
   PackingFrame packing_frame_;
   ShownAttachments attachments_;
@@ -74,15 +75,15 @@ class GalleryMeshes {
   std::vector<TexturePlace> texture_places_;
   Eigen::Vector3d box_low_, box_high_;  ///< bounding box of all heads and the shoulders of the body
 
-  /// The vertices of the reduced mesh that a blend shape moves.
-  struct ShownMoves {
+  /// The vertices of the gallery's reduced mesh that a blend shape visibly moves.
+  struct ShownShape {
     std::vector<std::uint32_t> rows;      ///< rows of the shape's displacements
     std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
   };
-  std::vector<ShownMoves> shown_moves_;  ///< #shapes
+  std::vector<ShownShape> shown_shapes_;  ///< #shapes
   std::size_t most_moving_shape_ = 0;  ///< index of the shape that moves most, such as an open jaw
-  std::vector<float>
-      visibility_in_most_moving_;  ///< like `visibility_`, but in the shape `most_moving_shape_`
+  /// like `visibility_`, but in the shape `most_moving_shape_`
+  std::vector<float> visibility_in_most_moving_shape_;
 };
 
 }  // namespace crowdface

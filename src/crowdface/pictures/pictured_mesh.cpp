@@ -22,7 +22,7 @@ constexpr double kChest = 0.85;
 /// vertices with negative distances.
 std::vector<double> above_chest(const Config& config, const Inputs& inputs, const Positions& body) {
   const Eigen::VectorXd heights = inputs.mean_head * unit_vector(config.faces.up);
-  const Eigen::RowVector3d middle = inputs.neck->seam.positions.colwise().mean();
+  const Eigen::RowVector3d middle = inputs.heads_on_body->seam.positions.colwise().mean();
   const double reach = kChest * (heights.maxCoeff() - heights.minCoeff());
   std::vector<double> above;
   for (Index v = 0; v < body.rows(); ++v) above.push_back(reach - (body.row(v) - middle).norm());
@@ -50,7 +50,7 @@ std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& head_set) {
 PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const FaceTextures* textures)
     : config_(config), inputs_(inputs) {
   if (textures == nullptr || !config.neck.show_body) return;
-  const HeadsOnBody& neck = *inputs.neck;
+  const HeadsOnBody& neck = *inputs.heads_on_body;
   const BodyPainter* painter = textures->body_painter();
   const Positions& positions = neck.body->file.positions;
   const Mesh whole{painter != nullptr ? painter->topology() : neck.body->file.topology, positions,
@@ -84,7 +84,7 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
       if (to == kNoIndex) {
         to = first + static_cast<std::uint32_t>(rows.size());
         rows.push_back(face[c]);
-        body.first_uv.push_back(uvs.back());
+        body.uv_rows.push_back(uvs.back());
       }
       corners.push_back(to);
     }
@@ -101,7 +101,7 @@ Surfaces PicturedMesh::surfaces() const {
   if (!body_) return surfaces;
   const auto polygons = static_cast<std::size_t>(body_->topology.face_count());
   surfaces.kinds.resize(polygons, SurfaceKind::kSkin);
-  if (!surfaces.face_colours.empty()) surfaces.face_colours.resize(polygons);
+  if (!surfaces.polygon_colours.empty()) surfaces.polygon_colours.resize(polygons);
   if (surfaces.uvs.rows() > 0) surfaces.uvs = body_->uvs;
   return surfaces;
 }
@@ -109,7 +109,7 @@ Surfaces PicturedMesh::surfaces() const {
 Eigen::Vector3d PicturedMesh::lowest_shown() const {
   const Eigen::Vector3d up = unit_vector(config_.faces.up);
   const Eigen::VectorXd heights = inputs_.mean_head * up;
-  const Eigen::Vector3d middle = inputs_.neck->seam.positions.colwise().mean().transpose();
+  const Eigen::Vector3d middle = inputs_.heads_on_body->seam.positions.colwise().mean().transpose();
   const double low = heights.minCoeff(),
                lowest = low - kShoulderHeight * (heights.maxCoeff() - low);
   return middle + (lowest - middle.dot(up)) * up;
@@ -161,9 +161,9 @@ VertexColours PicturedMesh::add_body(const VertexColours& face, const BlendedPic
   joined.topRows(face.rows()) = face;
   if (body == nullptr) return joined;
   const Texture texture = texture_of(*body, std::max(body->width, body->height));
-  for (std::size_t i = 0; i < body_->first_uv.size(); ++i) {
-    if (body_->first_uv[i] == kNoIndex) continue;
-    const Eigen::Vector2f uv = body_->uvs.row(body_->first_uv[i]).transpose().cast<float>();
+  for (std::size_t i = 0; i < body_->uv_rows.size(); ++i) {
+    if (body_->uv_rows[i] == kNoIndex) continue;
+    const Eigen::Vector2f uv = body_->uvs.row(body_->uv_rows[i]).transpose().cast<float>();
     joined.row(face.rows() + static_cast<Index>(i)) =
         to_srgb(colour_at(texture, uv)).matrix().transpose();
   }

@@ -50,11 +50,13 @@ class PicturedMesh {
 
  private:
   struct Body {
-    Topology topology;                    ///< face and body
-    TextureCoordinates uvs;               ///< face and body
-    Positions points;                     ///< of the body, without its rim
-    std::vector<std::uint32_t> first_uv;  ///< #points, a row of `uvs`; or kNoIndex
-    std::vector<TexturePlace> ring;       ///< places on the face at the ring
+    Topology topology;       ///< face and body
+    TextureCoordinates uvs;  ///< face and body
+    Positions points;        ///< of the body, without its rim
+    /// #points: for each vertex of the body, the row of one of its texture coordinates in `uvs`, or
+    /// kNoIndex
+    std::vector<std::uint32_t> uv_rows;
+    std::vector<TexturePlace> ring;  ///< places on the face at the ring
   };
   const Config& config_;
   const Inputs& inputs_;

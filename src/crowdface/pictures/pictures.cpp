@@ -94,7 +94,7 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
   parallel_for_each(inputs_.head_set.heads.size(), [&](std::size_t h) {
     const auto head = static_cast<Index>(h);
     write_file(directory_.gallery_head(inputs_.head_set.heads[h].name),
-               renders_.head_script(head, shapes_.shapes_of_head(head)));
+               renders_.gallery_script_of_head(head, shapes_.shapes_of_head(head)));
   });
   write_file(directory_.gallery() / "data/mesh.js", gallery_->shared_script());
   write_scripts(crowd, likeness);
@@ -118,7 +118,7 @@ WrittenSheets CrowdPictures::finish(const std::vector<FacePlan>& crowd,
 
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets) {
-  std::vector<std::filesystem::path> files = files_made_with_sheets(directory);
+  std::vector<std::filesystem::path> files = files_made_together_with_sheets(directory);
   files.insert(files.end(), sheets.files.begin(), sheets.files.end());
   files.push_back(directory.likeness());
   std::sort(files.begin(), files.end());

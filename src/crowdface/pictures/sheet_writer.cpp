@@ -37,7 +37,8 @@ std::string to_exr(const Rgb8Image& image) {
 SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
                          std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {
-  volume_pngs_.reserve(kPagesPerVolume);  // background tasks point to elements, which must not move
+  // Background tasks point to elements, which must not move.
+  pdf_page_pngs_.reserve(kPagesPerVolume);
 }
 
 std::filesystem::path SheetWriter::add_file(const std::string& name) {
@@ -51,7 +52,7 @@ void SheetWriter::write_in_background(const std::string& stem, Rgb8Image page) {
   std::filesystem::path exr_file;
   if (contains(formats_, SheetFormat::kExr)) exr_file = add_file(stem + ".exr");
   std::string* kept =
-      contains(formats_, SheetFormat::kPdf) ? &volume_pngs_.emplace_back() : nullptr;
+      contains(formats_, SheetFormat::kPdf) ? &pdf_page_pngs_.emplace_back() : nullptr;
   tasks_.run([png_file, exr_file, kept, page = std::move(page)] {
     std::string png = to_png(page);
     write_file(png_file, png);
@@ -86,7 +87,7 @@ void SheetWriter::write_index(const std::string& number) {
   const std::string png = to_png(page);
   write_file(add_file(concat("index", number, ".png")), png);
   wait();
-  if (contains(formats_, SheetFormat::kPdf)) volume_pngs_.insert(volume_pngs_.begin(), png);
+  if (contains(formats_, SheetFormat::kPdf)) pdf_page_pngs_.insert(pdf_page_pngs_.begin(), png);
 }
 
 void SheetWriter::finish_volume(bool is_last) {
@@ -95,11 +96,11 @@ void SheetWriter::finish_volume(bool is_last) {
       is_only ? std::string() : concat('_', zero_padded(finished_volumes_ + 1, 3));
   if (!is_only || index_cells_.size() > 1) write_index(number);
   wait();
-  if (!volume_pngs_.empty()) {
-    write_file(add_file(concat("sheets", number, ".pdf")), encode_pdf(volume_pngs_));
+  if (!pdf_page_pngs_.empty()) {
+    write_file(add_file(concat("sheets", number, ".pdf")), encode_pdf(pdf_page_pngs_));
   }
   index_cells_.clear();
-  volume_pngs_.clear();
+  pdf_page_pngs_.clear();
   ++finished_volumes_;
 }
 

@@ -34,14 +34,16 @@ class SheetWriter {
   void wait();
   std::filesystem::path add_file(const std::string& name);
   void write_index(const std::string& number);
+  /// Writes the index and, if requested, the PDF file of the current volume of pages, and begins
+  /// the next volume.
   void finish_volume(bool is_last);
 
   std::filesystem::path folder_;
   std::vector<SheetFormat> formats_;
   std::string title_;
-  std::size_t finished_volumes_ = 0;      ///< number of finished volumes
-  std::vector<std::string> volume_pngs_;  ///< pages of the current volume, if a PDF is requested
-  std::vector<SheetCell> index_cells_;    ///< pages in the index of the current volume
+  std::size_t finished_volumes_ = 0;        ///< number of finished volumes
+  std::vector<std::string> pdf_page_pngs_;  ///< pages of the current volume, if a PDF is requested
+  std::vector<SheetCell> index_cells_;      ///< pages in the index of the current volume
   std::vector<std::filesystem::path> written_files_;
   int pages_in_memory_ = 0;
   // Must be the last member: its destructor waits for tasks that use the other members.

@@ -37,8 +37,8 @@ double covered(const Image& image, const Topology& topology, const TextureCoordi
     for (std::size_t s = 0; s < each; ++s) {
       const PolygonSample at = polygon_sample(count, rows.size());
       const Eigen::RowVector2d first = uvs.row(rows[0]);
-      sample(first + at.s * (uvs.row(rows[at.fan]) - first) +
-             at.t * (uvs.row(rows[at.fan + 1]) - first));
+      sample(first + at.s * (uvs.row(rows[at.second_corner]) - first) +
+             at.t * (uvs.row(rows[at.second_corner + 1]) - first));
     }
   }
   return count == 0 ? 1 : sum / static_cast<double>(count);
@@ -112,7 +112,7 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
       std::any_of(paints.begin(), paints.end(), [](auto& p) { return p.has_value(); });
   for (const std::uint32_t material : of_face) {
     surfaces.kinds.push_back(kinds[material]);
-    if (any_paint) surfaces.face_colours.push_back(paints[material]);
+    if (any_paint) surfaces.polygon_colours.push_back(paints[material]);
   }
   // Polygons of a component with the form of an eyeball are eyes, even if the name of their
   // material does not say so.

@@ -15,7 +15,7 @@ struct PreviewMesh {
   /// for each preview vertex: index of the vertex in the whole mesh
   std::vector<std::uint32_t> vertices;
   /// For each preview vertex: index of the first preview vertex that is a copy of the same vertex
-  /// of the whole mesh.
+  /// of the whole mesh. Copies share a normal, so that borders do not show.
   std::vector<std::uint32_t> first_copies;
   /// Indices into `vertices`, three per triangle, grouped by material.
   std::vector<std::uint32_t> triangles;

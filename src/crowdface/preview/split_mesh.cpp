@@ -71,7 +71,7 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
     const auto [material, is_new] = known_materials.emplace(
         std::pair(materials[static_cast<std::size_t>(f)], tile_of(rows, uvs)),
         static_cast<std::uint32_t>(known_materials.size()));
-    if (is_new) split.face_of_material.push_back(static_cast<std::uint32_t>(f));
+    if (is_new) split.first_face_of_material.push_back(static_cast<std::uint32_t>(f));
     const auto vertices = topology.face(f);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const bool has_uv = !rows.empty() && rows[k] != kNoIndex;

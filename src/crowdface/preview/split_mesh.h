@@ -22,11 +22,11 @@ struct SplitMesh {
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Corner> corners;  ///< distinct corners, ascending
-  /// for each corner: the first polygon with this corner
+  /// for each corner, which several polygons may share: the first polygon with this corner
   std::vector<std::uint32_t> face_of_corner;
   std::vector<Triangle> triangles;  ///< indices into `corners`
   /// for each material: the first polygon with this material
-  std::vector<std::uint32_t> face_of_material;
+  std::vector<std::uint32_t> first_face_of_material;
 
   /// Returns the positions of the corners, #corners by 3.
   /// \param whole  positions of the whole mesh, #V by 3.

@@ -201,7 +201,8 @@ std::map<int, std::vector<Index>> faces_by_tile(const Topology& topology,
 }  // namespace
 
 bool PaintedMasks::is_tiled() const {
-  return tiles.size() > 1 || (!tiles.empty() && tiles.begin()->first != kFirstTile);
+  return images_by_tile.size() > 1 ||
+         (!images_by_tile.empty() && images_by_tile.begin()->first != kFirstTile);
 }
 
 PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs,
@@ -218,7 +219,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;
-    // Paint polygons with priority first.
+    // First paint the polygons that have priority, then the other polygons.
     for (const bool turn : {true, false}) {
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);
@@ -237,19 +238,20 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       throw_if_interrupted();
       canvas.bleed();
     }
-    // Collect the samples of this tile that should match vertex weights.
-    std::vector<Texels> places;
+    // Collect the texture coordinates in this tile of all vertices with priority: the texels that a
+    // lookup there interpolates, and the vertex weights that the lookup should return.
+    std::vector<Texels> texels_of_samples;
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {
       if (!is_prior(v)) continue;
       for (const UvSample& sample : samples.items_of(v)) {
         if (sample.tile != tile) continue;
-        places.push_back(canvas.texels(sample.u - column, sample.v - row));
+        texels_of_samples.push_back(canvas.texels(sample.u - column, sample.v - row));
         weights.push_back(alpha.row(v).data());
       }
     }
-    canvas.correct(places, weights);
-    out.tiles[tile] = canvas.images();
+    canvas.correct(texels_of_samples, weights);
+    out.images_by_tile[tile] = canvas.images();
   }
   return out;
 }
@@ -265,7 +267,7 @@ MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& p
       stem += concat('.', kTileWord);
     const auto mask = path.parent_path() / (stem + path.extension().string());
     out.mask_paths.push_back(mask);
-    for (const auto& [number_of_tile, images] : masks.tiles) {
+    for (const auto& [number_of_tile, images] : masks.images_by_tile) {
       out.png_files.emplace_back(
           udim_tile_path(mask, number_of_tile),
           encode_png(masks.texels_per_side, masks.texels_per_side, kRegionsPerImage, images[i]));

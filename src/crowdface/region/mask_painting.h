@@ -15,15 +15,20 @@ namespace crowdface {
 /// Number of regions in one mask image: each of the channels red, green and blue holds one region.
 inline constexpr Index kRegionsPerImage = 3;
 
-/// The mask images of all tiles. `tiles` maps a UDIM number (kFirstTile for an untiled texture) to
-/// images of 3 · `texels_per_side`² bytes, row by row from v = 1 down. Image i holds regions 3·i to
-/// 3·i + 2. At a painted texel the channel values of all images sum to 255; other texels are black.
+/// The mask images of all tiles. Image i of a tile holds regions 3·i to 3·i + 2. At a painted texel
+/// the channel values of all images sum to 255; other texels are black.
 struct PaintedMasks {
+  /// 3 · `texels_per_side`² bytes, row by row from v = 1 down
+  using ImageBytes = std::vector<std::uint8_t>;
+
   int texels_per_side = 0;
-  std::map<int, std::vector<std::vector<std::uint8_t>>> tiles;
+  /// the images of each tile, by the tile's UDIM number (kFirstTile for an untiled texture)
+  std::map<int, std::vector<ImageBytes>> images_by_tile;
 
   bool is_tiled() const;  ///< whether the file names need <UDIM>
-  std::size_t image_count() const { return tiles.empty() ? 0 : tiles.begin()->second.size(); }
+  std::size_t image_count() const {
+    return images_by_tile.empty() ? 0 : images_by_tile.begin()->second.size();
+  }
 };
 
 /// Paints vertex weights into mask images with the mesh's texture coordinates, such that

@@ -35,9 +35,9 @@ struct LoadedMask {
   bool tiled = false;
   /// tiles by UDIM number; a single image has number kFirstTile
   std::map<int, LoadedTile> tiles;
-  std::optional<VertexWeights> weights;  ///< set if the mask is a file of vertex weights; then
-                                         ///< there are no tiles
-  std::vector<std::string> names;        ///< #channels, if the file has channel names
+  /// set if the mask is a file of vertex weights; then `tiles` is empty
+  std::optional<VertexWeights> weights;
+  std::vector<std::string> names;  ///< #channels, if the file has channel names
 
   std::size_t channels() const {
     if (weights) return weights->rows.width();

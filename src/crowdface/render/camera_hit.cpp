@@ -120,7 +120,7 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   normal.normalize();
   finish(stage, hit.primitive, weights, normal, result.surface);
   result.surface.normal = towards(result.surface.to_viewer, side * normal);
-  result.faces_key_light = faces_key_light(result.surface.normal, result.surface.kind);
+  result.can_receive_key_light = can_receive_key_light(result.surface.normal, result.surface.kind);
   // Start shadow rays on the smooth surface that the vertex normals imply, which lies above the
   // facets, so that facets do not show at grazing light (Hanika 2021, "Hacking the shadow
   // terminator"). At sharp edges a vertex normal may point below the facet; skip such vertices,
@@ -132,7 +132,7 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
     if (n.dot(side * geometric) <= 0) continue;
     lift -= weights[c] * std::min(0.0F, (result.point - stage.point(vertex)).dot(n)) * n;
   }
-  result.ray_origin = result.point + lift + stage.clearance * side * geometric.normalized();
+  result.ray_origin = result.point + lift + stage.ray_origin_offset * side * geometric.normalized();
   return result;
 }
 
@@ -148,7 +148,7 @@ CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& di
   result.surface.to_viewer = -direction.normalized();
   result.surface.normal =
       towards(result.surface.to_viewer, normal.norm() > 0 ? normal.normalized() : geometric);
-  result.faces_key_light = faces_key_light(result.surface.normal, result.surface.kind);
+  result.can_receive_key_light = can_receive_key_light(result.surface.normal, result.surface.kind);
   result.ray_origin = result.point + kRayClearance * geometric;
   return result;
 }

@@ -27,8 +27,8 @@ struct CameraHit {
   /// origin of rays from this point to the lights, slightly above the surface
   Eigen::Vector3f ray_origin;
   ShadePoint surface;
-  float skin_lightness = 0;      ///< skin_lightness() of the texture at the hit, or 0
-  bool faces_key_light = false;  ///< whether the key light can contribute at all
+  float skin_lightness = 0;            ///< skin_lightness() of the texture at the hit, or 0
+  bool can_receive_key_light = false;  ///< whether the key light can contribute at all
   Visibility key_visibility, sky_visibility;
 };
 

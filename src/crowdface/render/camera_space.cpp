@@ -67,19 +67,19 @@ void CameraNormals::compute(const Topology& topology, const NormalFans& fans,
   const auto point = [&](std::uint32_t vertex) {
     return Eigen::Map<const Vector>(points.data() + std::size_t{3} * vertex);
   };
-  areas.resize(static_cast<std::size_t>(topology.face_count()));
+  area_vectors.resize(static_cast<std::size_t>(topology.face_count()));
   parallel_for_each(topology.face_count(), kVertexBlock, [&](Index f) {
     const auto face = topology.face(f);
     Vector sum = Vector::Zero();
     for (std::size_t c = 1; c + 1 < face.size(); ++c) {
       sum += (point(face[c]) - point(face[0])).cross(point(face[c + 1]) - point(face[0]));
     }
-    areas[static_cast<std::size_t>(f)] = sum;
+    area_vectors[static_cast<std::size_t>(f)] = sum;
   });
   normals.resize(static_cast<std::size_t>(fans.rows()));
   parallel_for_each(fans.rows(), kVertexBlock, [&](Index i) {
     Vector sum = Vector::Zero();
-    for (const std::uint32_t face : fans.polygons_at(i)) sum += areas[face];
+    for (const std::uint32_t face : fans.polygons_at(i)) sum += area_vectors[face];
     const float length = sum.norm();
     normals[static_cast<std::size_t>(i)] =
         length > 0 ? Vector(sum * (sign / length)) : Vector(sign * Vector::UnitZ());

@@ -33,7 +33,8 @@ std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Norm
 
 /// Computes vertex normals. Reuses its memory from one head to the next.
 struct CameraNormals {
-  std::vector<Eigen::Vector3f> areas;    ///< #F area vectors: twice the area times the normal
+  /// #F: for each polygon, its normal times twice its area
+  std::vector<Eigen::Vector3f> area_vectors;
   std::vector<Eigen::Vector3f> normals;  ///< #V
 
   void compute(const Topology& topology, const NormalFans& fans, const std::vector<float>& points,

@@ -141,7 +141,7 @@ struct FaceRenderer::Prepared {
           device, occluders.typical, occluders.vertices.empty() ? quads : occluders.quads,
           RayScene::Tree::kMovable);
     }
-    workspace.occluders->move_points(points);
+    workspace.occluders->set_points(points);
   }
 };
 
@@ -184,7 +184,7 @@ void check(const Topology& topology, const RenderOptions& options, const Surface
               options.sky_rays >= 1 && options.sky_rays <= 256,
           "render: ", options.samples_per_side, " samples a side, ", options.key_light_rays,
           " and ", options.sky_rays, " rays to the lights");
-  for (const std::size_t found : {surfaces.kinds.size(), surfaces.face_colours.size()}) {
+  for (const std::size_t found : {surfaces.kinds.size(), surfaces.polygon_colours.size()}) {
     require(found == 0 || static_cast<Index>(found) == topology.face_count(), "render: ", found,
             " surfaces, ", topology.face_count(), " faces");
   }
@@ -193,12 +193,12 @@ void check(const Topology& topology, const RenderOptions& options, const Surface
 }  // namespace
 
 FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& options,
-                           const Surfaces& surfaces, const Positions* typical) {
+                           const Surfaces& surfaces, const Positions* average_face) {
   check(topology, options, surfaces);
   const std::vector<SurfaceKind>& kinds = surfaces.kinds;
-  if (typical != nullptr) check_size(topology, *typical);
+  if (average_face != nullptr) check_size(topology, *average_face);
   prepared_ = std::make_unique<Prepared>(topology, options);
-  if (typical != nullptr) prepared_->winding = winding_sign(topology, *typical);
+  if (average_face != nullptr) prepared_->winding = winding_sign(topology, *average_face);
   prepared_->eyeballs = find_eyeballs(topology, kinds);
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto kind = kinds.empty() ? SurfaceKind::kSkin : kinds[static_cast<std::size_t>(f)];
@@ -206,15 +206,15 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
     add_fan(topology.face(f), prepared_->quads);
     add_coordinates(topology, surfaces.uvs, f, prepared_->quad_uvs);
     prepared_->quad_kinds.resize(prepared_->quads.size(), kind);
-    if (surfaces.face_colours.empty()) continue;
-    const auto& paint = surfaces.face_colours[static_cast<std::size_t>(f)];
+    if (surfaces.polygon_colours.empty()) continue;
+    const auto& paint = surfaces.polygon_colours[static_cast<std::size_t>(f)];
     prepared_->quad_colours.resize(
         prepared_->quads.size(),
         paint ? std::optional<LinearRgb>(from_srgb(*paint)) : std::nullopt);
   }
-  if (typical == nullptr) return;
+  if (average_face == nullptr) return;
   // Choose the occluders once for all cameras: a camera only rotates and scales the points.
-  prepared_->occluders = occluders_of(prepared_->quads, *typical);
+  prepared_->occluders = occluders_of(prepared_->quads, *average_face);
 }
 FaceRenderer::~FaceRenderer() = default;
 
@@ -232,7 +232,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   to_camera_space(positions, camera, workspace->points);
   const Eigen::Vector3f gaze = to_camera_space(camera, prepared_->options.front);
   std::vector<EyeballSphere> eyes = eyeball_spheres(prepared_->eyeballs, workspace->points, gaze);
-  // With a typical face, all faces have its winding, which is determined once.
+  // If the constructor got a typical face, its winding holds for all faces.
   const float sign = prepared_->winding ? *prepared_->winding : winding_sign(topology, positions);
   workspace->normals.compute(topology, prepared_->fans, workspace->points, sign);
   const auto distance = static_cast<float>(1 / camera.tan_half_fov);

@@ -36,17 +36,19 @@ struct RenderOptions {
 /// skipped.
 class FaceRenderer {
  public:
-  /// \param typical  #V by 3, an average face, or null. If given, the ray tracer builds its tree
-  ///                 once for this face and refits the tree to each rendered face, which saves most
-  ///                 of the time on large meshes. All faces must then have the same winding as this
-  ///                 face. If null, the tree is rebuilt for every face.
+  /// \param average_face  positions of an average face, #V by 3, or null. If given, the ray tracer
+  ///                      builds its tree once for this face and refits the tree to each rendered
+  ///                      face, which saves most of the time on large meshes. All faces must then
+  ///                      have the same winding as this face. If null, the tree is rebuilt for
+  ///                      every face.
   /// \throws BrokenPrecondition if sizes or options are invalid.
   explicit FaceRenderer(const Topology& topology, const RenderOptions& options = {},
-                        const Surfaces& surfaces = {}, const Positions* typical = nullptr);
+                        const Surfaces& surfaces = {}, const Positions* average_face = nullptr);
   ~FaceRenderer();
 
-  /// \param positions  #V by 3, in the unit of the camera. Without `typical`, normals are flipped
-  ///                   if the whole mesh is inside out, such as a mirrored mesh.
+  /// \param positions  #V by 3, in the unit of the camera. If the constructor got no average face,
+  ///                   normals are flipped if the whole mesh is inside out, such as a mirrored
+  ///                   mesh.
   /// \param colours    #V by 3, override all other colours and textures; or nullptr.
   /// \param texture_set  textures of the polygons that have one; or nullptr.
   /// \param attachments  attachments rendered with the face.

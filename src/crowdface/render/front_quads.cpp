@@ -107,15 +107,15 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
 /// Margin around bounding boxes, in pixels: larger than the rounding errors of positions.
 constexpr float kBlur = 1e-2F;
 
-/// Bounding boxes of kCount quads, in pixels. The origin is the upper left corner of the image's
-/// first square with its rim.
+/// Bounding boxes of kCount quads, in pixels. The origin is kRimWidth pixels above and left of the
+/// image, at the corner of the first square's rim.
 struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
   alignas(64) std::int32_t square[kCount];  ///< last square that the box overlaps; −1: not visible
   alignas(64) std::int32_t alone[kCount];   ///< not 0: the box overlaps no other square
   alignas(64) std::int32_t no_middle[kCount];  ///< 1: no pixel centre is in the box
-  /// Box relative to `square`, one byte each: left, top, right, bottom
+  /// Box relative to `square`, packed into four bytes: left (lowest byte), top, right, bottom.
   alignas(64) std::int32_t in_square[kCount];
 };
 
@@ -147,14 +147,18 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   // Rims overlap: a square's rim ends 2 · kRimWidth pixels after the start of the next square's
   // rim.
   const auto first_square = [&](auto from) {
-    return hn::ShiftRight<kSquareBits>(hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRimWidth)), none));
+    return hn::ShiftRight<kLog2SquareSide>(
+        hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRimWidth)), none));
   };
-  const auto last_square = [&](auto to) { return hn::Min(hn::ShiftRight<kSquareBits>(to), last); };
+  const auto last_square = [&](auto to) {
+    return hn::Min(hn::ShiftRight<kLog2SquareSide>(to), last);
+  };
   for (std::size_t i = 0; i < Boxes::kCount; i += hn::Lanes(lanes)) {
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
-    // Move the origin to the corner of the rim, enlarge the boxes by kBlur and clip them to the
-    // image.
+    // Move the origin from the image's corner to the corner of the first square's rim (kRimWidth
+    // pixels outside the image), enlarge the boxes by kBlur and clip them to the image with its
+    // rim.
     left = hn::Add(left, hn::Set(lanes, kRimWidth - kBlur));
     top = hn::Add(top, hn::Set(lanes, kRimWidth - kBlur));
     right = hn::Add(right, hn::Set(lanes, kRimWidth + kBlur));
@@ -166,10 +170,11 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     top = hn::Max(top, zero);
     right = hn::Min(right, most);
     bottom = hn::Min(bottom, most);
-    // Round to pixels, and move the origin to the last square (with its rim) that the box overlaps.
+    // Round the box to pixels. Find the last square whose area with rim overlaps the box, and
+    // compute the box relative to the corner of this area.
     const auto l = pixel(left), t = pixel(top), r = pixel(right), b = pixel(bottom);
     const auto column = last_square(r), row = last_square(b);
-    const auto x = hn::ShiftLeft<kSquareBits>(column), y = hn::ShiftLeft<kSquareBits>(row);
+    const auto x = hn::ShiftLeft<kLog2SquareSide>(column), y = hn::ShiftLeft<kLog2SquareSide>(row);
     const auto low_ends = hn::Or(hn::Sub(l, x), hn::ShiftLeft<8>(hn::Sub(t, y)));
     const auto high_ends = hn::Or(hn::Sub(r, x), hn::ShiftLeft<8>(hn::Sub(b, y)));
     hn::Store(l, whole, boxes.left + i);

@@ -14,8 +14,8 @@ namespace crowdface {
 
 /// The image is divided into squares of kSquareSide pixels a side. Each square is processed with a
 /// rim of kRimWidth pixels, which overlaps the neighbouring squares.
-inline constexpr int kSquareBits = 6;
-inline constexpr int kSquareSide = 1 << kSquareBits;
+inline constexpr int kLog2SquareSide = 6;
+inline constexpr int kSquareSide = 1 << kLog2SquareSide;
 inline constexpr int kRimWidth = 2;
 /// Side of a square with its rim.
 inline constexpr int kRimmedSide = kSquareSide + 2 * kRimWidth;

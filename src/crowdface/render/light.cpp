@@ -28,7 +28,7 @@ int find_byte(float light) {
   return static_cast<int>(std::lround(255 * encode_srgb(soft_shoulder(light))));
 }
 
-/// Lookup table for find_byte, which calls the slow std::pow.
+/// Lookup table for the results of find_byte. find_byte itself is slow because it calls std::pow.
 class ByteTable {
  public:
   ByteTable() {

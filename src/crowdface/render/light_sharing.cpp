@@ -45,7 +45,7 @@ void share(const PointVisibility& points, std::size_t count, const PixelVisibili
   const Numbers zero = number(0), one = number(1);
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) {
     const auto of_point = [&](int field) {
-      return hn::LoadU(Lanes(), points.lists[static_cast<std::size_t>(field)] + i);
+      return hn::LoadU(Lanes(), points.field_values[static_cast<std::size_t>(field)] + i);
     };
     const Numbers x = of_point(Field::kPoint), y = of_point(Field::kPoint + 1);
     const Numbers z = of_point(Field::kPoint + 2), u = of_point(Field::kNormal);
@@ -86,10 +86,10 @@ void share(const PointVisibility& points, std::size_t count, const PixelVisibili
 }
 
 void filter_visibility(const PointVisibility& points, std::size_t count,
-                       const PixelVisibility& pixels, std::size_t pixel, bool in_a_row,
+                       const PixelVisibility& pixels, std::size_t pixel, bool consecutive,
                        float pixel_side, float* key, float* sky) {
-  in_a_row ? share<true>(points, count, pixels, pixel, pixel_side, key, sky)
-           : share<false>(points, count, pixels, pixel, pixel_side, key, sky);
+  consecutive ? share<true>(points, count, pixels, pixel, pixel_side, key, sky)
+              : share<false>(points, count, pixels, pixel, pixel_side, key, sky);
 }
 
 }  // namespace crowdface::HWY_NAMESPACE
@@ -105,10 +105,10 @@ void PixelVisibility::clear() {
 }
 
 void filter_visibility(const PointVisibility& points, std::size_t count,
-                       const PixelVisibility& pixels, std::size_t pixel, bool in_a_row,
+                       const PixelVisibility& pixels, std::size_t pixel, bool consecutive,
                        float pixel_side, float* key, float* sky) {
   HWY_DYNAMIC_DISPATCH(filter_visibility)
-  (points, count, pixels, pixel, in_a_row, pixel_side, key, sky);
+  (points, count, pixels, pixel, consecutive, pixel_side, key, sky);
 }
 
 }  // namespace crowdface

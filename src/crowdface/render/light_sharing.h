@@ -21,7 +21,7 @@ struct PointVisibility {
     kSkyTraced,
     kFields
   };
-  std::array<const float*, kFields> lists;
+  std::array<const float*, kFields> field_values;  ///< one array per field, #points numbers each
 };
 
 /// The fields of PointVisibility for the pixels of a square and a rim of one pixel: means of
@@ -55,13 +55,13 @@ class PixelVisibility {
 /// pixel's normal and position match the point's surface. The result has the same bits with every
 /// instruction set.
 /// \param points     lists padded by kMaxLanes entries of any value
-/// \param pixel      index of the pixel that all points share; with `in_a_row`, index of the first
-///                   point's pixel
-/// \param in_a_row   whether the points lie in consecutive pixels of a row
+/// \param pixel      index of the pixel that all points share; with `consecutive`, index of the
+///                   first point's pixel
+/// \param consecutive  whether the points lie in consecutive pixels of a row
 /// \param pixel_side side of a pixel in the unit of the positions
 /// \param key, sky   results: visible fractions, with room for `count` + kMaxLanes numbers
 void filter_visibility(const PointVisibility& points, std::size_t count,
-                       const PixelVisibility& pixels, std::size_t pixel, bool in_a_row,
+                       const PixelVisibility& pixels, std::size_t pixel, bool consecutive,
                        float pixel_side, float* key, float* sky);
 
 }  // namespace crowdface

@@ -226,7 +226,7 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
 
 RayScene::~RayScene() = default;
 
-void RayScene::move_points(std::vector<float>& points) {
+void RayScene::set_points(std::vector<float>& points) {
   require(points.size() + 1 == state_->points.size(), "ray scene: ", points.size() / 3,
           " points in place of ", state_->points.size() / 3);
   state_->points.swap(points);

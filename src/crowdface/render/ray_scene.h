@@ -51,10 +51,10 @@ using Quad = std::array<std::uint32_t, 4>;
 /// Opacity at a point of a primitive, from 0 (hole) to 1.
 using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 
-/// Quads for ray queries. Queries are thread-safe; move_points is not.
+/// Quads for ray queries. Queries are thread-safe; set_points is not.
 class RayScene {
  public:
-  /// kStatic: a tree of high quality. kMovable: a tree that move_points can refit quickly; rays may
+  /// kStatic: a tree of high quality. kMovable: a tree that set_points can refit quickly; rays may
   /// slip through between quads, and only `occluded` is available.
   enum class Tree { kStatic, kMovable };
 
@@ -70,13 +70,13 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// Moves the vertices and refits the tree. At 1.2 million vertices this takes a fifteenth of the
-  /// time of building the tree. Tracing stays as fast as with the first points if the new points
-  /// resemble them. The structure of the tree depends only on the first points, not on earlier
-  /// calls.
+  /// Sets new positions of all vertices and refits the tree. At 1.2 million vertices this takes a
+  /// fifteenth of the time of building the tree. Tracing stays as fast as with the first points if
+  /// the new points resemble them. The structure of the tree depends only on the first points, not
+  /// on earlier calls.
   /// \param points  as many points as before. On return, holds the buffer of the previous points,
   ///   for reuse.
-  void move_points(std::vector<float>& points);
+  void set_points(std::vector<float>& points);
 
   /// The first hit of each ray, if any. Consecutive rays are traced together, which is fast if
   /// their directions are similar. Not available with kMovable.

@@ -30,8 +30,9 @@ struct Stage {
   const std::vector<float>& points;  ///< x, y, z of each vertex
   const ScreenQuads& rasterizer;     ///< finds the hits of camera rays on all quads
   const RayScene& occluders;         ///< mesh that occludes light: the full or a reduced mesh
-  /// distance between a surface and the origins of rays that start there
-  float clearance;
+  /// distance by which the origins of shadow rays are moved off the surface, to avoid hits of the
+  /// surface itself
+  float ray_origin_offset;
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
   float winding_sign;                           ///< +1, or −1 if the winding is inside out
   const VertexColours* colours;                 ///< #V, override all other colours; or nullptr

@@ -53,7 +53,7 @@ Eigen::Vector3f key_light_direction() {
   return studio().key.direction;
 }
 
-bool faces_key_light(const Eigen::Vector3f& normal, SurfaceKind kind) {
+bool can_receive_key_light(const Eigen::Vector3f& normal, SurfaceKind kind) {
   return normal.dot(studio().key.direction) > -material_of(kind).wrap.maxCoeff();
 }
 

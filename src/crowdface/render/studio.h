@@ -10,7 +10,8 @@ namespace crowdface {
 
 struct Material {
   LinearRgb albedo;
-  LinearRgb wrap;     ///< how far beyond the terminator light is visible, as a cosine
+  /// wrap lighting: how far beyond the terminator light is visible, as a cosine
+  LinearRgb wrap;
   float roughness;    ///< roughness of the microfacets; 0 is a mirror
   float reflectance;  ///< at normal incidence
 };
@@ -35,7 +36,7 @@ const Studio& studio();
 LinearRgb albedo_of(SurfaceKind kind);
 
 /// Whether the key light can illuminate a surface with this normal.
-bool faces_key_light(const Eigen::Vector3f& normal, SurfaceKind kind);
+bool can_receive_key_light(const Eigen::Vector3f& normal, SurfaceKind kind);
 
 /// Unit vector towards the centre of the key light.
 Eigen::Vector3f key_light_direction();

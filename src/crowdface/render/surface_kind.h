@@ -27,8 +27,8 @@ enum class SurfaceKind : std::uint8_t {
 /// Materials and colours of the faces of a mesh.
 struct Surfaces {
   std::vector<SurfaceKind> kinds;  ///< #F, or empty: all skin
-  /// #F colours (sRGB) that replace the default colours of the kinds; or empty.
-  std::vector<std::optional<Eigen::Array3f>> face_colours = {};
+  /// #F colours of the polygons (sRGB) that replace the default colours of the kinds; or empty.
+  std::vector<std::optional<Eigen::Array3f>> polygon_colours = {};
   /// #T by 2 texture coordinates, indexed by the topology's corners; or empty: no textures.
   TextureCoordinates uvs = {};
 };

@@ -33,8 +33,8 @@ Texture shrunk_texture(int width, int height, int max_px,
 /// \param steps    number of steps: how far colours spread, in texels
 void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 
-/// The texture's colour, interpolated bilinearly between texel centres and clamped at the edges.
-/// Uses only the fractional parts of `uv`, so that the texture repeats in every unit square.
+/// The texture's colour, interpolated bilinearly between texel centres. The texture repeats in
+/// every unit square of `uv`, but opposite edges are not interpolated with each other.
 LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv);
 
 /// A texture at decreasing resolutions, so that one lookup averages all texels behind a pixel.

@@ -51,8 +51,8 @@ class PointLists {
   float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * room_; }
   PointVisibility lights() const {
     PointVisibility lights;
-    for (std::size_t f = 0; f < lights.lists.size(); ++f)
-      lights.lists[f] = numbers_.data() + f * room_;
+    for (std::size_t f = 0; f < lights.field_values.size(); ++f)
+      lights.field_values[f] = numbers_.data() + f * room_;
     return lights;
   }
 
@@ -337,7 +337,7 @@ class Tile {
     const Vector key = key_light_direction();
     trace_shadow_rays(sampling_.key_light_directions, &CameraHit::key_visibility,
                       [&](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
-                        if (!hit.faces_key_light) return std::nullopt;
+                        if (!hit.can_receive_key_light) return std::nullopt;
                         const Vector start = hit.ray_origin + kThickness * hit.surface.normal;
                         return Ray{start, key + kKeyLightRadius * disc_offset(key, disc)};
                       });
@@ -411,11 +411,11 @@ class Tile {
   }
 
   /// Computes the visible fraction of each light at some points, see filter_visibility.
-  void share(const PointLists& points, std::size_t count, int x, int y, bool in_a_row,
+  void share(const PointLists& points, std::size_t count, int x, int y, bool consecutive,
              Shares& shares) {
     shares.key.resize(count + kMaxLanes);
     shares.sky.resize(count + kMaxLanes);
-    filter_visibility(points.lights(), count, memory_.pixels, light_index(x, y), in_a_row,
+    filter_visibility(points.lights(), count, memory_.pixels, light_index(x, y), consecutive,
                       pixel_side(), shares.key.data(), shares.sky.data());
   }
 

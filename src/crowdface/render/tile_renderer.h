@@ -14,9 +14,8 @@ namespace crowdface {
 struct Sampling {
   /// One sample in the centre of the pixel.
   PixelSamples centre_sample;
-  /// Samples for pixels that differ from their neighbours only in normals. If there are
-  /// attachments, all pixels without edges use these samples, because attachments may be
-  /// transparent.
+  /// Samples for pixels without edges whose normals differ from the neighbours' normals; with
+  /// attachments, which may be transparent, for all pixels without edges.
   PixelSamples coarse_samples;
   PixelSamples fine_samples;                             ///< samples for pixels with edges
   InterleavedDisc key_light_directions, sky_directions;  ///< rays of a pixel towards each light

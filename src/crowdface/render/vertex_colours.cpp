@@ -21,7 +21,8 @@ constexpr std::array<std::array<float, 3>, 6> kPalette = {{{0.84F, 0.37F, 0.00F}
                                                            {0.34F, 0.71F, 0.91F}}};
 
 bool is_painted(const Surfaces& surfaces, Eigen::Index face) {
-  return !surfaces.face_colours.empty() && surfaces.face_colours[static_cast<std::size_t>(face)];
+  return !surfaces.polygon_colours.empty() &&
+         surfaces.polygon_colours[static_cast<std::size_t>(face)];
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces
     const SurfaceKind kind = kinds[static_cast<std::size_t>(f)];
     if (is_painted(surfaces, f)) {
       const Eigen::RowVector3f paint_of_face =
-          surfaces.face_colours[static_cast<std::size_t>(f)]->matrix().transpose();
+          surfaces.polygon_colours[static_cast<std::size_t>(f)]->matrix().transpose();
       for (const std::uint32_t vertex : topology.face(f)) colours.row(vertex) = paint_of_face;
       continue;
     }

@@ -14,8 +14,8 @@
 
 namespace crowdface {
 
-/// The attachments of a crowd at one level of detail. Each attachment is converted to the data
-/// ("form") that one file format needs.
+/// The attachments of a crowd at one level of detail. The "form" of an attachment is its data,
+/// converted for one file format.
 /// \tparam Form  the data of an attachment that are equal for all faces; a file combines these data
 ///               with the attachment's positions on one face
 template <class Form>
@@ -31,8 +31,9 @@ class AttachmentForms {
   }
 
   const Form& at(const Attachment& item) const { return forms_.at(&item); }
-  /// A face's attachments together with their forms. The result refers to `attachments` and to this
-  /// object. \tparam Placed a struct with a form, positions, displacements and a PartLook
+  /// Combines a face's attachments with their forms (data converted for one file format). The
+  /// result refers to `attachments` and to this object.
+  /// \tparam Placed  a struct with a form, positions, displacements and a PartLook
   template <class Placed>
   std::vector<Placed> placed(std::span<const PlacedAttachment> attachments) const {
     std::vector<Placed> placed;
@@ -55,22 +56,22 @@ class AttachmentForms {
   /// \param files  returns the number of files that contain an attachment
   template <class Files>
   std::size_t encoding_memory_bytes(const Files& files) const {
-    std::map<std::string, std::size_t> largest;
+    std::map<std::string, std::size_t> most_bytes_of_kind;
     for (const auto& [item, form] : forms_) {
-      std::size_t& most = largest[item->kind];
+      std::size_t& most = most_bytes_of_kind[item->kind];
       most = std::max(most, std::invoke(&Form::encoding_memory_bytes, form) *
                                 static_cast<std::size_t>(files(*item)));
     }
-    std::size_t sum = 0;
-    for (const auto& [kind, most] : largest) sum += most;
-    return sum;
+    std::size_t bytes = 0;
+    for (const auto& [kind, most] : most_bytes_of_kind) bytes += most;
+    return bytes;
   }
   std::size_t encoding_memory_bytes() const {
     return encoding_memory_bytes([](const Attachment&) { return 1U; });
   }
 
  private:
-  std::map<const Attachment*, Form> forms_;
+  std::map<const Attachment*, Form> forms_;  ///< the converted data of each attachment
 };
 
 /// The form of the mesh that all faces share, and the forms of the attachments that the face's file

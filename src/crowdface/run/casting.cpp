@@ -83,7 +83,8 @@ CrowdDistances measure_crowd_distances(const FaceSpace& space,
 
 std::vector<FamilyReport> report_families(const Config& config, const CastingResult& crowd_plan) {
   std::vector<FamilyReport> reports;
-  NearestFaceSearch index(crowd_plan.points.empty() ? 1 : crowd_plan.points[0].as_built.size());
+  NearestFaceSearch index(
+      crowd_plan.points.empty() ? 1 : crowd_plan.points[0].with_extrapolation.size());
   for (const FaceSpace::Point& point : crowd_plan.points) index.add(point);
   for (std::size_t f = 0; f < crowd_plan.families.size(); ++f) {
     const FamilyPlan& family = crowd_plan.families[f];
@@ -105,8 +106,9 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
     report.founder_distances = quartiles(std::move(founder_distances));
     report.nearest_outsider_mm = nearest < HUGE_VAL ? nearest : 0;
     if (!config.families[f].parents.empty())
-      report.nearer_strangers_fraction = family.nearer_strangers_fraction;
-    report.silhouette = silhouette(crowd_plan.families, f, crowd_plan.points);
+      report.stranger_fraction_nearer_than_parent = family.stranger_fraction_nearer_than_parent;
+    report.silhouette_coefficient =
+        mean_silhouette_coefficient(crowd_plan.families, f, crowd_plan.points);
     reports.push_back(std::move(report));
   }
   return reports;
@@ -130,10 +132,10 @@ void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePla
   if (!has_children || !has_tint) return;
   std::vector<double> tones = skin_tones(inputs);
   if (tones.empty()) return;
-  const ColourShares colour_fractions(config, inputs);
+  const HeadColourWeights colour_weights(config, inputs);
   choose_skin_colours_of_children(
       {config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
-       [&](const Recipe& recipe) { return colour_fractions.shares_of(recipe); },
+       [&](const Recipe& recipe) { return colour_weights.weights_of(recipe); },
        twin_families(config)},
       crowd);
 }
@@ -169,7 +171,7 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
                            const std::filesystem::path& cache) {
   const std::vector<double> areas =
       face_vertex_areas(inputs.head_set.topology, inputs.skin_components, unplaced_mean(inputs),
-                        config.distance.area, config.faces.front, inputs.distance_mask);
+                        config.distance.area, config.faces.front, inputs.distance_weights);
   const SampleCells cells = find_cells(inputs, prepared.samples);
   SampledHeads heads =
       sample_heads(inputs.head_set, inputs.regions, prepared.samples, prepared.trajectories,
@@ -230,7 +232,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   }
   const BelievabilityOptions& believability = config.believability;
   FaceJudge judge(space, casting.diversity, believability, &judged_in.proxy_skin, defects);
-  const auto traits = named_face_traits(config, inputs, prepared);
+  const auto traits = face_traits_of_config(config, inputs, prepared);
   std::optional<TraitRules> rules;
   if (traits) judge.set_trait_rules(&rules.emplace(traits->measurer(), casting));
   CastingResult crowd;
@@ -249,11 +251,11 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     const Remedy remedy = find_remedy(
         with_existing_faces(config, casting), space, believability, &judged_in.proxy_skin,
         *crowd.shortfall, [&] { progress.step(); }, judge.trait_rules(), defects);
-    std::vector<std::string> about_traits;
+    std::vector<std::string> trait_advice_lines;
     if (remedy.binding_constraint == Reason::kTraits) {
-      about_traits = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
+      trait_advice_lines = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
     }
-    throw_shortfall(config, remedy, *crowd.shortfall, about_traits);
+    throw_shortfall(config, remedy, *crowd.shortfall, trait_advice_lines);
   }
   for (const auto& [face, changed] : crowd.changed) {
     crowd.points[face] = changed.point;

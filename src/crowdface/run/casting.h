@@ -35,7 +35,9 @@ struct CrowdDistances {
   /// only one region
   std::vector<Quartiles> between_faces_by_region;
   Quartiles to_nearest_head, to_nearest_face;
-  double median_ratio = 0;  ///< crowd median / head median; 0 if there are no heads to compare
+  /// median of `between_faces` divided by the median of `between_heads`; 0 if there are no heads to
+  /// compare
+  double median_ratio = 0;
 };
 
 /// Statistics of how similar the members of a family are.
@@ -46,10 +48,11 @@ struct FamilyReport {
   Quartiles founder_distances;  ///< distances from the members to the founder
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_outsider_mm = 0;
-  double silhouette = 0;
-  /// only if the family has parents: the fraction of the faces outside the family that are nearer
-  /// to a child than this child's farther parent is; the maximum over all children
-  std::optional<double> nearer_strangers_fraction;
+  double silhouette_coefficient = 0;  ///< see mean_silhouette_coefficient
+  /// Empty if the family has no parents. Otherwise computed for each child: the fraction of the
+  /// faces outside the family that are nearer to the child than the farther of its two parents.
+  /// This is the largest fraction of any child.
+  std::optional<double> stranger_fraction_nearer_than_parent;
 };
 
 /// A cast crowd: its faces, and the heads' positions on the plane.

@@ -88,7 +88,7 @@ Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
 Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan& crowd_plan) {
   const auto wears = [&](const FacePlan& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {
-      return matches_word(item, word) && contains(face.attachments, item.name);
+      return matches_kind_name_or_colour(item, word) && contains(face.attachments, item.name);
     });
   };
   const auto count = [&](const std::string& word) {
@@ -130,9 +130,10 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
                     {"within_mm", to_json(family.member_distances)},
                     {"to_founder_mm", nearest_to_json(family.founder_distances)},
                     {"nearest_other_mm", rounded(family.nearest_outsider_mm)},
-                    {"silhouette", rounded(family.silhouette)}});
-    if (family.nearer_strangers_fraction) {
-      json.back()["strangers_nearer_than_a_parent"] = rounded(*family.nearer_strangers_fraction);
+                    {"silhouette", rounded(family.silhouette_coefficient)}});
+    if (family.stranger_fraction_nearer_than_parent) {
+      json.back()["strangers_nearer_than_a_parent"] =
+          rounded(*family.stranger_fraction_nearer_than_parent);
     }
   }
   return json;
@@ -155,8 +156,8 @@ Json trait_to_json(const TraitReport& report) {
 
 }  // namespace
 
-std::vector<std::string> near_head_warnings(const CrowdPlan& crowd_plan,
-                                            const std::vector<std::string>& heads) {
+std::vector<std::string> warnings_about_faces_near_heads(const CrowdPlan& crowd_plan,
+                                                         const std::vector<std::string>& heads) {
   constexpr std::size_t kMaxNamed = 8;
   std::vector<std::string> near;
   for (const FacePlan& face : crowd_plan.crowd) {

@@ -13,8 +13,8 @@
 namespace crowdface {
 
 /// Warns about sampled faces that look too much like one of the heads.
-std::vector<std::string> near_head_warnings(const CrowdPlan& crowd_plan,
-                                            const std::vector<std::string>& heads);
+std::vector<std::string> warnings_about_faces_near_heads(const CrowdPlan& crowd_plan,
+                                                         const std::vector<std::string>& heads);
 
 /// Logs statistics of the crowd: distances and rejected candidates.
 void log_casting(const CrowdPlan& crowd_plan);

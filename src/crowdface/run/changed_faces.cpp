@@ -81,7 +81,7 @@ class ChangedLooks {
       const FaceChange& change = applied.change;
       if (change.attachments) replace_attachments(config_, *change.attachments, face);
       take_off(config_, change.removed_attachments, face);
-      if (!change.colours.empty()) face.recipe.colours = written_weights(change.colours);
+      if (!change.colours.empty()) face.recipe.colours = normalized_source_weights(change.colours);
       if (change.hair) face.hair = rounded_colour(*hair_colour_named(*change.hair));
     }
     return face;
@@ -121,7 +121,7 @@ class ChangedLooks {
 
   FacePlan with_attachments(FacePlan face) const {
     if (!config_.attachments.items.empty())
-      choose_attachments_independently(attachments_, kinds_, crowd_, face);
+      choose_attachments_of_changed_face(attachments_, kinds_, crowd_, face);
     return face;
   }
 

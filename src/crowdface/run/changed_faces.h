@@ -19,7 +19,7 @@ namespace crowdface {
 /// - A face that is the same person keeps its colours and attachments. The hair greys with the age
 ///   of the face.
 /// - A face that was sampled again gets new colours and attachments, see
-///   choose_attachments_independently. A variant keeps the colours of its original.
+///   choose_attachments_of_changed_face. A variant keeps the colours of its original.
 ///
 /// \param casting, attachments, colours  the options with which the crowd was sampled.
 /// \param kinds  group of each sampled face, or −1.

@@ -153,10 +153,10 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     const auto head = static_cast<std::size_t>(target);
     copies.add(inputs.head_files[head], inputs.head_set.heads[head].name);
   }
-  if (any_format(formats, names_attachment_textures)) {
+  if (any_format(formats, refers_to_attachment_textures)) {
     std::vector<AttachmentLook> looks = inputs.attachments.looks_of(crowd);
     if (config.neck.write_body && config.neck.body_texture.empty()) {
-      looks.push_back({inputs.neck->body.get()});
+      looks.push_back({inputs.heads_on_body->body.get()});
     }
     copies.add(looks);
   }

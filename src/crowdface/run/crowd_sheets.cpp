@@ -59,7 +59,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
                      const CrowdLikeness& likeness, const std::vector<FaceResult>& faces) {
   Hasher hasher;
   hasher.add(kSheetVersion).add(job.settings);
-  for (const auto& [name, digest] : other_input_digests(job.inputs)) {
+  for (const auto& [name, digest] : digests_without_heads_and_masks(job.inputs)) {
     hasher.add(name).add(digest);
   }
   hasher.add(config_text_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
@@ -124,9 +124,9 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   // If the sheets show a comparison image from a file, always make them again: the file may have
   // changed.
   const bool may_change = sheet.compare.reference == Config::MeshComparison::Reference::kFile;
-  if (!may_change && ledger.find_proven(kItem, key)) return sheet_page_count(sheet, crowd.size());
+  if (!may_change && ledger.find_verified(kItem, key)) return sheet_page_count(sheet, crowd.size());
   pictures.get().write_heads();
-  pictures.get().set_head_traits(named_head_traits(job.config, job.inputs));
+  pictures.get().set_head_traits(head_traits_of_config(job.config, job.inputs));
   if (!crowd_plan.founders.empty()) {
     write_founders(crowd_plan.founders, builder.get(), pictures.get());
   }
@@ -141,14 +141,14 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   return sheets.pages;
 }
 
-void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& set,
+void remake_sheets(const fs::path& crowd_directory, const std::vector<std::string>& assignments,
                    const fs::path& cache) {
   CrowdDirectory directory{crowd_directory};
   require_crowd(directory);
   // lock the folder, so that no other run replaces the mesh files while this run reads them
   const CrowdLock lock(directory, {});
   ConfigOverrides overrides;
-  overrides.assignments = set;
+  overrides.assignments = assignments;
   const Job job = load_job(directory.config(), overrides, cache);
   directory.faces_per_folder = crowd_directory_of(job.config).faces_per_folder;
   if (!job.config.output.contact_sheet) {
@@ -180,9 +180,9 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
     const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
-  pictures.set_head_traits(named_head_traits(job.config, job.inputs));
+  pictures.set_head_traits(head_traits_of_config(job.config, job.inputs));
   const WrittenSheets sheets = pictures.finish(crowd, likeness);
-  ledger.record_remade(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
+  ledger.record_remade_files(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
   lock.require_same_folder();
   log_info(concat(sheets.pages, sheets.pages == 1 ? " sheet" : " sheets", " in ",
                   directory.sheets().string()));

@@ -27,10 +27,11 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
 
 /// Makes the contact sheets of a finished crowd again from its mesh files. Blends only the founders
 /// of families, because founders have no mesh files.
-/// \param set    changes to the crowd's own config, such as "output.contact_sheet.columns=8"
-/// \param cache  folder of prepared heads, from which founders are blended
+/// \param assignments  changes to the crowd's own config (`--set`), such as
+///                     "output.contact_sheet.columns=8"
+/// \param cache        folder of prepared heads, from which founders are blended
 void remake_sheets(const std::filesystem::path& crowd_directory,
-                   const std::vector<std::string>& set,
+                   const std::vector<std::string>& assignments,
                    const std::filesystem::path& cache = cache_directory());
 
 }  // namespace crowdface

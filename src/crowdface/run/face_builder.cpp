@@ -23,7 +23,7 @@ std::vector<std::vector<double>> contact_masks(const SkinContacts& contacts,
   for (std::size_t p = 0; p < contacts.size(); ++p) {
     std::vector<double> mask(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
     const GapSection& section = contacts.section(p);
-    for (const auto* profile : {&section.low, &section.high}) {
+    for (const auto* profile : {&section.low_profile, &section.high_profile}) {
       const double share = 0.5 / static_cast<double>(profile->size());
       for (const EdgePoint& point : *profile) {
         for (std::size_t k = 0; k < mask.size(); ++k) {
@@ -62,7 +62,7 @@ void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) 
     }
   }
   poses_.reset();
-  if (inputs_.neck && inputs_.neck->has_differing_poses())
+  if (inputs_.heads_on_body && inputs_.heads_on_body->has_differing_poses())
     poses_.emplace(inputs_, prepared_, regions);
   if (config.smoothing.levels != LevelRepresentation::kExact) {
     blender_.emplace(inputs_.head_set, head_levels(config, prepared_), prepared_.patches.patches,
@@ -77,7 +77,7 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
   } else {
     blend_exact(inputs_.head_set, *prepared_.filter, regions_, recipes, results);
   }
-  require_whole(prepared_);
+  require_not_truncated(prepared_);
   parallel_for_each(recipes.size(), [&](std::size_t f) { finish(*recipes[f], results[f]); });
 }
 
@@ -97,7 +97,7 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) con
   } else {
     previous.blended = blender_->blend(recipe);
   }
-  require_whole(prepared_);
+  require_not_truncated(prepared_);
   previous.recipe = recipe;
   Positions face = previous.blended;
   finish(recipe, face);
@@ -113,7 +113,7 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (follower_) follower_->follow(recipe.target, face);
   if (const auto turn = motion_to_body(recipe)) move_rows(*turn, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
-  if (inputs_.neck) inputs_.neck->seam.bend_to_seam(face);
+  if (inputs_.heads_on_body) inputs_.heads_on_body->seam.bend_to_seam(face);
 }
 
 std::optional<RigidMotion> FaceBuilder::motion_to_body(const Recipe& recipe) const {
@@ -125,7 +125,7 @@ std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
   std::set<std::uint32_t> vertices;
   for (std::size_t p = 0; keeps_contacts_ && p < contacts_->size(); ++p) {
     const GapSection& section = contacts_->section(p);
-    for (const auto* profile : {&section.low, &section.high}) {
+    for (const auto* profile : {&section.low_profile, &section.high_profile}) {
       for (const EdgePoint& point : *profile) vertices.insert({point.a, point.b});
     }
   }
@@ -156,10 +156,11 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
       mixed ? *mixed : inputs_.head_set.heads[static_cast<std::size_t>(recipe.target)].positions;
   Positions judged = face;
   const auto turn = motion_to_body(recipe);
-  if (inputs_.neck) {  // the bend at the neck is no defect: undo it
+  if (inputs_.heads_on_body) {  // the bend at the neck is no defect: undo it
     Positions like = target;
     if (turn) move_rows(*turn, like);
-    inputs_.neck->seam.bend_to_rim_of(recipe.mirrored ? mirrored(mirror(), like) : like, judged);
+    inputs_.heads_on_body->seam.bend_to_rim_of(recipe.mirrored ? mirrored(mirror(), like) : like,
+                                               judged);
   }
   if (recipe.mirrored) judged = mirrored(mirror(), judged);
   if (turn) move_rows(inverse(*turn), judged);
@@ -175,7 +176,7 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
   for (const RegionRecipe& region : recipe.regions) bands = std::max(bands, band_count(region));
   for (std::size_t p = 0; p < contacts_->size(); ++p) {
     double of_target = 0;
-    for (const SourceWeight& share : target_shares(recipe)) {
+    for (const SourceWeight& share : target_head_weights(recipe)) {
       of_target += share.weight * contacts_->head_gaps(share.head)[p];
     }
     SkinContacts::Range range{of_target, of_target};

@@ -103,7 +103,7 @@ bool FaceEncoders::needs_normals(MeshFormat format, std::size_t level, Index tar
 }
 
 PlacedAttachment FaceEncoders::placed_body(const FinishedFace& face) const {
-  const Attachment& body = *inputs_.neck->body;
+  const Attachment& body = *inputs_.heads_on_body->body;
   PlacedAttachment placed{
       &body, std::nullopt, body.file.positions,
       std::vector<Displacements>(inputs_.shapes.shapes.size(), {{}, Positions(0, 3)})};
@@ -131,7 +131,7 @@ void FaceEncoders::prepare(FinishedFace& face) const {
 
 Positions FaceEncoders::normals_of(const Positions& positions) const {
   Positions normals = vertex_normals(*fans_, inputs_.head_set.topology, positions);
-  if (inputs_.neck) inputs_.neck->seam.set_normals(normals);
+  if (inputs_.heads_on_body) inputs_.heads_on_body->seam.set_normals(normals);
   return normals;
 }
 
@@ -195,7 +195,7 @@ EncodedFile FaceEncoders::attachment(const FinishedFace& face, const std::string
   FaceMesh mesh{.id = concat(face.face.id, '_', name, level_suffix(level, "_")),
                 .display_name = {},
                 .positions = &one->positions,
-                .colour = one->look().label()};
+                .colour_label = one->look().label()};
   mesh.display_name = in_shape(mesh.id, inputs_, shape);
   Positions acting;
   if (shape) {

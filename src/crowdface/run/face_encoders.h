@@ -94,7 +94,7 @@ class FaceEncoders {
   /// must not move in memory afterwards.
   void prepare(FinishedFace& face) const;
 
-  // The following functions require a prepared face.
+  // The following functions require that `prepare` has been called for the face.
   EncodedFile mesh(const FinishedFace& face, MeshFormat format, std::size_t level,
                    ShapeNumber shape) const;
   /// Encodes an attachment as a separate OBJ file.
@@ -103,8 +103,9 @@ class FaceEncoders {
   /// Encodes the points that follow the face, as JSON.
   EncodedFile points(const FinishedFace& face) const;
 
-  /// In bytes: the memory of this object, and the maximum memory of one face's encoded files.
+  /// Memory of this object, in bytes.
   std::size_t memory_bytes() const;
+  /// Maximum memory of one face's encoded files, in bytes.
   std::size_t encoding_memory_bytes() const;
 
  private:

@@ -28,7 +28,7 @@ class MeshFileList {
     const std::size_t levels = options_.all_variants ? inputs_.levels.size() : 0;
     for (std::size_t level = 0; level <= levels; ++level) add_meshes(level);
     if (options_.all_variants && !inputs_.points.empty()) {
-      add(kFollowingPointsFile, {}, "following_points",
+      add(kPointsFollowingFaceFile, {}, "following_points",
           [](const FinishedFace& face) { return face.encoders->points(face); });
     }
     if (has([](const auto& format) { return format.attachments == DataStorage::kOwnFiles; })) {
@@ -72,7 +72,7 @@ class MeshFileList {
 
   void add_meshes(std::size_t level) {
     for (const MeshFormat format : options_.formats) {
-      if (level == 0 || traits_of(format).has_faces) add_mesh(format, level, {});
+      if (level == 0 || traits_of(format).has_polygons) add_mesh(format, level, {});
     }
     for (const MeshFormat format : options_.formats) {
       const DataStorage shapes = traits_of(format).shapes;

@@ -24,12 +24,15 @@ Digest digest_of_common(const Job& job) {
   const Config& config = job.config;
   const Inputs& inputs = job.inputs;
   Hasher hasher;
-  hasher.add(kFaceFilesVersion).add(kPrepareVersion).add(job.settings).add(face_settings(config));
+  hasher.add(kFaceFilesVersion)
+      .add(kPrepareVersion)
+      .add(job.settings)
+      .add(face_settings_yaml(config));
   hasher.add(config.faces.units.mm);
   for (const Axis& axis : {config.faces.up, config.faces.front}) {
     hasher.add(axis.index).add(axis.sign);
   }
-  if (inputs.neck) hasher.add(kNeckVersion).add(inputs.neck->digest);
+  if (inputs.heads_on_body) hasher.add(kNeckVersion).add(inputs.heads_on_body->digest);
   if (!inputs.shapes.shapes.empty()) hasher.add(kShapesVersion).add(inputs.shapes_digest);
   if (!inputs.points.empty()) hasher.add(kPointsVersion).add(inputs.points_digest);
   if (!inputs.rig.empty()) hasher.add(kRigVersion).add(inputs.rig.digest);
@@ -51,7 +54,7 @@ std::string item_of(const FacePlan& face) {
 Json to_json(const SkinDefects& skin) {
   return {{"compared", skin.local.compared_count}, {"flipped", skin.local.flipped_count},
           {"stretch", skin.local.stretch_factor},  {"intersecting", skin.intersecting_count},
-          {"wider_mm", skin.gap_excess_mm},        {"exposed_mm2", skin.exposed_back_mm2}};
+          {"wider_mm", skin.gap_excess_mm},        {"exposed_mm2", skin.exposed_back_face_mm2}};
 }
 
 /// Parses the output of `to_json`. The caller has verified the checksum of the ledger line, so this
@@ -63,7 +66,7 @@ SkinDefects noted_skin(const Json& json) {
   skin.local.stretch_factor = json.at("stretch").get<double>();
   skin.intersecting_count = json.at("intersecting").get<Index>();
   skin.gap_excess_mm = json.at("wider_mm").get<double>();
-  skin.exposed_back_mm2 = json.at("exposed_mm2").get<double>();
+  skin.exposed_back_face_mm2 = json.at("exposed_mm2").get<double>();
   return skin;
 }
 
@@ -114,7 +117,7 @@ LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result)
 
 std::optional<FaceResult> FaceLedger::recorded_result(const FacePlan& face) const {
   const LedgerEntry wanted = entry_of(face, {});
-  const auto entry = ledger_.find_proven(wanted.item, wanted.key);
+  const auto entry = ledger_.find_verified(wanted.item, wanted.key);
   if (!entry || entry->files.size() != wanted.files.size()) return std::nullopt;
   FaceResult result;
   for (const LedgerEntry::File& file : entry->files) result.file_digests.push_back(file.content);

@@ -205,7 +205,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     for (const FacePlan& face : crowd) targets.insert(face.recipe.target);
     check_.emplace(skin_check(config, inputs, targets));
     fixed_bytes += check_->memory_bytes();
-    of_thread += check_->compare_bytes();
+    of_thread += check_->compare_memory_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);

@@ -18,7 +18,7 @@ namespace {
 /// levels as blending.
 std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inputs,
                                         const Prepared& prepared, const FaceSamples& samples) {
-  const std::vector<std::uint64_t> levels = trajectory_levels(inputs.max_level);
+  const std::vector<std::uint64_t> levels = stored_smoothing_levels(inputs.max_level);
   const std::vector<HeadLevels> fitted =
       prepared.filter ? std::vector<HeadLevels>() : head_levels(config, prepared);
   std::vector<Trajectory> trajectories(inputs.head_set.heads.size());
@@ -26,7 +26,8 @@ std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inpu
     if (prepared.filter) {
       const NodeFields fields =
           filter_nodes(*prepared.filter, *prepared.nodes, inputs.head_set.heads[h].positions);
-      trajectories[h] = sample_trajectory(*prepared.filter, *prepared.nodes, fields, samples);
+      trajectories[h] =
+          sample_smoothing_trajectory(*prepared.filter, *prepared.nodes, fields, samples);
       continue;
     }
     Trajectory& trajectory = trajectories[h];
@@ -105,7 +106,7 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
       builder_(config, inputs, prepared),
       mm_per_unit_(mm_per(config.faces.units)),
       mirror_(inputs.mirror_map),
-      neck_(inputs.neck),
+      neck_(inputs.heads_on_body),
       vertex_count_(inputs.head_set.topology.vertex_count) {
   const std::set<std::uint32_t> corners = corners_of(landmarks_, trait_indices_);
   std::set<std::uint32_t> all = corners;
@@ -159,7 +160,7 @@ void FaceTraits::mirror_landmark_vertices(Positions& face) const {
     const std::uint32_t v = landmark_vertices_[i];
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
-      point += mirror_->shares[v][c] * row3(face, mirror_->corners[v][c]);
+      point += mirror_->barycentric[v][c] * row3(face, mirror_->corners[v][c]);
     }
     point = mirror_->plane.mirrored(point);
     const auto kept = std::ranges::lower_bound(mirror_->unpaired_vertices, v);
@@ -181,19 +182,19 @@ std::vector<double> FaceTraits::values(const Recipe& recipe) const {
   return values;
 }
 
-std::unique_ptr<const FaceTraits> named_face_traits(const Config& config, const Inputs& inputs,
-                                                    const Prepared& prepared) {
+std::unique_ptr<const FaceTraits> face_traits_of_config(const Config& config, const Inputs& inputs,
+                                                        const Prepared& prepared) {
   std::vector<std::size_t> traits = config.named_traits();
   if (traits.empty()) return nullptr;
   const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
-  require_named_traits(config, landmarks);
+  require_available_traits(config, landmarks);
   return std::make_unique<const FaceTraits>(config, inputs, prepared, landmarks, std::move(traits));
 }
 
 std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, const Inputs& inputs,
                                                         const Prepared& prepared) {
   const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
-  require_named_traits(config, landmarks);
+  require_available_traits(config, landmarks);
   std::vector<std::size_t> available;
   for (std::size_t m = 0; m < measurements().size(); ++m) {
     if (landmarks.can_measure(measurements()[m])) available.push_back(m);

@@ -56,8 +56,8 @@ class FaceTraits {
 
 /// Returns an object that measures the traits that the config names; null if the config names none.
 /// \throws UsageError if one of these traits is not available on the heads.
-std::unique_ptr<const FaceTraits> named_face_traits(const Config& config, const Inputs& inputs,
-                                                    const Prepared& prepared);
+std::unique_ptr<const FaceTraits> face_traits_of_config(const Config& config, const Inputs& inputs,
+                                                        const Prepared& prepared);
 
 /// Returns an object that measures all traits that are available on the heads; null if no trait is
 /// available.

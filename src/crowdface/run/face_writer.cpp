@@ -84,7 +84,7 @@ void FaceWriter::run() {
 void FaceWriter::write(const Batch& batch) {
   std::vector<FileToWrite> files;
   for (const ReadyFile& file : batch.files) {
-    if (has_content(file.path, file.content)) continue;  // only other files of the face are missing
+    if (has_content(file.path, file.digest)) continue;  // only other files of the face are missing
     files.push_back({file.path, file.bytes.pieces()});
     if (files.size() < kMaxFiles) continue;
     write_files(files);

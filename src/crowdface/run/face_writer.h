@@ -20,7 +20,7 @@ namespace crowdface {
 struct ReadyFile {
   std::filesystem::path path;
   EncodedFile bytes;
-  FileDigest content;  ///< size and hash of `bytes`
+  FileDigest digest;  ///< size and hash of `bytes`
 };
 
 /// Writes faces on a separate thread, so that computing threads need not wait for the disk. While

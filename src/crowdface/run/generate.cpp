@@ -84,8 +84,9 @@ struct PlannedJob {
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
   CrowdPlan crowd_plan;
-  std::vector<std::string> warnings;  ///< warnings of near_head_warnings; empty for a shard's faces
-  nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
+  std::vector<std::string>
+      warnings;  ///< warnings of warnings_about_faces_near_heads; empty for a shard's faces
+  nlohmann::ordered_json casting;  ///< content of casting.json; null for a shard's faces
   /// The files from which `crowd_plan` was read; empty if this run cast the crowd. If a shard reads
   /// the plan, `crowd_plan` holds only the shard's faces.
   std::vector<LedgerEntry::File> plan_files;
@@ -94,7 +95,7 @@ struct PlannedJob {
   /// there is no neck or faces have no colours.
   std::vector<Eigen::Array3d> neck_colours(const Job& job) {
     std::vector<Eigen::Array3d> colours;
-    if (!job.inputs.neck) return colours;
+    if (!job.inputs.heads_on_body) return colours;
     for (const FacePlan& face : crowd_plan.crowd) {
       const auto colour = textures.get().seam_colour(face.recipe);
       if (!colour) break;
@@ -111,7 +112,7 @@ Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSecond
 
 /// Returns the warnings that depend only on the config and the plan.
 std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd_plan) {
-  std::vector<std::string> warnings = near_head_warnings(crowd_plan, job.names.heads);
+  std::vector<std::string> warnings = warnings_about_faces_near_heads(crowd_plan, job.names.heads);
   for (std::string& text : overridden_plan_warnings(job.config, crowd_plan.crowd)) {
     warnings.push_back(std::move(text));
   }
@@ -218,7 +219,8 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   if (planned.planned()) {
     for (const LedgerEntry::File& file : planned.plan_files) ledger.record_existing(file);
     if (options.shard.is_whole_crowd()) {
-      write(directory.table(), table_text(crowd, job.names, neck_colours, table_facts(job.config)));
+      write(directory.table(),
+            table_text(crowd, job.names, neck_colours, tags_and_kinds_of(job.config)));
     }
   } else {
     write_plan(job, directory, crowd_plan, planned.casting, neck_colours, write);

@@ -99,7 +99,7 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
   CompressedRows<Influence> influences;
   if (inputs.rig.empty()) return influences;
   const Positions& points = item.file.positions;
-  const bool is_body = inputs.neck && inputs.neck->is_body(item);
+  const bool is_body = inputs.heads_on_body && inputs.heads_on_body->is_body(item);
   const PointGrid grid(is_body ? inputs.mean_head : inputs.attachments.fitted_to,
                        skin_vertices(inputs));
   const auto nearest = [&](const Eigen::Vector3d& point) {
@@ -149,7 +149,7 @@ GlbLook look_of(const Attachment& item, bool own_texture) {
 GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& inputs,
                 const DetailLevel* level) {
   const CompressedRows<Influence> influences = influences_of(item, inputs);
-  FixedNormals fixed = normals_at_ring(inputs, item, level);
+  GivenNormals fixed = normals_at_ring(inputs, item, level);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   if (level == nullptr) {
@@ -184,7 +184,7 @@ MeshEncoders glb_encoders(const MeshSource& source) {
     encoders.push_back(make_encoder(
         std::make_shared<const Form>(
             Form{GlbTemplate(level.topology(inputs), level.uvs(inputs),
-                             glb_options(source.config, inputs, source.shared, level)),
+                             glb_options(source.config, inputs, source.shared_folder, level)),
                  AttachmentForms<GlbPart>(inputs.attachments, level, make_part)}),
         [](const Form& form, const FaceMesh& face) {
           return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves, face.images,

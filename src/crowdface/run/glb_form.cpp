@@ -118,7 +118,8 @@ void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
                       static_cast<std::uint32_t>(known.size()));
     options.face_materials[f] = row->second;
     if (!is_new) continue;
-    const auto paint = surfaces.face_colours.empty() ? std::nullopt : surfaces.face_colours[f];
+    const auto paint =
+        surfaces.polygon_colours.empty() ? std::nullopt : surfaces.polygon_colours[f];
     GlbMaterial made = glb_material(inputs.materials.names[material], kind, paint);
     made.uses_overlay =
         options.overlay && kind == SurfaceKind::kEye && !paint && picture == kNoIndex;

@@ -98,11 +98,11 @@ TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
   return TraitDistributions(measure_each(config, inputs, landmarks), config.quantiles_of.targets);
 }
 
-std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs) {
+std::vector<std::vector<double>> head_traits_of_config(const Config& config, const Inputs& inputs) {
   const std::vector<std::size_t> named = config.named_traits();
   if (named.empty()) return {};
   const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
-  require_named_traits(config, landmarks);
+  require_available_traits(config, landmarks);
   std::vector<std::vector<double>> values;
   for (const Head& head : inputs.head_set.heads) {
     const Positions points =
@@ -113,7 +113,7 @@ std::vector<std::vector<double>> named_head_traits(const Config& config, const I
   return values;
 }
 
-void require_named_traits(const Config& config, const HeadLandmarks& landmarks) {
+void require_available_traits(const Config& config, const HeadLandmarks& landmarks) {
   for (const std::size_t trait : config.named_traits()) {
     const Measurement& measurement = measurements()[trait];
     if (landmarks.can_measure(measurement)) continue;

@@ -44,11 +44,11 @@ TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
                                  const HeadLandmarks& landmarks);
 
 /// The heads' values of the measurements that the config names: #heads by #named measurements.
-std::vector<std::vector<double>> named_head_traits(const Config& config, const Inputs& inputs);
+std::vector<std::vector<double>> head_traits_of_config(const Config& config, const Inputs& inputs);
 
 /// Checks that all measurements that the config names are available on these heads. \throws
 /// UsageError if one of these measurements is not available.
-void require_named_traits(const Config& config, const HeadLandmarks& landmarks);
+void require_available_traits(const Config& config, const HeadLandmarks& landmarks);
 
 /// A text table of the measurements of all heads. The table also lists unavailable measurements.
 std::string format_head_traits(const Config& config, const Inputs& inputs,

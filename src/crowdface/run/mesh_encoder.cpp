@@ -93,7 +93,7 @@ static_assert(encodings_are_in_order(), "every MeshFormat has its row, in the en
 }  // namespace
 
 bool has_own_texture(const MeshSource& source, const Attachment& item) {
-  return !source.config.neck.body_texture.empty() && source.inputs.neck->is_body(item);
+  return !source.config.neck.body_texture.empty() && source.inputs.heads_on_body->is_body(item);
 }
 
 MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source) {

@@ -37,15 +37,15 @@ struct FaceMesh {
   std::span<const Displacements> moves = {};   ///< one per shape, or none
   std::span<const PlacedAttachment> placed_attachments = {};  ///< the face's attachments
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
-  /// points that follow the face; no rows at levels of detail
+  /// positions of the named points (PointCarrier) on this face; no rows at levels of detail
   const Positions* points = &kNoPositions;
   const Positions* joints = &kNoPositions;  ///< positions of the rig's joints
   /// the content of the image files of the face's own textures; may be empty
   std::span<const std::string_view> images = {};
   std::span<const std::string> image_names = {};  ///< paths of the images, relative to the mesh
   std::string material_file = {};  ///< the face's own material file; empty: the target head's file
-  /// colour of an attachment with a tint, as text from colour_label
-  std::string colour = {};
+  /// name of an attachment's colour, from colour_label; empty: no tint
+  std::string colour_label = {};
 };
 
 /// The data from which encoders are made. These data must outlive the encoders and the encoded
@@ -53,19 +53,19 @@ struct FaceMesh {
 struct MeshSource {
   const Config& config;
   const Inputs& inputs;
-  std::span<const MeshLevel> levels;  ///< the whole mesh first
-  std::span<const Index> targets;     ///< target heads of all faces that will be encoded
+  std::span<const MeshLevel> levels;    ///< the whole mesh first
+  std::span<const Index> target_heads;  ///< targets of all faces that will be encoded
   /// Relative path from the folder of a mesh to the folder of files that all meshes share (such as
   /// material files), for example ".."; empty: same folder.
-  std::string shared;
+  std::string shared_folder;
 };
 /// Whether the mesh file of a head has normals.
 inline bool has_normals(const Inputs& inputs, Index head) {
   return !inputs.head_files[static_cast<std::size_t>(head)].corner_normals.empty();
 }
 
-/// Whether each face gets a separate texture for this attachment. True only for the body, and only
-/// if `neck.body_texture` is set.
+/// Whether each face gets a separate texture for this attachment. True only for the body, which is
+/// an attachment, too, and only if `neck.body_texture` is set.
 bool has_own_texture(const MeshSource& source, const Attachment& item);
 
 /// Encodes faces in one format at one level of detail. Thread-safe.
@@ -92,8 +92,8 @@ MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source);
 
 /// Additional files of one format, shared by all faces of a crowd.
 struct SharedFiles {
-  std::string item;  ///< name of the ledger's item
-  Digest key;        ///< hash of everything that determines the files
+  std::string ledger_item;  ///< name of the item in the ledger that records these files
+  Digest key;               ///< hash of everything that determines the files
   /// whether the faces' mesh files refer to the shared files
   bool is_referenced_by_meshes = false;
   /// Writes the shared files below the folder of meshes. \return the paths of the written files.

@@ -32,9 +32,9 @@ ViewSetup viewing_of(const Config& config) {
 bool skin_is_judged(const Config& config, const Inputs& inputs) {
   constexpr Index kMaxFaces = 200'000;  // polygons; larger meshes would dominate the run time
   const BelievabilityOptions& believability = config.believability;
-  using Meshes = BelievabilityOptions::Meshes;
-  return believability.check && believability.meshes != Meshes::kNone &&
-         (believability.meshes != Meshes::kAuto ||
+  using MeshChecks = BelievabilityOptions::MeshChecks;
+  return believability.check && believability.meshes != MeshChecks::kNone &&
+         (believability.meshes != MeshChecks::kAuto ||
           inputs.head_set.topology.face_count() <= kMaxFaces);
 }
 
@@ -63,7 +63,7 @@ PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) 
 
 bool candidates_are_built(const Config& config) {
   return config.believability.check &&
-         config.believability.meshes == BelievabilityOptions::Meshes::kJudge;
+         config.believability.meshes == BelievabilityOptions::MeshChecks::kJudge;
 }
 
 FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,

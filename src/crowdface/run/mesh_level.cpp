@@ -62,7 +62,7 @@ std::vector<PlacedAttachment> MeshLevel::reduced_attachments(
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
                                    bool with_body) {
   std::vector<MeshLevel> levels(1 + inputs.levels.size());
-  const Attachment* const body = with_body ? inputs.neck->body.get() : nullptr;
+  const Attachment* const body = with_body ? inputs.heads_on_body->body.get() : nullptr;
   for (MeshLevel& level : levels) level.body = body;
   if (inputs.levels.empty()) return levels;
   for (std::size_t l = 1; l < levels.size(); ++l) {
@@ -89,10 +89,10 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   return levels;
 }
 
-FixedNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
+GivenNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
                              const DetailLevel* level) {
-  if (!inputs.neck || !inputs.neck->is_body(item)) return {};
-  FixedNormals fixed{inputs.neck->body_rim, inputs.neck->seam.normals};
+  if (!inputs.heads_on_body || !inputs.heads_on_body->is_body(item)) return {};
+  GivenNormals fixed{inputs.heads_on_body->body_rim, inputs.heads_on_body->seam.normals};
   if (level == nullptr) return fixed;
   for (std::uint32_t& vertex : fixed.vertices) {
     const auto found = std::ranges::lower_bound(level->vertices, vertex);

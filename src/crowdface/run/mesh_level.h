@@ -36,8 +36,8 @@ struct MeshLevel {
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return is_whole_mesh() ? inputs.head_set.uvs : face_level->uvs;
   }
-  /// Returns the attachments that files at this level may contain, and the body. Reduced levels
-  /// contain only attachments that some face wears.
+  /// Returns the attachments that files at this level may contain, including the body. Reduced
+  /// levels contain only the body and attachments that some face wears.
   std::vector<const Attachment*> attachments_in_files(const AttachmentSet& set) const;
   /// The reduced attachment at this level; null if the attachment is whole.
   const DetailLevel* find(const Attachment& item) const;
@@ -45,10 +45,10 @@ struct MeshLevel {
   std::vector<PlacedAttachment> reduced_attachments(std::span<const PlacedAttachment> placed) const;
 };
 
-/// Returns the text `before` followed by the name of the level, such as "LOD2". Empty for level 0,
+/// Returns `separator` followed by the name of the level, such as "LOD2". Empty for level 0,
 /// the whole mesh.
-inline std::string level_suffix(std::size_t level, std::string_view before) {
-  return level == 0 ? std::string() : concat(before, "LOD", level);
+inline std::string level_suffix(std::size_t level, std::string_view separator) {
+  return level == 0 ? std::string() : concat(separator, "LOD", level);
 }
 
 /// Selects, from the values of the whole mesh, the values for the polygons or vertices of a reduced
@@ -80,7 +80,7 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
 /// The normals at the ring of vertices at the neck, which are equal for the body and all faces.
 /// Empty if `item` is not the body.
 /// \param level  the level of detail of the body; null: whole
-FixedNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
+GivenNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
                              const DetailLevel* level);
 
 }  // namespace crowdface

@@ -48,8 +48,8 @@ std::string library_line(const std::vector<MaterialFile>& files,
   return line;
 }
 
-/// Returns two sizes in bytes: the memory of all forms together, and the maximum memory for
-/// encoding one form.
+/// Returns two sizes in bytes: the memory of all converted meshes together, and the maximum memory
+/// for encoding one of them.
 template <class Forms, class FormOf>
 std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
   std::size_t memory = 0, encode = 0;
@@ -64,12 +64,12 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
 /// writes: a new `mtllib` line that does.
 std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
-  for (const Index target : source.targets) {
+  for (const Index target : source.target_heads) {
     const ObjFile& file = source.inputs.head_files[static_cast<std::size_t>(target)];
     if (file.material_libraries.empty()) continue;
     const MaterialFiles found = find_material_files(file.material_path(), file.material_libraries);
-    if (source.shared.empty() && !found.has_renamed_library) continue;
-    lines[target] = library_line(found.files, source.shared);
+    if (source.shared_folder.empty() && !found.has_library_at_other_path) continue;
+    lines[target] = library_line(found.files, source.shared_folder);
   }
   return lines;
 }
@@ -79,12 +79,12 @@ std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
 /// line, programs ignore the material.
 std::map<Index, std::string> material_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
-  for (const Index target : source.targets) {
+  for (const Index target : source.target_heads) {
     const ObjFile& file = source.inputs.head_files[static_cast<std::size_t>(target)];
     if (file.material_libraries.empty()) continue;
     if (!file.materials.empty() && file.materials.front().first_face == 0) continue;
     const std::string material =
-        find_textures(file.material_path(), file.material_libraries).only_material;
+        find_textures(file.material_path(), file.material_libraries).single_material;
     if (!material.empty()) lines[target] = concat("\nusemtl ", material);
   }
   return lines;
@@ -93,11 +93,11 @@ std::map<Index, std::string> material_lines(const MeshSource& source) {
 /// Returns the encoder for the whole mesh. An encoded file is the OBJ file of the target head with
 /// the vertex positions of the face.
 MeshEncoder whole_encoder(const MeshSource& source) {
-  const std::span<const Index> targets = source.targets;
+  const std::span<const Index> targets = source.target_heads;
   std::vector<std::optional<ObjTemplate>> made(targets.size());
-  FixedNormals fixed;
-  if (source.inputs.neck) {
-    fixed = {source.inputs.neck->seam.rim, source.inputs.neck->seam.normals};
+  GivenNormals fixed;
+  if (source.inputs.heads_on_body) {
+    fixed = {source.inputs.heads_on_body->seam.rim, source.inputs.heads_on_body->seam.normals};
   }
   parallel_for_each(targets.size(), [&](std::size_t t) {
     made[t].emplace(source.inputs.head_files[static_cast<std::size_t>(targets[t])],
@@ -123,7 +123,7 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   const Inputs& inputs = source.inputs;
   const auto forms = std::make_shared<Forms>();
   std::vector<std::vector<MaterialRange>> known;
-  for (const Index target : source.targets) {
+  for (const Index target : source.target_heads) {
     const std::vector<MaterialRange> ranges =
         material_ranges(inputs.head_files[static_cast<std::size_t>(target)],
                         inputs.head_set.topology.face_count(), level);
@@ -183,7 +183,7 @@ MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
   const auto libraries_of = [&files = item.materials.files, name = item.name,
                              shared](const FaceMesh& mesh) {
     return library_line(files,
-                        std::filesystem::path(shared) / attachment_folder(name, mesh.colour));
+                        std::filesystem::path(shared) / attachment_folder(name, mesh.colour_label));
   };
   if (level == nullptr) {
     return make_encoder(std::make_shared<const ObjTemplate>(item.file, item.file.topology),

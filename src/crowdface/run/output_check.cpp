@@ -68,7 +68,7 @@ void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory) 
   if (!report.is_object() || !report.contains("inputs")) return;
   const auto& recorded = report["inputs"];
   std::vector<std::string> changed;
-  for (const auto& [name, digest] : other_input_digests(inputs)) {
+  for (const auto& [name, digest] : digests_without_heads_and_masks(inputs)) {
     if (recorded.contains(name) && recorded[name] != digest.hex()) changed.push_back(name);
   }
   if (changed.empty()) return;

@@ -86,9 +86,10 @@ class OverriddenPlan {
       for (const FacePlan& face : crowd_) {
         if (!face.index) continue;
         ++sizes[face.group.value_or("")];
-        const bool wears = std::ranges::any_of(
-            worn_by(face),
-            [&, &called = word](const Attachment* item) { return matches_word(*item, called); });
+        const bool wears =
+            std::ranges::any_of(worn_by(face), [&, &called = word](const Attachment* item) {
+              return matches_kind_name_or_colour(*item, called);
+            });
         reached += wears ? 1 : 0;
         served += wears || !face.notes.changes.empty() ? 1 : 0;
       }

@@ -25,7 +25,7 @@ std::string file_name(const std::string& id, const PictureName& picture, std::st
                       TextureFormat format) {
   const bool is_colour = picture.kind == TextureKind::kColour;
   return concat(kBlendedFolder, '/', id, picture.part.empty() ? "" : ".", picture.part,
-                is_colour ? "" : concat('.', statement_of(picture.kind).name),
+                is_colour ? "" : concat('.', mtl_statement_of(picture.kind).name),
                 tile.empty() ? "" : ".", tile, ending_of(format));
 }
 

@@ -19,7 +19,7 @@ namespace crowdface {
 namespace {
 
 /// Converts one end of the range of a smoothness distribution to a number of smoothing iterations.
-double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScale& scale) {
+double level_of(double value, SmoothnessDistribution::Unit unit, const SmoothingLevelScale& scale) {
   switch (unit) {
     case SmoothnessDistribution::Unit::kFraction:
       return static_cast<double>(iterations_of(value, scale));
@@ -36,7 +36,7 @@ double level_of(double value, SmoothnessDistribution::Unit unit, const LevelScal
 /// Adds a problem if a smoothness exceeds L_max, which is known only after the heads are read.
 void check_smoothness(const SmoothnessDistribution& distribution, const std::string& where,
                       const Config& config, const Inputs& inputs, Problems& problems) {
-  const LevelScale scale = level_scale(config, inputs);
+  const SmoothingLevelScale scale = level_scale(config, inputs);
   const double high = distribution.range.high;
   const double level = level_of(high, distribution.unit, scale);
   std::string asked = concat(level, " iterations");
@@ -55,7 +55,7 @@ void check_smoothness(const SmoothnessDistribution& distribution, const std::str
 /// \param where  prefix of the config keys in messages
 void check_sampling(const SamplingOptions& sampling, const std::string& where, const Config& config,
                     const Inputs& inputs, Problems& problems) {
-  const LevelScale scale = level_scale(config, inputs);
+  const SmoothingLevelScale scale = level_scale(config, inputs);
   const auto names = config.region_names();
   for (std::size_t k = 0; k < names.size(); ++k) {
     check_smoothness(sampling.regions[k].smoothness, concat(where, "smoothness (", names[k], ')'),
@@ -85,7 +85,7 @@ void check_sampling(const SamplingOptions& sampling, const std::string& where, c
 std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Config& config,
                                      const Inputs& inputs) {
   std::vector<std::string> warnings;
-  const LevelScale scale = level_scale(config, inputs);
+  const SmoothingLevelScale scale = level_scale(config, inputs);
   const double finest = wavelength_of_iterations(scale.operator_kind, 1, scale.edge_length_mm);
   for (std::size_t b = 1; b < sampling.bands.size(); ++b) {
     double most = 0;
@@ -182,7 +182,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
       continue_crowd(reading.config, overrides.keep_reviews_of_other_configs);
   };
   if (overrides.without_reviews) {
-    overrides.ignored_reviews = directory.reviews();
+    overrides.ignored_reviews_folder = directory.reviews();
     read_again();
     reading.config.review.ignores_kept_reviews = true;
     return reading;
@@ -191,12 +191,12 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
   if (path_exists(directory.config())) {
     const std::string before = read_file(directory.config());
     differences = config_differences(before, effective_config(reading.config, directory.root));
-    overrides.kept_face_count = number_in_config(before, "crowd.count");
+    overrides.former_face_count = number_in_config(before, "crowd.count");
     const auto distances = distances_in_config(before);
     const double now = reading.config.diversity.min_distance_mm;
     if (distances && distances->min_distance_mm != now &&
         !overrides.keep_reviews_of_other_configs) {
-      overrides.kept_min_distance_mm = distances->min_distance_mm;
+      overrides.former_min_distance_mm = distances->min_distance_mm;
     }
   }
   if (!differences.empty() && !overrides.keep_reviews_of_other_configs) {
@@ -221,7 +221,7 @@ void check_reviews(const Config& config, Problems& problems) {
   const Config::Reviews& reviews = config.review;
   const auto kept = CrowdDirectory{config.output.directory}.kept_reviews();
   for (std::size_t i = kept.size(); i < reviews.reviews.size(); ++i) {
-    const std::uint64_t after = reviews.reviews[i].seen_review_count.value_or(0);
+    const std::uint64_t after = reviews.reviews[i].review_count_seen_by_reviewer.value_or(0);
     if (after <= i) continue;
     problems.add(ExitCode::kUsage, concat(reviews.files[i].string(), ": after: expected at most ",
                                           i, ", the number of earlier reviews, found ", after));
@@ -261,7 +261,7 @@ std::optional<Job> load_job(const std::filesystem::path& config_file,
                             const ConfigOverrides& overrides, const CacheFolder& cache,
                             Problems& problems) {
   return load_read_job([&](const ConfigOverrides& more,
-                           Problems& out) { return read_config_parts(config_file, more, out); },
+                           Problems& out) { return read_partial_config(config_file, more, out); },
                        overrides, cache, problems);
 }
 
@@ -313,7 +313,7 @@ CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) 
           config.review.original_texts, config.review.ignores_kept_reviews};
 }
 
-LevelScale level_scale(const Config& config, const Inputs& inputs) {
+SmoothingLevelScale level_scale(const Config& config, const Inputs& inputs) {
   return {config.smoothing.operator_kind, inputs.max_level, inputs.edge_length_mm};
 }
 

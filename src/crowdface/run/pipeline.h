@@ -50,6 +50,6 @@ std::string config_text_in_folder(Config config, const CrowdDirectory& directory
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
 /// The scale that converts a smoothness into a number of smoothing iterations on these heads.
-LevelScale level_scale(const Config& config, const Inputs& inputs);
+SmoothingLevelScale level_scale(const Config& config, const Inputs& inputs);
 
 }  // namespace crowdface

@@ -24,10 +24,11 @@ Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;
   hasher.add(kVersion)
       .add(kCastVersion)
-      .add(plan_settings(job.config, directory.root))
+      .add(plan_settings_yaml(job.config, directory.root))
       .add(job.settings);
-  if (job.inputs.neck) hasher.add(kNeckVersion).add(job.inputs.neck->digest);  // for measurements
-  hasher.add_array(std::span(job.inputs.distance_mask));
+  // The placement on the body changes measurements.
+  if (job.inputs.heads_on_body) hasher.add(kNeckVersion).add(job.inputs.heads_on_body->digest);
+  hasher.add_array(std::span(job.inputs.distance_weights));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
   for (const auto& table : {job.config.population, job.config.quantiles_of}) {
     for (const TraitTarget& target : table.targets) {
@@ -72,8 +73,8 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPiec
 
 }  // namespace
 
-TableFacts table_facts(const Config& config) {
-  TableFacts facts{config.faces.tags, {}};
+TagsAndKinds tags_and_kinds_of(const Config& config) {
+  TagsAndKinds facts{config.faces.tags, {}};
   for (const Config::Attachment& item : config.attachments.items)
     facts.attachment_kinds.push_back(item.kind);
   return facts;
@@ -83,7 +84,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
                 const nlohmann::ordered_json& casting,
                 const std::vector<Eigen::Array3d>& neck_colours, const WriteFile& write) {
   const TextPieces plan =
-      annotated_plan_text(crowd_plan.crowd, job.names, job.settings, table_facts(job.config));
+      annotated_plan_text(crowd_plan.crowd, job.names, job.settings, tags_and_kinds_of(job.config));
   remove_report_of_other_plan(directory, plan);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   const auto write_and_mark = [&](const std::filesystem::path& path, const TextPieces& text) {
@@ -91,7 +92,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
   };
   write_and_mark(directory.plan(), plan);
   write(directory.table(),
-        table_text(crowd_plan.crowd, job.names, neck_colours, table_facts(job.config)));
+        table_text(crowd_plan.crowd, job.names, neck_colours, tags_and_kinds_of(job.config)));
   if (!crowd_plan.founders.empty()) {
     write_and_mark(directory.founders(), plan_text(crowd_plan.founders, job.names, job.settings));
   }

@@ -71,8 +71,8 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
   return {{"tolerance_mm", job.config.smoothing.tolerance_mm}, {"heads", std::move(heads)}};
 }
 
-/// For each band: the smallest and the largest size at which the band begins, over all regions and
-/// faces.
+/// For each band of detail: the smallest and the largest wavelength in mm at which the band begins,
+/// over all regions and faces.
 Json bands_to_json(const Job& job, const std::vector<FacePlan>& crowd) {
   const auto size = [&](std::uint64_t level) {
     return rounded(
@@ -149,7 +149,7 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
                     {"stretch", rounded(skin.local.stretch_factor)},
                     {"intersecting", skin.intersecting_count},
                     {"wider_mm", rounded(skin.gap_excess_mm)},
-                    {"exposed_mm2", rounded(skin.exposed_back_mm2)}};
+                    {"exposed_mm2", rounded(skin.exposed_back_face_mm2)}};
   }
   if (neck_colour != nullptr) {
     const Eigen::Array3d& light = *neck_colour;
@@ -189,7 +189,7 @@ std::string indented(const Json& json, std::size_t levels) {
 
 /// For each head: how well the head was fitted to the ring of vertices at the neck.
 Json neck_to_json(const Job& job) {
-  const HeadsOnBody& neck = *job.inputs.neck;
+  const HeadsOnBody& neck = *job.inputs.heads_on_body;
   Json heads = Json::array();
   for (std::size_t h = 0; h < neck.heads.size(); ++h) {
     const HeadsOnBody::Head& head = neck.heads[h];
@@ -220,10 +220,10 @@ Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_pl
   if (!job.inputs.levels.empty()) report["lods"] = lods_to_json(job.inputs);
   report["smoothing"] = smoothing_to_json(job, prepared, crowd_plan);
   report["heads"] = heads_to_json(job, crowd_plan);
-  if (job.inputs.neck) report["neck"] = neck_to_json(job);
+  if (job.inputs.heads_on_body) report["neck"] = neck_to_json(job);
   report["masks"] = {{"digest", job.inputs.mask_digest.hex()},
                      {"uncovered_vertices", job.inputs.regions.uncovered_vertex_count}};
-  for (const auto& [name, digest] : other_input_digests(job.inputs)) {
+  for (const auto& [name, digest] : digests_without_heads_and_masks(job.inputs)) {
     report["inputs"][name] = digest.hex();
   }
   report["distances"] = distances_to_json(casting["distances"]);
@@ -265,7 +265,7 @@ Json read_report_summary(const std::filesystem::path& file) {
   return parse_shallow_json(concat(whole.substr(0, whole.find(kBeforeFaces)), "\n}"));
 }
 
-std::vector<std::pair<std::string, Digest>> other_input_digests(const Inputs& inputs) {
+std::vector<std::pair<std::string, Digest>> digests_without_heads_and_masks(const Inputs& inputs) {
   std::vector<std::pair<std::string, Digest>> digests = {
       {"materials", materials_digest(inputs)},
       {"textures", inputs.textures.digest},
@@ -274,10 +274,10 @@ std::vector<std::pair<std::string, Digest>> other_input_digests(const Inputs& in
       {"points", inputs.points_digest},
       {"rig", inputs.rig.digest},
       {"attachments", inputs.attachments.digest},
-      {"neck", inputs.neck ? inputs.neck->digest : Digest()}};
+      {"neck", inputs.heads_on_body ? inputs.heads_on_body->digest : Digest()}};
   for (const HeadTextures& maps : inputs.maps) {
     const TextureKind kind = maps.names.front().kind;
-    digests.emplace_back(concat(statement_of(kind).name, " maps"), maps.digest);
+    digests.emplace_back(concat(mtl_statement_of(kind).name, " maps"), maps.digest);
   }
   std::erase_if(digests, [](const auto& each) { return each.second == Digest(); });
   return digests;

@@ -36,7 +36,7 @@ nlohmann::ordered_json read_report_summary(const std::filesystem::path& file);
 
 /// Hashes of all inputs that determine the faces, except heads and masks. Each hash comes with the
 /// key under which report.json stores it.
-std::vector<std::pair<std::string, Digest>> other_input_digests(const Inputs& inputs);
+std::vector<std::pair<std::string, Digest>> digests_without_heads_and_masks(const Inputs& inputs);
 
 /// Duration of each stage in seconds, in execution order.
 using StageSeconds = std::vector<std::pair<std::string, double>>;

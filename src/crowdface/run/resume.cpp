@@ -16,7 +16,7 @@ namespace crowdface {
 namespace fs = std::filesystem;
 
 FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePlan>& crowd,
-                             const Shard& shard, const std::function<void()>& checked) {
+                             const Shard& shard, const std::function<void()>& on_checked_face) {
   FaceProgress so_far;
   so_far.faces.resize(crowd.size());
   std::vector<char> missing(crowd.size(), 0);
@@ -28,7 +28,7 @@ FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePla
     } else {
       missing[i] = 1;
     }
-    if (checked) checked();
+    if (on_checked_face) on_checked_face();
   });
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     if (shard.owns(i)) ++so_far.shard_face_count;
@@ -58,12 +58,12 @@ void write_shared_files(const Config& config, const Inputs& inputs, const CrowdD
                         Ledger& ledger) {
   for (const MeshFormat format : config.output.meshes) {
     const auto shared = shared_files(format, config, inputs);
-    if (!shared || ledger.find_proven(shared->item, shared->key)) continue;
+    if (!shared || ledger.find_verified(shared->ledger_item, shared->key)) continue;
     std::vector<std::string> names;
     for (const fs::path& file : shared->write(directory.meshes())) {
       names.push_back(directory.relative(file));
     }
-    ledger.record(shared->item, shared->key, names);
+    ledger.record(shared->ledger_item, shared->key, names);
   }
 }
 

@@ -21,9 +21,9 @@ struct FaceProgress {
 
 /// Finds the faces of a shard that the ledger records and whose files are unchanged. Reads every
 /// file once, in parallel. \throws Interrupted.
-/// \param checked  called from any thread after each face of the shard; may be empty
+/// \param on_checked_face  called from any thread after each face of the shard; may be empty
 FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePlan>& crowd,
-                             const Shard& shard, const std::function<void()>& checked = {});
+                             const Shard& shard, const std::function<void()>& on_checked_face = {});
 
 /// Checks that no face is missing. \throws MissingInput that names the first few missing faces.
 void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,

@@ -120,7 +120,7 @@ void ScarcityWarning::on_face_accepted(const Rejections& rejected) {
 }
 
 void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall& shortfall,
-                     const std::vector<std::string>& about_traits) {
+                     const std::vector<std::string>& trait_advice_lines) {
   const std::uint64_t rejected = shortfall.rejections.total();
   const std::uint64_t by_main = shortfall.rejections.of(remedy.binding_constraint);
   std::string message = concat(config.file.string(), ": ");
@@ -155,7 +155,7 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
     message += concat("; the next face belongs to the group ", group.name);
     message += few_heads(config, group);
   }
-  for (const std::string& line : about_traits) message += concat("\n  - ", line);
+  for (const std::string& line : trait_advice_lines) message += concat("\n  - ", line);
   for (const std::string& line : advice(config, remedy, shortfall))
     message += concat("\n  - ", line);
   throw Unsatisfiable(message);

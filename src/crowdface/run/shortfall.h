@@ -31,10 +31,10 @@ class ScarcityWarning {
 
 /// \throws Unsatisfiable; the message names the constraint that prevented more faces, the number of
 ///     faces that were cast, and a change that would help.
-/// \param about_traits  if limits on measurements prevented more faces: a line for each limit, from
-///                      trait_advice
+/// \param trait_advice_lines  if limits on measurements prevented more faces: a line for each
+///                      limit, from trait_advice
 [[noreturn]] void throw_shortfall(const Config& config, const Remedy& remedy,
                                   const Shortfall& shortfall,
-                                  const std::vector<std::string>& about_traits = {});
+                                  const std::vector<std::string>& trait_advice_lines = {});
 
 }  // namespace crowdface

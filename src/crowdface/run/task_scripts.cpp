@@ -62,7 +62,7 @@ std::uint64_t tasks_for(double seconds, double seconds_a_task, std::uint64_t mos
 }
 
 std::filesystem::path script_of(const TaskJob& job) {
-  return job.directory.task_folder() / "task.sh";
+  return job.directory.cluster_task_folder() / "task.sh";
 }
 
 constexpr std::string_view kTask = R"sh(
@@ -184,11 +184,11 @@ std::string task_script(const TaskJob& job) {
   std::string script(kHead);
   script += "# task.sh STAGE NUMBER: one task of the crowd, on the machine that it is started on\n";
   script += "set -uo pipefail\n";
-  script += assign("folder", job.directory.task_folder().string());
+  script += assign("folder", job.directory.cluster_task_folder().string());
   script += assign("directory", job.directory.root.string());
   script += assign("program", job.program.string());
   script += concat("config=(", shell_words(job.config_arguments), ")\n");
-  script += concat("limits=(", shell_words(job.limit_arguments), ")\n");
+  script += concat("limits=(", shell_words(job.input_limit_arguments), ")\n");
   script += assign("cache", job.cache.string());
   script += assign("scratch", job.scratch_folder);
   script += concat("prepares=", job.prepare_task_count, " shards=", job.shard_count,
@@ -200,7 +200,7 @@ std::string task_script(const TaskJob& job) {
   return script + std::string(kTask);
 }
 
-std::string slurm_script(const TaskJob& job, const EngineOptions& options) {
+std::string slurm_script(const TaskJob& job, const JobEngineOptions& options) {
   std::vector<std::string> common = {"--parsable", "--requeue", "--open-mode=append",
                                      concat("--signal=B:TERM@", options.grace_seconds),
                                      concat("--cpus-per-task=", job.processor_count)};
@@ -211,17 +211,17 @@ std::string slurm_script(const TaskJob& job, const EngineOptions& options) {
   common.insert(common.end(), options.extra_arguments.begin(), options.extra_arguments.end());
   std::string script(kHead);
   script += "set -euo pipefail\n";
-  script +=
-      assign("folder", job.directory.task_folder().string()) + assign("crowd", job.crowd_name);
+  script += assign("folder", job.directory.cluster_task_folder().string()) +
+            assign("crowd", job.crowd_name);
   script += concat("prepares=", job.prepare_task_count, " shards=", job.shard_count, "\n");
   script += concat("common=(", shell_words(common), ")\n");
   return script + std::string(kSlurm);
 }
 
-std::string parallel_script(const TaskJob& job, const EngineOptions& options) {
+std::string parallel_script(const TaskJob& job, const JobEngineOptions& options) {
   std::string script(kHead);
   script += "set -euo pipefail\n";
-  script += assign("folder", job.directory.task_folder().string());
+  script += assign("folder", job.directory.cluster_task_folder().string());
   // The command that runs a task in a shell on any machine.
   script += assign("task", "bash " + shell_word(script_of(job).string()));
   script += concat("prepares=", job.prepare_task_count, " shards=", job.shard_count, "\n");
@@ -254,8 +254,8 @@ std::string_view name_of(Engine engine) {
 }
 
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
-                                         const EngineOptions& options) {
-  const std::filesystem::path folder = job.directory.task_folder();
+                                         const JobEngineOptions& options) {
+  const std::filesystem::path folder = job.directory.cluster_task_folder();
   refuse_link_out_of_crowd(job.directory, folder);
   refuse_link_out_of_crowd(job.directory, folder / "log");
   make_directories(folder / "log");

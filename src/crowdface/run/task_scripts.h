@@ -19,9 +19,9 @@ namespace crowdface {
 /// machines.
 struct TaskJob {
   std::filesystem::path program;
-  std::vector<std::string> config_arguments;  ///< the config file and its overrides
-  std::vector<std::string> limit_arguments;   ///< for every task: maximum sizes of inputs
-  std::string crowd_name;                     ///< name of the crowd
+  std::vector<std::string> config_arguments;       ///< the config file and its overrides
+  std::vector<std::string> input_limit_arguments;  ///< for every task: maximum sizes of inputs
+  std::string crowd_name;                          ///< name of the crowd
   CrowdDirectory directory;
   std::filesystem::path cache;  ///< folder of prepared heads, shared by all machines
   /// a local folder on each machine; the machine's shell expands the path; empty: none
@@ -35,8 +35,8 @@ struct TaskJob {
 enum class Engine { kSlurm, kParallel };
 std::string_view name_of(Engine engine);
 
-/// Options that only some job engines use.
-struct EngineOptions {
+/// Options for the render farm's job engine; some engines use only part of them.
+struct JobEngineOptions {
   std::string partition, time_limit;  ///< only for Slurm; empty: the site's default
   std::uint64_t grace_seconds = 60;   ///< time between the termination signal and the time limit
   std::vector<std::string> hosts;     ///< only for GNU parallel: ssh hosts; empty: this machine
@@ -56,6 +56,6 @@ std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t process
 /// \return `submit.sh`, a bash script. With Slurm the script only submits the tasks; with GNU
 /// parallel the script runs all tasks to completion.
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
-                                         const EngineOptions& options);
+                                         const JobEngineOptions& options);
 
 }  // namespace crowdface

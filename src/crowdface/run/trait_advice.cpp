@@ -44,8 +44,8 @@ FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& sho
   std::optional<std::size_t> group;
   if (shortfall.group_index >= 0) group = static_cast<std::size_t>(shortfall.group_index);
   if (of_family) group = family->group;
-  FacePlan face =
-      random_face(casting, shortfall.cast_count + 1, attempt, kind_of_group(casting, group));
+  FacePlan face = random_face(casting, shortfall.cast_count + 1, attempt,
+                              distribution_of_group(casting, group));
   if (of_family) face.family = family->name;
   return face;
 }

@@ -16,11 +16,11 @@ namespace {
 std::vector<Positions> sampled_landmarks(const CastingOptions& casting,
                                          const FaceMeasurer& measurer) {
   constexpr std::uint64_t kSampled = 2000;
-  const std::vector<FaceKind> kinds = face_kinds(casting);
+  const std::vector<FaceDistribution> kinds = face_distributions(casting);
   const std::vector<int> schedule = schedule_groups(casting.groups, kSampled);
   std::vector<Positions> landmarks(kSampled);
   parallel_for_each(kSampled, [&](std::size_t i) {
-    const FaceKind& kind = kinds[static_cast<std::size_t>(schedule[i] + 1)];
+    const FaceDistribution& kind = kinds[static_cast<std::size_t>(schedule[i] + 1)];
     landmarks[i] = measurer.landmarks(random_face(casting, i + 1, 0, kind).recipe);
   });
   return landmarks;
@@ -32,7 +32,7 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
                                        const std::vector<FacePlan>& crowd) {
   std::vector<TraitReport> reports;
   std::vector<Positions> drawn;
-  if (!casting.population.empty()) drawn = sampled_landmarks(casting, traits.measurer());
+  if (!casting.trait_targets.empty()) drawn = sampled_landmarks(casting, traits.measurer());
   for (std::size_t t = 0; t < traits.trait_indices().size(); ++t) {
     const std::size_t trait = traits.trait_indices()[t];
     TraitReport report{
@@ -43,8 +43,8 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
       if (face.index) sampled.push_back(face.traits[t]);
     }
     report.crowd_values = quartiles(std::move(all));
-    const auto target = std::ranges::find(casting.population, trait, &TraitTarget::trait);
-    if (target != casting.population.end() && !sampled.empty()) {
+    const auto target = std::ranges::find(casting.trait_targets, trait, &TraitTarget::trait);
+    if (target != casting.trait_targets.end() && !sampled.empty()) {
       double low = HUGE_VAL, high = -HUGE_VAL, mean = 0, squares = 0;
       for (const Positions& points : drawn) {
         const double value = measure(measurements()[trait], points);

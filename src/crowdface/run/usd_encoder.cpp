@@ -59,7 +59,7 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource
     }
     return look;
   }
-  const std::string shared = source.shared.empty() ? "." : source.shared;
+  const std::string shared = source.shared_folder.empty() ? "." : source.shared_folder;
   const auto file_of = [&](const fs::path& from) {
     const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::source);
     fs::path folder = fs::path(shared) / attachment_folder(item.name);
@@ -100,7 +100,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     const auto& [prim, materials, of_face] = looks.at(&item);
-    FixedNormals fixed = normals_at_ring(inputs, item, here);
+    GivenNormals fixed = normals_at_ring(inputs, item, here);
     if (here == nullptr) {
       return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets,
                       std::move(fixed));
@@ -115,10 +115,11 @@ MeshEncoders usd_encoders(const MeshSource& source) {
     const Subdivision subdivision =
         level.is_whole_mesh() ? source.config.output.subdivision : Subdivision::kNone;
     encoders.push_back(make_encoder(
-        std::make_shared<const Form>(Form{
-            UsdaTemplate(level.topology(inputs), level.uvs(inputs),
-                         glb_options(source.config, inputs, source.shared, level), subdivision),
-            AttachmentForms<UsdaPart>(inputs.attachments, level, make_part)}),
+        std::make_shared<const Form>(
+            Form{UsdaTemplate(level.topology(inputs), level.uvs(inputs),
+                              glb_options(source.config, inputs, source.shared_folder, level),
+                              subdivision),
+                 AttachmentForms<UsdaPart>(inputs.attachments, level, make_part)}),
         [](const Form& form, const FaceMesh& face) {
           return form.mesh.encode(
               *face.positions, *face.normals, face.id, face.moves, face.image_names, *face.points,

@@ -74,12 +74,14 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
   positions = inputs.model->mean;
 }
 
-/// Excludes the white areas of a mask from the fit: multiplies the skin's `openness` by 1 − mask.
-void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& shape, Hasher& digest) {
+/// Excludes the white areas of a mask from the fit: multiplies the skin's `ambient_visibility` by
+/// 1 − mask.
+void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& wrap_template,
+            Hasher& digest) {
   const std::vector<double> ignored = mask_values(file.topology, file.uvs, MaskSource(mask));
-  for (std::size_t v = 0; v < shape.skin.vertices.size(); ++v) {
-    const double left = 1 - std::clamp(ignored[shape.skin.vertices[v]], 0.0, 1.0);
-    shape.skin.openness[v] *= left;
+  for (std::size_t v = 0; v < wrap_template.skin.vertices.size(); ++v) {
+    const double left = 1 - std::clamp(ignored[wrap_template.skin.vertices[v]], 0.0, 1.0);
+    wrap_template.skin.ambient_visibility[v] *= left;
     digest.add(left);
   }
 }
@@ -167,15 +169,15 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   inputs.frame = {axis_of("--up", options.up), axis_of("--front", options.front)};
   Positions positions = inputs.file.positions * inputs.mm_per_unit;
   if (!options.model.empty()) read_model(options, inputs, positions, digest);
-  inputs.shape =
+  inputs.wrap_template =
       make_template(inputs.file.topology, positions,
                     {.front = unit_vector(inputs.frame.front), .up = unit_vector(inputs.frame.up)});
-  inputs.regions = face_regions(inputs.shape);
-  if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.shape);
-  if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.shape, digest);
+  inputs.regions = face_regions(inputs.wrap_template);
+  if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.wrap_template);
+  if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.wrap_template, digest);
   inputs.hint = pose_hint(options);
-  const auto proposed = propose_landmarks(inputs.shape);
-  inputs.features = face_features(inputs.shape, proposed);
+  const auto proposed = propose_landmarks(inputs.wrap_template);
+  inputs.features = face_features(inputs.wrap_template, proposed);
   if (options.landmarks == kNoLandmarks) {
     digest.add("--landmarks none");
   } else {
@@ -206,7 +208,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
     }
   }
   inputs.digest = digest.digest();
-  log_info(concat(options.template_file, ": ", inputs.shape.skin.vertex_count(), " of ",
+  log_info(concat(options.template_file, ": ", inputs.wrap_template.skin.vertex_count(), " of ",
                   inputs.file.topology.vertex_count,
                   " vertices are skin; assumed unit: ", name_of(unit)));
   return inputs;

@@ -41,7 +41,7 @@ struct WrapInputs {
   double mm_per_unit = 10;  ///< millimetres per unit of the template
   HeadFrame frame;
   std::optional<PoseHint> hint;
-  WrapTemplate shape;
+  WrapTemplate wrap_template;
   SkinRegions regions;               ///< regions of the template's skin
   std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology
   std::size_t model_head_count = 0;  ///< number of heads of the shape model

@@ -130,9 +130,8 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 
 /// Returns the landmarks from the files. If the files have too few landmarks and the pose of the
 /// scan is known, adds landmarks that are detected from the scan's shape.
-/// \param hint  pose of the scan; may be empty. If the files have too few landmarks, receives the
-/// human face that is found in the relief of the scan; an empty hint also receives the axes of this
-/// face.
+/// \param hint  input: pose of the scan, or empty. Output, if the files have too few landmarks: the
+/// human face that is found in the relief of the scan. An empty hint also gets this face's axes.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -157,7 +156,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   }
   std::vector<std::string> found;
   for (WrapLandmark& landmark :
-       find_landmarks(shared.shape, shared.detected_landmarks, scan, *hint)) {
+       find_landmarks(shared.wrap_template, shared.detected_landmarks, scan, *hint)) {
     if (std::ranges::any_of(landmarks, [&](const auto& l) { return l.name == landmark.name; })) {
       continue;
     }
@@ -202,7 +201,7 @@ std::map<std::string, double> leave_one_out_distances(const WrapInputs& shared,
     picked.push_back({one.name, one.vertex, one.scan_position, std::nullopt});
   }
   if (picked.size() < kMin) return result;
-  const auto pose = fit_pose_to_picked(picked, shared.shape.positions);
+  const auto pose = fit_pose_to_picked(picked, shared.wrap_template.positions);
   if (!pose) return result;
   for (const auto& [name, residual] : pose->residuals) result[name] = residual.distance_mm;
   return result;
@@ -217,7 +216,7 @@ std::string likely_causes(const WrapInputs& shared, const Scan& scan,
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_shape);
   if (picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
   std::string part =
-      unclosed_fraction(scan) < kPart
+      net_area_fraction(scan) < kPart
           ? ""
           : "; the scan seems to be only a part of a head, whose place is not found without "
             "landmarks: pick four or more";
@@ -242,9 +241,10 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan, hint);
   const WrapResult result = [&] {
     try {
-      WrapResult wrapped = wrap_checked(shared.shape, shared.model ? &*shared.model : nullptr,
-                                        shared.features, scan, landmarks, hint);
-      refuse_bad_wrap(shared.shape, wrapped, shared.regions);
+      WrapResult wrapped =
+          wrap_checked(shared.wrap_template, shared.model ? &*shared.model : nullptr,
+                       shared.features, scan, landmarks, hint);
+      refuse_bad_wrap(shared.wrap_template, wrapped, shared.regions);
       return wrapped;
     } catch (const InvalidInput& error) {
       throw InvalidInput(
@@ -254,7 +254,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   // Write head, image and report.
   const double scale = output_scale(options, result.pose);
   const std::vector<std::string> warnings =
-      wrap_warnings(shared.shape, result, shared.regions, shared.model_head_count);
+      wrap_warnings(shared.wrap_template, result, shared.regions, shared.model_head_count);
   WrapFacts facts{options.template_file,
                   task.scan.string(),
                   inputs.hex(),
@@ -262,12 +262,13 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
                   scale,
                   leave_one_out_distances(shared, landmarks)};
   if (!options.no_pictures) {
-    write_file(task.picture, wrap_picture(shared.shape, scan, result, shared.frame,
+    write_file(task.picture, wrap_picture(shared.wrap_template, scan, result, shared.frame,
                                           task.scan.filename().string()));
   }
-  if (const auto doubts = wrap_doubts(shared.shape, result); options.strict && !doubts.empty()) {
+  if (const auto doubts = wrap_doubts(shared.wrap_template, result);
+      options.strict && !doubts.empty()) {
     write_file(task.report,
-               format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
+               format_wrap_report(facts, shared.wrap_template, result, shared.regions, warnings));
     throw InvalidInput(concat(task.scan.string(), ": --strict: ", join(doubts, "; ")));
   }
   EncodedFile head = encode_obj_like(shared.file, shared.file.topology,
@@ -287,15 +288,15 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   head.write(task.head);
   facts.mesh_digest = head.digest().hex();
   if (options.estimate) {
-    facts.leave_out_wrap_mm = leave_out_distances(
-        shared.shape, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
+    facts.leave_out_wrap_errors_mm = leave_out_distances(
+        shared.wrap_template, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
   }
   write_file(task.report,
-             format_wrap_report(facts, shared.shape, result, shared.regions, warnings));
+             format_wrap_report(facts, shared.wrap_template, result, shared.regions, warnings));
   for (const std::string& warning : warnings) {
     log_warning(concat(task.scan.string(), ": ", warning));
   }
-  const WrapDistances distances = measure_distances(shared.shape, result);
+  const WrapDistances distances = measure_distances(shared.wrap_template, result);
   log_info(concat(task.scan.string(), ": ", task.head.string(), ", ",
                   format_fixed(distances.median_mm, 2),
                   " mm from the scan (95 %: ", format_fixed(distances.percentile_95_mm, 2), "), ",

@@ -47,7 +47,8 @@ void write_face(const Job& job, const FaceTextures& textures, const FacePlan& fa
   StageTimes busy;
   FaceFinisher{textures, attachments, shapes, &encoders}.finish(finished, busy);
   const fs::path folder = file.parent_path();
-  if (names_attachment_textures(traits_of(format))) write_attachment_materials(job, face, folder);
+  if (refers_to_attachment_textures(traits_of(format)))
+    write_attachment_materials(job, face, folder);
   const auto shared = shared_files(format, job.config, job.inputs);
   if (shared && shared->is_referenced_by_meshes) shared->write(folder);
   const std::vector<FaceFile> files = mesh_files(

@@ -74,7 +74,7 @@ class Rings {
 };
 
 /// Returns the mean diagonal of the leaves' bounding boxes.
-double mean_leaf_size(const TriangleTree& tree, const SingleRows& points) {
+double mean_leaf_size(const TriangleTree& tree, const FloatPositions& points) {
   double sum = 0;
   for (const LeafCorners& corners : tree.corners) {
     const Box box = LeafBoxes(corners, points, 0).bounding_box();
@@ -107,7 +107,7 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
 
 void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, const Positions& points,
                                      double max_distance, double max_facing_distance) {
-  const SingleRows single = points.cast<float>();
+  const FloatPositions single = points.cast<float>();
   const double most = kMaxLeaves * mean_leaf_size(tree_, single);
   max_distance = std::min(max_distance, most);
   max_facing_distance = std::min(max_facing_distance, most);
@@ -126,24 +126,24 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
   // #leaves: two bit masks for leaf `one` and each leaf of the tree. A bit stands for a pair of
   // triangles, one from each leaf. The first mask marks triangles that are a few edges apart; the
   // second mask marks triangles with a common vertex.
-  std::vector<std::array<std::uint64_t, 2>> of_sheet(tree_.leaf_count());
+  std::vector<std::array<std::uint64_t, 2>> masks_of_leaf(tree_.leaf_count());
   for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
     const std::vector<std::uint32_t> others = scene.leaves_near(one);
-    for (const std::uint32_t other : others) of_sheet[other] = {0, 0};
+    for (const std::uint32_t other : others) masks_of_leaf[other] = {0, 0};
     const auto ones = tree_.leaf(one);
-    // Set the bits of both masks for triangles on the same sheet.
+    // Set the masks of the triangles that are at most kSheetRings edges from a triangle of `one`.
     for (std::size_t k = 0; k < ones.size(); ++k) {
       for (const std::uint32_t other : rings.triangles_near(ones[k])) {
         if (place[other] == kNoIndex) continue;
         const std::uint64_t bit = std::uint64_t{1}
                                   << (LeafBoxes::kCount * k + place[other] % LeafBoxes::kCount);
-        auto& [few_edges, joined] = of_sheet[place[other] / LeafBoxes::kCount];
+        auto& [few_edges, joined] = masks_of_leaf[place[other] / LeafBoxes::kCount];
         few_edges |= bit;
         if (share_vertex(numbered[ones[k]], numbered[other])) joined |= bit;
       }
     }
     for (const std::uint32_t other : others) {
-      const auto& [few_edges, joined] = of_sheet[other];
+      const auto& [few_edges, joined] = masks_of_leaf[other];
       // Find the candidate pairs of triangles in each pair of leaves.
       const std::uint64_t once = one == other ? kEachPairOnce : ~std::uint64_t{0};
       std::uint64_t facing_it = overlap_mask(far[one], far[other]);
@@ -191,23 +191,24 @@ void CrossingSearch::update(const Positions& mesh, const std::vector<bool>& chan
 
 std::vector<CrossingSearch::Pair> CrossingSearch::intersecting_pairs(
     const Positions& mesh, const Boxes& boxes,
-    const std::function<bool(std::uint32_t)>& is_excused) const {
+    const std::function<bool(std::uint32_t)>& may_intersect) const {
   std::vector<Pair> pairs;
   for (const LeafPair& pair : leaf_pairs_) {
     if ((boxes.is_changed[pair.first] | boxes.is_changed[pair.second]) == 0) continue;
     if (!boxes_overlap(boxes.leaf_boxes[pair.first], boxes.leaf_boxes[pair.second])) continue;
     std::uint64_t left =
-        (pair.always_tested | pair.tested_if_folded) &
+        (pair.always_tested_mask | pair.tested_if_folded_mask) &
         overlap_mask(boxes.triangle_boxes[pair.first], boxes.triangle_boxes[pair.second]);
-    if ((left & pair.tested_if_folded) != 0) {
-      left &= pair.always_tested | ~similar_normal_mask(boxes.leaf_normals[pair.first],
-                                                        boxes.leaf_normals[pair.second], kAlike);
+    if ((left & pair.tested_if_folded_mask) != 0) {
+      left &=
+          pair.always_tested_mask | ~similar_normal_mask(boxes.leaf_normals[pair.first],
+                                                         boxes.leaf_normals[pair.second], kAlike);
     }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
       const std::uint32_t t = tree_.leaf(pair.first)[bit / LeafBoxes::kCount];
       const std::uint32_t u = tree_.leaf(pair.second)[bit % LeafBoxes::kCount];
-      if (is_excused(t) && is_excused(u)) continue;
+      if (may_intersect(t) && may_intersect(u)) continue;
       if (!triangles_intersect(mesh, triangles_[t], triangles_[u])) continue;
       pairs.push_back({std::min(t, u), std::max(t, u)});
     }

@@ -34,7 +34,7 @@ class CrossingSearch {
 
   /// Bounding boxes of one mesh, which `update` keeps up to date between searches.
   struct Boxes {
-    SingleRows points;                      ///< #vertices of the triangles by 3
+    FloatPositions points;                  ///< #vertices of the triangles by 3
     std::vector<LeafBoxes> triangle_boxes;  ///< #leaves
     std::vector<LeafNormals> leaf_normals;  ///< #leaves
     std::vector<Box> leaf_boxes;
@@ -49,18 +49,19 @@ class CrossingSearch {
 
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
-  /// \param is_excused  A pair is ignored if this function returns true for both of its triangles.
-  std::vector<Pair> intersecting_pairs(const Positions& mesh, const Boxes& boxes,
-                                       const std::function<bool(std::uint32_t)>& is_excused) const;
+  /// \param may_intersect  A pair is ignored if this function returns true for both triangles.
+  std::vector<Pair> intersecting_pairs(
+      const Positions& mesh, const Boxes& boxes,
+      const std::function<bool(std::uint32_t)>& may_intersect) const;
 
  private:
   /// Bit masks of the candidates in a pair of leaves, or in one leaf that is paired with itself.
   /// Bit 8·i + j stands for triangle i of the first leaf and triangle j of the second leaf.
   struct LeafPair {
     std::uint32_t first, second;
-    std::uint64_t always_tested;
+    std::uint64_t always_tested_mask;
     /// pairs of triangles that are a few edges apart, tested only if their normals differ
-    std::uint64_t tested_if_folded;
+    std::uint64_t tested_if_folded_mask;
   };
   void find_leaf_pairs(const std::vector<Triangle>& triangles, const Positions& points,
                        double max_distance, double max_facing_distance);

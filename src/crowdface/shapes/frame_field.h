@@ -45,9 +45,10 @@ class FrameField {
     Eigen::Vector3d centre;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// The part of the node's map that comes from the whole skin: the skin's rotation and scale,
-    /// times this matrix. Determines the map in directions in which the samples do not extend.
-    Eigen::Matrix3d motion_factor;
+    /// The node's map is a sum of two terms. One term comes from the samples; the other term is the
+    /// rotation and scale of the whole skin, times this matrix. The second term determines the map
+    /// in directions in which the samples do not extend.
+    Eigen::Matrix3d whole_skin_factor;
   };
   struct NodeWeight {
     std::uint32_t node;
@@ -59,7 +60,7 @@ class FrameField {
 
   const Positions* neutral_ = nullptr;
   std::vector<std::uint32_t> sampled_skin_;
-  std::vector<double> unit_weights_;  ///< #sampled_skin_: all 1
+  std::vector<double> equal_weights_;  ///< #sampled_skin_: all 1
   std::vector<Node> nodes_;
   /// #vertices: the nodes between which each vertex interpolates, with weights
   CompressedRows<NodeWeight> node_weights_;

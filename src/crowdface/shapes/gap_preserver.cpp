@@ -22,7 +22,8 @@ GapPreserver::GapPreserver(const HeadSet& head_set, const Adjacency& adjacency,
 
 bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const {
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
-    for (const auto* profile : {&contacts_.section(p).low, &contacts_.section(p).high}) {
+    for (const auto* profile :
+         {&contacts_.section(p).low_profile, &contacts_.section(p).high_profile}) {
       for (const EdgePoint& point : *profile) {
         if (std::ranges::binary_search(vertices, point.a)) return true;
       }
@@ -34,7 +35,7 @@ bool GapPreserver::is_affected_by(std::span<const std::uint32_t> vertices) const
 std::vector<std::uint32_t> GapPreserver::contact_vertices() const {
   std::vector<std::uint32_t> vertices;
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
-    vertices.push_back(contacts_.section(p).low.front().a);
+    vertices.push_back(contacts_.section(p).low_profile.front().a);
   }
   return vertices;
 }
@@ -46,14 +47,14 @@ double GapPreserver::max_overlap(const Positions& positions) const {
 }
 
 void GapPreserver::adjust(std::span<const double> rest_gaps, std::span<const double> gap_changes,
-                          GapSelection selection, Positions& shape) const {
+                          GapSelection selection, Positions& shaped_face) const {
   std::vector<SkinContacts::Range> ranges(rest_gaps.size(), {-HUGE_VAL, HUGE_VAL});
   for (std::size_t p = 0; p < rest_gaps.size(); ++p) {
-    if (selection == GapSelection::kNearlySame && std::abs(gap_changes[p]) > max_gap_change_)
+    if (selection == GapSelection::kNearlyUnchanged && std::abs(gap_changes[p]) > max_gap_change_)
       continue;
     ranges[p] = {rest_gaps[p] + gap_changes[p], rest_gaps[p] + gap_changes[p]};
   }
-  contacts_.fit_gaps(ranges, shape);
+  contacts_.fit_gaps(ranges, shaped_face);
 }
 
 }  // namespace crowdface

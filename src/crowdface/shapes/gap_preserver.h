@@ -36,19 +36,20 @@ class GapPreserver {
   double max_overlap(const Positions& positions) const;
 
   /// Which gaps to adjust: only the gaps that the shape hardly changes, or all gaps.
-  enum class GapSelection { kNearlySame, kAll };
-  /// Adjusts a shape so that gaps become `rest_gaps + gap_changes`.
+  enum class GapSelection { kNearlyUnchanged, kAll };
+  /// Moves the skin of a face with a blend shape applied, so that gaps become
+  /// `rest_gaps + gap_changes`.
   ///
   /// \param rest_gaps    #gaps: gaps of the face at rest.
   /// \param gap_changes  #gaps: target change of each gap.
   /// \param selection    Which gaps to adjust.
-  /// \param shape        The face in the shape, #V by 3; adjusted.
+  /// \param shaped_face  The face with the blend shape applied, #V by 3; adjusted.
   void adjust(std::span<const double> rest_gaps, std::span<const double> gap_changes,
-              GapSelection selection, Positions& shape) const;
+              GapSelection selection, Positions& shaped_face) const;
 
  private:
   SkinContacts contacts_;
-  double max_gap_change_ = 0;  ///< largest change of a gap that kNearlySame adjusts
+  double max_gap_change_ = 0;  ///< largest change of a gap that kNearlyUnchanged adjusts
 };
 
 }  // namespace crowdface

@@ -28,8 +28,8 @@ constexpr double kBlur = .12;          // width of the kernel that blends sectio
 constexpr double kMinClosed = 0.05;
 /// A shape closes the lids only if at most this fraction of the template's gap at rest remains.
 constexpr double kMaxRemaining = 0.4;
-// Smallest allowed distance between lid and eyeball, if the distance is at least this large both in
-// the template's shape and on the face at rest.
+// Smallest allowed distance between a lid and the eyeball. A lid may be nearer to the eyeball if it
+// is nearer on the template with the blend shape applied, or on the face at rest.
 constexpr double kMargin = 0.004;
 /// Largest allowed depth of skin in the eyeball. Skin that is deeper at rest may stay that deep.
 constexpr double kDeepest = 0.0125;
@@ -106,24 +106,24 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
       lid.closing_weight = smooth_step(kNoShare * radius_, kWholeShare * radius_, from.norm());
     if (lid.closing_weight > 0 || lid.eyeball_weight > 0) lid_vertices_.push_back(lid);
   }
-  sort_profiles_first();
+  move_profile_vertices_to_front();
   for (const LidVertex& lid : lid_vertices_) {
     const double at = (row3(neutral, lid.vertex) + row3(shape.moves, lid.row)).dot(along);
-    const std::size_t first = gain_effects_.size();
+    const std::size_t first = section_weights_.size();
     double sum = 0;
     for (const LidSection& section : sections_) {
       const double x = (at - section.along_opening) / (kBlur * radius_);
-      gain_effects_.push_back(1 / ((x * x + 1) * (x * x + 1)));
-      sum += gain_effects_.back();
+      section_weights_.push_back(1 / ((x * x + 1) * (x * x + 1)));
+      sum += section_weights_.back();
     }
-    for (std::size_t p = first; p < gain_effects_.size(); ++p)
-      gain_effects_[p] *= lid.closing_weight / sum;
+    for (std::size_t p = first; p < section_weights_.size(); ++p)
+      section_weights_[p] *= lid.closing_weight / sum;
   }
 }
 
-/// Moves the lid vertices that belong to profiles to the front of the list, because the search for
-/// gains moves only these vertices.
-void LidClosure::sort_profiles_first() {
+/// Moves the lid vertices that belong to profiles to the front of the list. While `fit_lids`
+/// searches for the gains, it moves only these vertices.
+void LidClosure::move_profile_vertices_to_front() {
   std::set<std::uint32_t> rows;
   for (const LidSection& section : sections_) {
     for (const auto* points : {&section.lower_profile, &section.upper_profile}) {
@@ -139,13 +139,14 @@ void LidClosure::sort_profiles_first() {
 void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency,
                               const Positions& neutral, const Displacements& shape,
                               const HeadAxes& axes) {
-  // Distribute sections along the opening, between the corners of the eye.
+  // The template with the blend shape applied.
   Positions closed = neutral;
   shape.add_to(closed);
   const Eigen::Vector3d along = axes.side();
   std::vector<signed char> sides(static_cast<std::size_t>(neutral.rows()), 0);
   mark_lid_sides(eye, neutral, sides);
   const std::vector<double> side(sides.begin(), sides.end());
+  // Distribute sections along the opening, between the corners of the eye.
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const std::uint32_t r : eye.lids.rim) {
     const double at = row3(neutral, eye.lids.vertices[r]).dot(along);
@@ -160,7 +161,7 @@ void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency
     // section if the shape closes the lids enough.
     GapSection cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
     cut_profiles(adjacency, closed, eye.skin_vertices, side, kProfile * radius_, cut);
-    if (cut.low.empty() || cut.high.empty()) continue;
+    if (cut.low_profile.empty() || cut.high_profile.empty()) continue;
     const double before = cut.gap(neutral), after = cut.gap(closed);
     if (before - after < kMinClosed * radius_ || after > kMaxRemaining * before) continue;
     LidSection section{{}, {}, at, before - after};
@@ -170,8 +171,8 @@ void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency
                       index_in_list(shape.vertices, point.b)});
       }
     };
-    add(cut.low, section.lower_profile);
-    add(cut.high, section.upper_profile);
+    add(cut.low_profile, section.lower_profile);
+    add(cut.high_profile, section.upper_profile);
     sections_.push_back(std::move(section));
   }
 }
@@ -187,31 +188,31 @@ LidClosure::EyeAxes LidClosure::eye_axes(const RigidMotion& face_motion) const {
           face_motion.apply_to_direction(axes_.up) / face_motion.scale};
 }
 
-LidClosure::Goals LidClosure::measure_goals(const Positions& mesh, const FaceEye& eye,
-                                            const RigidMotion& face_motion,
-                                            const Positions& moves) const {
-  Goals goals;
-  if (!sections_.empty()) goals.gaps = measure_gaps(eye_axes(face_motion), mesh, moves);
-  for (Gap& gap : goals.gaps)
-    gap = {gap.paired_gap / face_motion.scale, gap.vertical_gap / face_motion.scale};
+LidClosure::LidTargets LidClosure::measure_targets(const Positions& mesh, const FaceEye& eye,
+                                                   const RigidMotion& face_motion,
+                                                   const Positions& moves) const {
+  LidTargets targets;
+  if (!sections_.empty()) targets.gaps = measure_gaps(eye_axes(face_motion), mesh, moves);
+  for (Gap& gap : targets.gaps)
+    gap = {gap.section_gap / face_motion.scale, gap.vertical_gap / face_motion.scale};
   for (const LidVertex& lid : lid_vertices_) {
     const double after = eye.gap_at(row3(mesh, lid.vertex) + row3(moves, lid.row)).gap;
-    goals.ball_distances.push_back(after / face_motion.scale);
-    goals.distance_changes.push_back((after - eye.rest_gaps[lid.skin_index]) / face_motion.scale);
+    targets.ball_distances.push_back(after / face_motion.scale);
+    targets.distance_changes.push_back((after - eye.rest_gaps[lid.skin_index]) / face_motion.scale);
   }
-  return goals;
+  return targets;
 }
 
-LidClosure::Goals LidClosure::mean_goals(std::span<const Goals> goals,
-                                         std::span<const ShapeSetShare> shares) {
-  Goals mean;
-  mean.gaps.assign(goals.front().gaps.size(), {0, 0});
-  mean.ball_distances.assign(goals.front().ball_distances.size(), 0);
+LidClosure::LidTargets LidClosure::mean_targets(std::span<const LidTargets> targets,
+                                                std::span<const ShapeSetShare> shares) {
+  LidTargets mean;
+  mean.gaps.assign(targets.front().gaps.size(), {0, 0});
+  mean.ball_distances.assign(targets.front().ball_distances.size(), 0);
   mean.distance_changes = mean.ball_distances;
   for (const ShapeSetShare& of_set : shares) {
-    const Goals& one = goals[of_set.set];
+    const LidTargets& one = targets[of_set.set];
     for (std::size_t p = 0; p < mean.gaps.size(); ++p) {
-      mean.gaps[p].paired_gap += of_set.share * one.gaps[p].paired_gap;
+      mean.gaps[p].section_gap += of_set.share * one.gaps[p].section_gap;
       mean.gaps[p].vertical_gap += of_set.share * one.gaps[p].vertical_gap;
     }
     for (std::size_t i = 0; i < mean.ball_distances.size(); ++i) {
@@ -268,32 +269,33 @@ void LidClosure::move_lids(std::size_t count, const Eigen::Vector3d& up, const P
   for (std::size_t i = 0; i < count; ++i) {
     const LidVertex& lid = lid_vertices_[i];
     const Eigen::Vector3d move = row3(carried, lid.row);
-    const double gain = fixed_order_dot(gain_effects(i), gains);
+    const double gain = fixed_order_dot(section_weights(i), gains);
     moves.row(lid.row) = (move + gain * move.dot(up) * up).transpose();
   }
 }
 
 double LidClosure::min_ball_distance(std::size_t lid, double rest, double scale,
-                                     const Goals& goals) const {
-  const double of_shape = std::max(scale * goals.ball_distances[lid], -kDeepest * scale * radius_);
+                                     const LidTargets& targets) const {
+  const double of_shape =
+      std::max(scale * targets.ball_distances[lid], -kDeepest * scale * radius_);
   return std::min({rest, of_shape, kMargin * scale * radius_});
 }
 
 void LidClosure::keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye,
-                               double scale, const Goals& goals, Positions& moves) const {
+                               double scale, const LidTargets& targets, Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
     const LidVertex& lid = lid_vertices_[i];
     if (lid.eyeball_weight == 0) continue;
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     const double rest = eye.rest_gaps[lid.skin_index];
-    const double wanted = std::max(rest + scale * goals.distance_changes[i],
-                                   min_ball_distance(i, rest, scale, goals));
+    const double wanted = std::max(rest + scale * targets.distance_changes[i],
+                                   min_ball_distance(i, rest, scale, targets));
     moves.row(lid.row) += (lid.eyeball_weight * (wanted - now.gap) * now.normal).transpose();
   }
 }
 
 bool LidClosure::move_out_of_eyeball(const Positions& face, const FaceEye& eye,
-                                     const RigidMotion& face_motion, const Goals& goals,
+                                     const RigidMotion& face_motion, const LidTargets& targets,
                                      Positions& moves) const {
   const double tolerance = kSomeDeeper * face_motion.scale * radius_;
   bool is_out = true;
@@ -301,10 +303,11 @@ bool LidClosure::move_out_of_eyeball(const Positions& face, const FaceEye& eye,
     const LidVertex& lid = lid_vertices_[i];
     if (lid.eyeball_weight == 0) continue;
     const double least =
-        min_ball_distance(i, eye.rest_gaps[lid.skin_index], face_motion.scale, goals);
+        min_ball_distance(i, eye.rest_gaps[lid.skin_index], face_motion.scale, targets);
     const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
-    // Compare the weighted distance with the tolerance, because the correction has the same weight.
+    // The correction below moves the vertex by the missing distance times `eyeball_weight`. So the
+    // vertex counts as too deep only if this product reaches the tolerance.
     is_out = is_out && lid.eyeball_weight * (least - now.gap) < tolerance;
     moves.row(lid.row) += (lid.eyeball_weight * (least - now.gap) * now.normal).transpose();
   }
@@ -312,21 +315,21 @@ bool LidClosure::move_out_of_eyeball(const Positions& face, const FaceEye& eye,
 }
 
 double LidClosure::largest_open_gap(const Positions& face, const RigidMotion& face_motion,
-                                    const Goals& goals, const Positions& moves) const {
+                                    const LidTargets& targets, const Positions& moves) const {
   const std::vector<Gap> now = measure_gaps(eye_axes(face_motion), face, moves);
   double open = 0;
   for (std::size_t p = 0; p < now.size(); ++p) {
-    const double allowed = std::max(goals.gaps[p].vertical_gap / radius_, kClosed);
+    const double allowed = std::max(targets.gaps[p].vertical_gap / radius_, kClosed);
     open = std::max(open, now[p].vertical_gap / (face_motion.scale * radius_) - allowed);
   }
   return open;
 }
 
 void LidClosure::close_again(const Positions& face, const RigidMotion& face_motion,
-                             const Goals& goals, Positions& moves) const {
+                             const LidTargets& targets, Positions& moves) const {
   const EyeAxes axes = eye_axes(face_motion);
   std::vector<double> gains =
-      gap_excesses(measure_gaps(axes, face, moves), goals, face_motion.scale);
+      gap_excesses(measure_gaps(axes, face, moves), targets, face_motion.scale);
   for (std::size_t p = 0; p < sections_.size(); ++p) {
     gains[p] = std::max(gains[p], 0.0) / (face_motion.scale * sections_[p].template_closing);
   }
@@ -334,22 +337,22 @@ void LidClosure::close_again(const Positions& face, const RigidMotion& face_moti
   move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);
 }
 
-std::vector<double> LidClosure::gap_excesses(const std::vector<Gap>& now, const Goals& goals,
+std::vector<double> LidClosure::gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
                                              double scale) {
   std::vector<double> missing;
   for (std::size_t p = 0; p < now.size(); ++p) {
-    const Gap& wanted = goals.gaps[p];
-    missing.push_back(std::max(now[p].paired_gap - scale * wanted.paired_gap,
+    const Gap& wanted = targets.gaps[p];
+    missing.push_back(std::max(now[p].section_gap - scale * wanted.section_gap,
                                now[p].vertical_gap - scale * std::max(wanted.vertical_gap, 0.0)));
   }
   return missing;
 }
 
 void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const RigidMotion& face_motion,
-                          const Goals& goals, Positions& moves) const {
+                          const LidTargets& targets, Positions& moves) const {
   const EyeAxes axes = eye_axes(face_motion);
   if (sections_.empty()) {
-    return keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, goals, moves);
+    return keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, targets, moves);
   }
   const Positions carried = moves;
   std::vector<double> gains(sections_.size(), 0.0);
@@ -358,9 +361,9 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
   // gap at a section as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) move_lids(profile_vertex_count_, axes.up, carried, gains, moves);
-    keep_off_ball(profile_vertex_count_, face, eye, face_motion.scale, goals, moves);
+    keep_off_ball(profile_vertex_count_, face, eye, face_motion.scale, targets, moves);
     const std::vector<double> missing =
-        gap_excesses(measure_gaps(axes, face, moves), goals, face_motion.scale);
+        gap_excesses(measure_gaps(axes, face, moves), targets, face_motion.scale);
     if (step == 0) {
       for (const double gap : missing) sure = std::max(sure, std::abs(gap) / 2);
       sure = std::min(sure, kMaxExtraClosing * face_motion.scale * radius_);
@@ -370,7 +373,7 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
     }
   }
   move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);
-  keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, goals, moves);
+  keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, targets, moves);
 }
 
 }  // namespace crowdface

@@ -16,7 +16,7 @@ namespace crowdface {
 
 /// An eye of the template.
 struct TemplateEye {
-  BallMap ball;
+  BallMap ball;  ///< radius of the eyeball in each direction
   Lids lids;
   std::vector<std::uint32_t> skin_vertices;  ///< vertices around the eye, ascending
 };
@@ -61,52 +61,54 @@ class LidClosure {
   /// Gap between the rims of both lids at one section across the opening; negative if the upper lid
   /// is below the lower lid.
   struct Gap {
-    double paired_gap;    ///< gap between points that lie above each other on the template
+    /// gap between the two rim points of the section, which lie above each other on the template
+    double section_gap;
     double vertical_gap;  ///< vertical distance from the point of the upper rim to the lower rim
   };
   /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
   /// are known, and divided by the mesh's scale relative to the template.
-  struct Goals {
+  struct LidTargets {
     std::vector<Gap> gaps;  ///< #sections
     /// #lids (lid vertices): distance from the eyeball in the shape, and this distance minus the
     /// distance at rest
     std::vector<double> ball_distances, distance_changes;
   };
-  /// Measures the goals on a mesh with known displacements.
+  /// Measures the targets on a mesh with known displacements.
   ///
   /// \param mesh   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the mesh.
   /// \param moves  The mesh's displacements in the shape, one row for each vertex of the shape.
-  Goals measure_goals(const Positions& mesh, const FaceEye& eye, const RigidMotion& face_motion,
-                      const Positions& moves) const;
-  /// Returns the weighted mean of the goals of several sets of shapes.
-  static Goals mean_goals(std::span<const Goals> goals, std::span<const ShapeSetShare> shares);
+  LidTargets measure_targets(const Positions& mesh, const FaceEye& eye,
+                             const RigidMotion& face_motion, const Positions& moves) const;
+  /// Returns the weighted mean of the targets of several sets of shapes.
+  static LidTargets mean_targets(std::span<const LidTargets> targets,
+                                 std::span<const ShapeSetShare> shares);
   /// Returns whether the shape closes the lids.
   bool closes_lids() const { return !sections_.empty(); }
   /// Returns the indices of the rows in the shape's displacements that `fit_lids` may change.
   std::vector<std::uint32_t> adjustable_rows() const;
 
   /// Returns the largest excess of a gap over its limit, in radii of the eyeball; 0 if no gap
-  /// exceeds its limit. The limit is the larger of two gaps: the goal, and the gap that counts as
+  /// exceeds its limit. The limit is the larger of two gaps: the target, and the gap that counts as
   /// closed. Only for shapes that close the lids.
-  double largest_open_gap(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
-                          const Positions& moves) const;
+  double largest_open_gap(const Positions& face, const RigidMotion& face_motion,
+                          const LidTargets& targets, const Positions& moves) const;
   /// Scales the lids' vertical movement to close lids again that other corrections have opened.
-  void close_again(const Positions& face, const RigidMotion& face_motion, const Goals& goals,
+  void close_again(const Positions& face, const RigidMotion& face_motion, const LidTargets& targets,
                    Positions& moves) const;
 
-  /// Adjusts a shape until it meets the goals.
+  /// Adjusts a shape until it meets the targets.
   ///
   /// \param face   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the face.
   /// \param moves  Displacements of the face, one row for each vertex of the shape; adjusted.
   void fit_lids(const Positions& face, const FaceEye& eye, const RigidMotion& face_motion,
-                const Goals& goals, Positions& moves) const;
+                const LidTargets& targets, Positions& moves) const;
   /// Moves lid vertices that are too deep in the eyeball outwards.
   ///
   /// \return  false if any vertex was noticeably too deep before this call.
   bool move_out_of_eyeball(const Positions& face, const FaceEye& eye,
-                           const RigidMotion& face_motion, const Goals& goals,
+                           const RigidMotion& face_motion, const LidTargets& targets,
                            Positions& moves) const;
 
  private:
@@ -139,25 +141,27 @@ class LidClosure {
 
   void add_sections(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
                     const Displacements& shape, const HeadAxes& axes);
-  void sort_profiles_first();
-  std::span<const double> gain_effects(std::size_t lid) const {
-    return {gain_effects_.data() + lid * sections_.size(), sections_.size()};
+  /// Reorders lid_vertices_: the vertices of the sections' profiles come first.
+  void move_profile_vertices_to_front();
+  std::span<const double> section_weights(std::size_t lid) const {
+    return {section_weights_.data() + lid * sections_.size(), sections_.size()};
   }
   /// Scales the vertical movement of each of the first `count` lid vertices by 1 + the weighted sum
   /// of the sections' gains.
+  /// \param carried  displacements before scaling, one row for each vertex of the shape.
   void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the
   /// smallest of its distance at rest, its distance in the shape, and a small margin.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
-                           const Goals& goals) const;
+                           const LidTargets& targets) const;
   void keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
-                     const Goals& goals, Positions& moves) const;
+                     const LidTargets& targets, Positions& moves) const;
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
   static RimPoint rim_point(const std::vector<ProfilePoint>& points, double sign,
                             const EyeAxes& axes, const Positions& face, const Positions& moves);
-  /// Returns one value for each section: the current gap minus the goal.
-  static std::vector<double> gap_excesses(const std::vector<Gap>& now, const Goals& goals,
+  /// Returns one value for each section: the current gap minus the target gap.
+  static std::vector<double> gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
                                           double scale);
   std::vector<Gap> measure_gaps(const EyeAxes& axes, const Positions& face,
                                 const Positions& moves) const;
@@ -167,8 +171,9 @@ class LidClosure {
   std::vector<LidSection> sections_;
   std::vector<LidVertex> lid_vertices_;
   std::size_t profile_vertex_count_ = 0;  ///< number of lid vertices in profiles; they come first
-  /// #lids by #sections: weight of each section's gain in the movement of each lid vertex
-  std::vector<double> gain_effects_;
+  /// #lid_vertices_ by #sections_: weights with which each lid vertex follows the sections. The
+  /// vertical movement of the vertex grows by the weighted sum of the sections' gains.
+  std::vector<double> section_weights_;
 };
 
 }  // namespace crowdface

@@ -34,8 +34,9 @@ PointCarrier::PointCarrier(const PointSet& points, const PartList& parts,
     for (std::size_t p = 0; p < points.names.size(); ++p) {
       const Eigen::Vector3d point = row3(points.positions[m], static_cast<Index>(p));
       const auto on_surface = point_on_surface(point, points.meshes[m], triangles);
-      anchors_[m].push_back(on_surface ? Anchor(*on_surface)
-                                       : Anchor(socket_of(point, points.meshes[m], parts, skin)));
+      anchors_[m].push_back(
+          on_surface ? Anchor(*on_surface)
+                     : Anchor(find_followed_vertices(point, points.meshes[m], parts, skin)));
     }
   }
 }
@@ -62,8 +63,9 @@ std::optional<PointCarrier::TrianglePoint> PointCarrier::point_on_surface(
   return found;
 }
 
-Socket PointCarrier::socket_of(const Eigen::Vector3d& point, const Positions& mesh,
-                               const PartList& parts, std::span<const std::uint32_t> skin) {
+Socket PointCarrier::find_followed_vertices(const Eigen::Vector3d& point, const Positions& mesh,
+                                            const PartList& parts,
+                                            std::span<const std::uint32_t> skin) {
   const auto whole = [](const std::vector<std::uint32_t>& vertices) {
     return Socket{vertices, std::vector<double>(vertices.size(), 1.0)};
   };

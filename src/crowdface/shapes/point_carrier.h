@@ -19,9 +19,11 @@ namespace crowdface {
 /// Every generated face gets these points too.
 struct PointSet {
   std::vector<std::string> names;
-  /// `positions`: #names by 3 each. `meshes`: the mesh of each set of points, #V by 3. Both have
-  /// one entry for all faces, or one entry per head for the faces that are built on this head.
-  std::vector<Positions> positions, meshes;
+  /// Each entry is #names by 3. A single entry holds the points for all faces. Otherwise entry h
+  /// holds the points for the faces that are built on head h.
+  std::vector<Positions> positions;
+  /// The mesh to which each entry of `positions` belongs, #V by 3.
+  std::vector<Positions> meshes;
 
   bool empty() const { return names.empty(); }
 };
@@ -51,14 +53,16 @@ class PointCarrier {
     Triangle corners;
     std::array<double, 3> shares;  ///< barycentric coordinates
   };
-  /// What a point follows: a fixed position on a triangle, or the joint motion of several vertices.
+  /// What a point follows: a fixed position on a triangle, or the rigid motion of a vertex group.
   using Anchor = std::variant<TrianglePoint, Socket>;
 
   static std::optional<TrianglePoint> point_on_surface(const Eigen::Vector3d& point,
                                                        const Positions& mesh,
                                                        std::span<const Triangle> triangles);
-  static Socket socket_of(const Eigen::Vector3d& point, const Positions& mesh,
-                          const PartList& parts, std::span<const std::uint32_t> skin);
+  /// Finds the vertices whose motion a point follows: the vertices of a rigid part, or the skin
+  /// around the point.
+  static Socket find_followed_vertices(const Eigen::Vector3d& point, const Positions& mesh,
+                                       const PartList& parts, std::span<const std::uint32_t> skin);
 
   const PointSet& points_;
   std::vector<std::vector<Anchor>> anchors_;  ///< #meshes by #names

@@ -21,9 +21,9 @@ namespace {
 constexpr std::size_t kMaxFitted = 500;
 /// Skin belongs to an eye if its distance from the eyeball's centre is at most this many radii.
 constexpr double kEyeSkin = 3;
-/// A shape is corrective (see find_prerequisites) if its lips overlap by more than this length, as
-/// a fraction of the skin's extent; about 5 mm.
-constexpr double kFarThrough = 0.012;
+/// A shape is corrective (see find_prerequisites) if, applied alone, it makes the lips overlap by
+/// more than this length: a fraction of the skin's extent, about 5 mm.
+constexpr double kCorrectiveOverlap = 0.012;
 
 std::vector<std::uint32_t> all_moved_vertices(const ShapeSet& shape_set) {
   std::vector<std::uint32_t> used;
@@ -62,10 +62,10 @@ std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape
   parallel_for_each(count, [&](std::size_t s) { through[s] = through_in({s}); });
   std::vector<std::optional<std::size_t>> prerequisites(count);
   for (std::size_t s = 0; s < count; ++s) {
-    if (through[s] <= kFarThrough * extent) continue;
+    if (through[s] <= kCorrectiveOverlap * extent) continue;
     double least = through[s] / 2;
     for (std::size_t other = 0; other < count; ++other) {
-      if (through[other] > kFarThrough * extent) continue;
+      if (through[other] > kCorrectiveOverlap * extent) continue;
       const double both = through_in({s, other});
       if (both >= least) continue;
       least = both;
@@ -75,19 +75,19 @@ std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape
   return prerequisites;
 }
 
-PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjacency,
+PreparedShapes::PreparedShapes(const HeadSet& head_set, const Adjacency& adjacency,
                                const PartList& parts, const HeadAxes& head_axes,
                                const ShapeSet& shape_set, const RegionWeights& regions)
-    : faces(all_faces),
+    : head_set(head_set),
       shape_set(shape_set),
       axes(head_axes),
-      vertex_faces(faces.topology),
+      vertex_faces(head_set.topology),
       skin(skin_of(parts, vertex_faces)),
       moved_vertices(all_moved_vertices(shape_set)),
-      contacts(faces, adjacency, skin),
+      contacts(head_set, adjacency, skin),
       extent(extent_of(shape_set.neutral, skin)),
-      crossings(faces.topology, skin, extent, axes) {
-  const Positions mean = mean_head(faces);
+      crossings(head_set.topology, skin, extent, axes) {
+  const Positions mean = mean_head(head_set);
   for (const Part& part : parts.parts) {
     if (part.part_class != PartClass::kRigid) continue;
     add_part(part, parts, mean);
@@ -111,10 +111,10 @@ PreparedShapes::PreparedShapes(const HeadSet& all_faces, const Adjacency& adjace
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
   RigidPart bound{
       part.vertices, evenly_spaced_items(part.vertices, kMaxFitted), {}, Eigen::Vector3d::Zero()};
-  bound.unit_weights.assign(bound.fitted_vertices.size(), 1.0);
+  bound.equal_weights.assign(bound.fitted_vertices.size(), 1.0);
   if (part.is_eyeball) {
     const RigidMotion motion =
-        fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.unit_weights);
+        fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.equal_weights);
     bound.centre = motion.apply(parts.shapes[part.ball_component].centre);
   } else {
     bound.centre = centre_of(shape_set.neutral, part.vertices);
@@ -126,14 +126,14 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
   const RigidPart& bound = rigid_parts.back();
   const auto map_in = [&](const Positions& head) {
     const RigidMotion motion =
-        fit_rigid_motion(mean, head, bound.fitted_vertices, bound.unit_weights);
-    return BallMap(faces.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
+        fit_rigid_motion(mean, head, bound.fitted_vertices, bound.equal_weights);
+    return BallMap(head_set.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
                    motion.scale * ball.radius, axes);
   };
   PreparedEye eye{rigid_parts.size() - 1, {map_in(shape_set.neutral), {}, {}}, {}};
-  eye.balls.resize(faces.heads.size());
-  parallel_for_each(faces.heads.size(),
-                    [&](std::size_t h) { eye.balls[h] = map_in(faces.heads[h].positions); });
+  eye.balls.resize(head_set.heads.size());
+  parallel_for_each(head_set.heads.size(),
+                    [&](std::size_t h) { eye.balls[h] = map_in(head_set.heads[h].positions); });
   const BallMap& here = eye.template_eye.ball;
   eye.template_eye.lids = find_lids(shape_set.neutral, PointGrid(shape_set.neutral, part.vertices),
                                     here.centre(), here.radius(), axes, skin);
@@ -165,11 +165,12 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
     return std::ranges::binary_search(skin, v) ? v
                                                : grid.nearest(row3(shape_set.neutral, v)).vertex;
   };
-  alpha.resize(static_cast<Index>(moved_vertices.size()), regions.alpha.cols());
+  vertex_region_weights.resize(static_cast<Index>(moved_vertices.size()), regions.alpha.cols());
   parallel_for_each(moved_vertices.size(), [&](std::size_t i) {
-    alpha.row(static_cast<Index>(i)) = regions.alpha.row(nearest(moved_vertices[i]));
+    vertex_region_weights.row(static_cast<Index>(i)) =
+        regions.alpha.row(nearest(moved_vertices[i]));
   });
-  contact_alpha = regions.alpha(contacts.contact_vertices(), kAllColumns);
+  contact_region_weights = regions.alpha(contacts.contact_vertices(), kAllColumns);
   for (const RigidPart& part : rigid_parts) {
     std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
     for (const std::uint32_t v : part.fitted_vertices) {
@@ -184,53 +185,53 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
 }
 
 void PreparedShapes::prepare_shape(const Displacements& moves, const Adjacency& adjacency,
-                                   PreparedShape& state) const {
+                                   PreparedShape& prepared) const {
   for (const std::uint32_t v : moves.vertices)
-    state.vertex_indices.push_back(index_in_list(moved_vertices, v));
+    prepared.vertex_indices.push_back(index_in_list(moved_vertices, v));
   for (std::size_t p = 0; p < rigid_parts.size(); ++p) {
     PartMove part{p, {}, {}, {}};
     for (const std::uint32_t v : rigid_parts[p].vertices) {
       const std::uint32_t row = index_in_list(moves.vertices, v);
       if (row == kNoIndex) continue;
-      part.rows.push_back(row);
-      part.vertices.push_back(v);
+      part.displacement_rows.push_back(row);
+      part.moved_vertices.push_back(v);
     }
-    if (!part.rows.empty()) state.parts.push_back(std::move(part));
+    if (!part.moved_vertices.empty()) prepared.parts.push_back(std::move(part));
   }
-  prepare_lids(moves, adjacency, state);
-  state.moves_contacts = contacts.is_affected_by(moves.vertices);
-  state.searched_skin = find_searched_skin(moves, state);
+  prepare_lids(moves, adjacency, prepared);
+  prepared.moves_contacts = contacts.is_affected_by(moves.vertices);
+  prepared.searched_skin = find_searched_skin(moves, prepared);
   Positions shaped = shape_set.neutral;
-  if (state.prerequisite) shape_set.shapes[*state.prerequisite].moves.add_to(shaped);
+  if (prepared.prerequisite) shape_set.shapes[*prepared.prerequisite].moves.add_to(shaped);
   moves.add_to(shaped);
-  state.skin_over_parts =
+  prepared.skin_over_parts =
       SkinOverParts(shaped, crossings.mesh(), inner_vertices, moves.vertices, axes, extent);
 }
 
-SkinCrossings::SearchedSkin PreparedShapes::find_searched_skin(const Displacements& moves,
-                                                               const PreparedShape& state) const {
+SkinCrossings::SearchedSkin PreparedShapes::find_searched_skin(
+    const Displacements& moves, const PreparedShape& prepared) const {
   std::vector<signed char> side;
   for (std::size_t e = 0; e < eyes.size(); ++e) {
-    if (!state.lids[e].lids.closes_lids()) continue;
+    if (!prepared.lids[e].lids.closes_lids()) continue;
     side.resize(static_cast<std::size_t>(shape_set.neutral.rows()), 0);
     mark_lid_sides(eyes[e].template_eye, shape_set.neutral, side);
   }
-  if (!state.prerequisite)
+  if (!prepared.prerequisite)
     return crossings.find_searched_skin(shape_set.neutral, moves, std::move(side));
   Positions rest = shape_set.neutral;
-  shape_set.shapes[*state.prerequisite].moves.add_to(rest);
+  shape_set.shapes[*prepared.prerequisite].moves.add_to(rest);
   SkinCrossings::SearchedSkin found = crossings.find_searched_skin(rest, moves, std::move(side));
   found.joins_distant_skin = true;
   return found;
 }
 
 void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& adjacency,
-                                  PreparedShape& state) const {
+                                  PreparedShape& prepared) const {
   std::vector<bool> fitted(moves.vertices.size(), false);
   for (const PreparedEye& eye : eyes) {
     LidClosure lids(eye.template_eye, adjacency, shape_set.neutral, moves, axes);
     for (const std::uint32_t row : lids.adjustable_rows()) fitted[row] = true;
-    state.lids.push_back({std::move(lids), {}});
+    prepared.lids.push_back({std::move(lids), {}});
   }
   std::vector<bool> is_free(static_cast<std::size_t>(shape_set.neutral.rows()), true);
   for (const std::uint32_t v : skin) is_free[v] = false;
@@ -251,8 +252,8 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
     const Eigen::Vector3d point = row3(shape_set.neutral, v);
     const auto nearest = grid.nearest(point, reach);
     if (nearest.vertex == kNoIndex) continue;
-    const SurfacePoint place = nearest_point_around(faces.topology, vertex_faces, shape_set.neutral,
-                                                    nearest.vertex, point);
+    const SurfacePoint place = nearest_point_around(head_set.topology, vertex_faces,
+                                                    shape_set.neutral, nearest.vertex, point);
     LidFollower follower{row, {}, place.shares};
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -260,7 +261,7 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
       follower.rows[k] = corner != kNoIndex && fitted[corner] ? corner : kNoIndex;
       any = any || follower.rows[k] != kNoIndex;
     }
-    if (any) state.lid_followers.push_back(follower);
+    if (any) prepared.lid_followers.push_back(follower);
   }
 }
 
@@ -273,11 +274,11 @@ PreparedShapes::FaceFrames PreparedShapes::make_face_frames(const Positions& fac
   return face_frames;
 }
 
-Eigen::Matrix3d PreparedShapes::mean_map(const PartMove& part, const PreparedShape& state,
+Eigen::Matrix3d PreparedShapes::mean_map(const PartMove& part, const PreparedShape& prepared,
                                          std::span<const Eigen::Matrix3d> maps) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t row : part.rows) map += maps[state.vertex_indices[row]];
-  return map / static_cast<double>(part.rows.size());
+  for (const std::uint32_t row : part.displacement_rows) map += maps[prepared.vertex_indices[row]];
+  return map / static_cast<double>(part.displacement_rows.size());
 }
 
 /// Measures how each set of shapes moves parts and lids, and normalises the heads' own shapes by
@@ -286,7 +287,7 @@ void PreparedShapes::add_sets() {
   const std::size_t heads = shape_set.head_shapes.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
     const FaceFrames face_frames =
-        make_face_frames(heads > 0 ? faces.heads[h].positions : shape_set.neutral);
+        make_face_frames(heads > 0 ? head_set.heads[h].positions : shape_set.neutral);
     std::vector<FaceEye> face_eyes;
     for (const auto& [part, eye, balls] : eyes) {
       face_eyes.push_back(
@@ -296,7 +297,7 @@ void PreparedShapes::add_sets() {
       const Displacements own = shape_of_set(h, s);
       Positions rest = face_frames.mesh;
       if (const auto& other = shapes[s].prerequisite) shape_of_set(h, *other).add_to(rest);
-      add_set(face_frames, rest, own, face_eyes, shapes[s]);
+      add_data_of_set(face_frames, rest, own, face_eyes, shapes[s]);
       if (heads > 0)
         shapes[s].head_moves.push_back(normalised_moves(face_frames, shapes[s], own.moves));
     });
@@ -309,42 +310,44 @@ Displacements PreparedShapes::shape_of_set(std::size_t number, std::size_t shape
   return {all.vertices, rows_in(all.vertices, shape_set.head_shapes[number][shape])};
 }
 
-void PreparedShapes::add_set(const FaceFrames& face_frames, const Positions& rest,
-                             const Displacements& shape, std::span<const FaceEye> face_eyes,
-                             PreparedShape& state) const {
+void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positions& rest,
+                                     const Displacements& shape, std::span<const FaceEye> face_eyes,
+                                     PreparedShape& prepared) const {
   const Positions& moves = shape.moves;
   const RigidMotion& face_motion = face_frames.frames.face_motion;
-  for (PartMove& part : state.parts) {
+  for (PartMove& part : prepared.parts) {
     const RigidPart& bound = rigid_parts[part.part];
-    const Eigen::Matrix3d map = mean_map(part, state, face_frames.maps);
+    const Eigen::Matrix3d map = mean_map(part, prepared, face_frames.maps);
     const PlacedPart placed(bound, shape_set.neutral, face_frames.mesh, face_motion, map);
-    part.turns.push_back(find_turn(bound, placed, part.vertices, part.rows, moves));
+    part.turns.push_back(
+        find_turn(bound, placed, part.moved_vertices, part.displacement_rows, moves));
   }
   for (std::size_t e = 0; e < eyes.size(); ++e) {
-    LidMove& move = state.lids[e];
+    LidMove& move = prepared.lids[e];
     if (move.lids.empty()) continue;
-    move.goals.push_back(
-        move.lids.measure_goals(face_frames.mesh, face_eyes[e], face_motion, moves));
+    move.targets.push_back(
+        move.lids.measure_targets(face_frames.mesh, face_eyes[e], face_motion, moves));
   }
   Positions moved = rest;
   shape.add_to(moved);
-  if (!shape_set.head_shapes.empty() && !state.searched_skin.search.triangles().empty()) {
-    crossings.mark_excused(moved, state.searched_skin);
+  if (!shape_set.head_shapes.empty() && !prepared.searched_skin.search.triangles().empty()) {
+    crossings.allow_intersections_of(moved, prepared.searched_skin);
   }
-  if (!state.moves_contacts) return;
-  std::vector<double>& gap_changes = state.gap_changes.emplace_back(contacts.measure_gaps(moved));
+  if (!prepared.moves_contacts) return;
+  std::vector<double>& gap_changes =
+      prepared.gap_changes.emplace_back(contacts.measure_gaps(moved));
   for (std::size_t p = 0; p < gap_changes.size(); ++p) {
     gap_changes[p] = (gap_changes[p] - face_frames.gaps[p]) / face_motion.scale;
   }
 }
 
-SingleRows PreparedShapes::normalised_moves(const FaceFrames& face_frames,
-                                            const PreparedShape& state,
-                                            const Positions& moves) const {
-  SingleRows rows(moves.rows(), 3);
+FloatPositions PreparedShapes::normalised_moves(const FaceFrames& face_frames,
+                                                const PreparedShape& prepared,
+                                                const Positions& moves) const {
+  FloatPositions rows(moves.rows(), 3);
   for (Index i = 0; i < moves.rows(); ++i) {
     const Eigen::Matrix3d& map =
-        face_frames.maps[state.vertex_indices[static_cast<std::size_t>(i)]];
+        face_frames.maps[prepared.vertex_indices[static_cast<std::size_t>(i)]];
     rows.row(i) = multiply3(inverse3(map), row3(moves, i)).cast<float>().transpose();
   }
   return rows;

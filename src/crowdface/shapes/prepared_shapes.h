@@ -31,15 +31,17 @@ struct PreparedEye {
 
 /// How a shape moves one rigid part.
 struct PartMove {
-  std::size_t part;
-  std::vector<std::uint32_t> rows, vertices;
+  std::size_t part;                           ///< index into the rigid parts
+  std::vector<std::uint32_t> moved_vertices;  ///< vertices of the part that the shape moves
+  /// #moved_vertices: the row of each vertex in the shape's displacements
+  std::vector<std::uint32_t> displacement_rows;
   std::vector<RigidTurn> turns;  ///< #sets: the part's motion in each set of shapes
 };
 
 /// How a shape moves the lids of one eye.
 struct LidMove {
   LidClosure lids;
-  std::vector<LidClosure::Goals> goals;  ///< #sets
+  std::vector<LidClosure::LidTargets> targets;  ///< #sets
 };
 
 /// A vertex of a lash or of another part that is bound to the skin. The vertex moves with the
@@ -74,7 +76,7 @@ struct PreparedShape {
       vertex_indices;  ///< #rows: indices into PreparedShapes::moved_vertices
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
-  std::vector<SingleRows> head_moves;
+  std::vector<FloatPositions> head_moves;
   std::vector<PartMove> parts;
   std::vector<LidMove> lids;  ///< #eyes
   std::vector<LidFollower> lid_followers;
@@ -89,11 +91,11 @@ struct PreparedShape {
 /// each head, move skin, parts, lids and lips.
 struct PreparedShapes {
   /// For the parameters see ShapeTransfer.
-  PreparedShapes(const HeadSet& all_faces, const Adjacency& adjacency, const PartList& parts,
+  PreparedShapes(const HeadSet& head_set, const Adjacency& adjacency, const PartList& parts,
                  const HeadAxes& head_axes, const ShapeSet& shape_set,
                  const RegionWeights& regions);
 
-  const HeadSet& faces;
+  const HeadSet& head_set;
   const ShapeSet& shape_set;
   HeadAxes axes;
   VertexFaces vertex_faces;
@@ -104,9 +106,9 @@ struct PreparedShapes {
   std::vector<PreparedEye> eyes;
   std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
   /// #moved_vertices by #regions: region weights of the skin nearest to each vertex
-  RegionWeights::Alpha alpha;
-  GapPreserver contacts;
-  RegionWeights::Alpha contact_alpha;  ///< #contacts by #regions
+  RegionWeights::Alpha vertex_region_weights;
+  GapPreserver contacts;  ///< preserves the gaps where skin touches skin, as between the lips
+  RegionWeights::Alpha contact_region_weights;  ///< #contacts by #regions
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the template's skin's bounding box
   std::vector<std::uint32_t>
@@ -128,7 +130,7 @@ struct PreparedShapes {
   };
   FaceFrames make_face_frames(const Positions& face) const;
   /// Returns the mean linear map over the vertices of a part that the shape moves.
-  Eigen::Matrix3d mean_map(const PartMove& part, const PreparedShape& state,
+  Eigen::Matrix3d mean_map(const PartMove& part, const PreparedShape& prepared,
                            std::span<const Eigen::Matrix3d> maps) const;
 
  private:
@@ -137,20 +139,22 @@ struct PreparedShapes {
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
   void look_up_regions(const RegionWeights& regions);
   void prepare_shape(const Displacements& moves, const Adjacency& adjacency,
-                     PreparedShape& state) const;
+                     PreparedShape& prepared) const;
   void prepare_lids(const Displacements& moves, const Adjacency& adjacency,
-                    PreparedShape& state) const;
+                    PreparedShape& prepared) const;
+  /// Returns the skin in which each face is searched for intersections that the shape causes.
   SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
-                                                 const PreparedShape& state) const;
+                                                 const PreparedShape& prepared) const;
   void add_sets();
   Displacements shape_of_set(std::size_t number, std::size_t shape) const;
-  /// Adds to `state` the data of one set's shape: motions of parts, lids and lips, and
+  /// Adds to `prepared` the data of one set's shape: motions of parts, lids and lips, and
   /// intersections to ignore.
   /// \param rest  The mesh to which the shape is added.
-  void add_set(const FaceFrames& face_frames, const Positions& rest, const Displacements& shape,
-               std::span<const FaceEye> face_eyes, PreparedShape& state) const;
-  SingleRows normalised_moves(const FaceFrames& face_frames, const PreparedShape& state,
-                              const Positions& moves) const;
+  void add_data_of_set(const FaceFrames& face_frames, const Positions& rest,
+                       const Displacements& shape, std::span<const FaceEye> face_eyes,
+                       PreparedShape& prepared) const;
+  FloatPositions normalised_moves(const FaceFrames& face_frames, const PreparedShape& prepared,
+                                  const Positions& moves) const;
 };
 
 }  // namespace crowdface

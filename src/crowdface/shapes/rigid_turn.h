@@ -16,7 +16,7 @@ namespace crowdface {
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> fitted_vertices;  ///< the subset of `vertices` that determines motions
-  std::vector<double> unit_weights;            ///< #fitted_vertices: all 1
+  std::vector<double> equal_weights;           ///< #fitted_vertices: all 1
   /// centre of rotation: the centre of an eyeball, or the mean of the teeth
   Eigen::Vector3d centre;
 };
@@ -40,7 +40,8 @@ struct PlacedPart {
   Eigen::Vector3d centre;
   const Positions& mesh;
   const RigidMotion& face_motion;  ///< motion from the template to the face
-  const Eigen::Matrix3d& map;      ///< mean linear map of the part's moved vertices
+  const Eigen::Matrix3d& map;      ///< from the template to the face: mean linear map at the
+                                   ///< part's vertices that the shape moves
 };
 
 /// Measures how a shape moves a rigid part of a mesh, and transforms this motion to the template.
@@ -55,8 +56,11 @@ RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
 /// Returns the weighted mean of the part's motions in several sets of shapes.
 RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetShare> shares);
 
-/// Transfers the motion of a rigid part to a face: writes the part's displacements to `rows` of
-/// `moves`.
+/// Transfers the motion of a rigid part to a face: for each i, writes the displacement of vertex
+/// `vertices[i]` to row `rows[i]` of `moves`.
+///
+/// \param turn    The motion on the template.
+/// \param placed  The part on the face at rest.
 void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
                 std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
                 Positions& moves);

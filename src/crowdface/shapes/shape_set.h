@@ -20,7 +20,7 @@ struct Shape {
 /// One head's own version of an expression.
 struct OwnShape {
   std::vector<std::uint32_t> vertices;  ///< ascending
-  SingleRows moves;                     ///< #vertices by 3
+  FloatPositions moves;                 ///< #vertices by 3
 };
 
 /// Expressions in the topology of a crowd's heads: one set for a template, or one set for each

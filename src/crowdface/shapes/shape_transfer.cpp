@@ -16,10 +16,9 @@ namespace {
 /// Largest number of repair rounds. Another round follows only if a round moved lids into an
 /// eyeball or opened lids.
 constexpr int kMaxRepairs = 3;
-/// Cost of a gap of one eyeball radius between lids that should be closed. A cost of 1 equals one
-/// intersecting triangle. The cost of a gap is high because intersections between closed lids are
-/// invisible.
-constexpr double kOpenIsAsBad = 1000;
+/// Cost of a gap of one eyeball radius between lids that should be closed, in intersecting
+/// triangles. The cost is high because a gap is visible, but an intersection of closed lids is not.
+constexpr double kOpenLidsCost = 1000;
 
 using FaceFrames = PreparedShapes::FaceFrames;
 
@@ -28,8 +27,8 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
   std::vector<FaceEye> there;
   for (const auto& [number, eye, balls] : prepared.eyes) {
     const RigidPart& part = prepared.rigid_parts[number];
-    const RigidMotion motion = fit_rigid_motion(prepared.faces.heads[target].positions, face,
-                                                part.fitted_vertices, part.unit_weights);
+    const RigidMotion motion = fit_rigid_motion(prepared.head_set.heads[target].positions, face,
+                                                part.fitted_vertices, part.equal_weights);
     there.push_back(make_face_eye(eye, balls[target], motion, face));
   }
   return there;
@@ -99,7 +98,7 @@ class CarriedShape {
   const Positions& rest_;
   Positions& mesh_;
   Displacements result_;
-  std::vector<LidClosure::Goals> goals_;  ///< #eyes
+  std::vector<LidClosure::LidTargets> targets_;  ///< #eyes
   Index crossing_ = 0;
 };
 
@@ -109,10 +108,10 @@ Positions CarriedShape::mixed_moves() const {
   Positions moves = Positions::Zero(result_.moves.rows(), 3);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
     for (const ShapeSetShare& of_set : shares_[k]) {
-      const SingleRows& own = shape_.head_moves[of_set.set];
+      const FloatPositions& own = shape_.head_moves[of_set.set];
       for (Index i = 0; i < moves.rows(); ++i) {
-        const double part = prepared_.alpha(shape_.vertex_indices[static_cast<std::size_t>(i)],
-                                            static_cast<Index>(k));
+        const double part = prepared_.vertex_region_weights(
+            shape_.vertex_indices[static_cast<std::size_t>(i)], static_cast<Index>(k));
         if (part == 0) continue;
         const double share = part * of_set.share;
         for (Index c = 0; c < 3; ++c) moves(i, c) += share * static_cast<double>(own(i, c));
@@ -135,8 +134,8 @@ void CarriedShape::move_parts() {
     const Eigen::Matrix3d map = prepared_.mean_map(part, shape_, face_frames_.maps);
     const PlacedPart placed(prepared_.rigid_parts[part.part], prepared_.shape_set.neutral,
                             face_frames_.mesh, face_frames_.frames.face_motion, map);
-    carry_turn(mean_turn(part.turns, shares_of_part(part.part)), placed, part.vertices, part.rows,
-               result_.moves);
+    carry_turn(mean_turn(part.turns, shares_of_part(part.part)), placed, part.moved_vertices,
+               part.displacement_rows, result_.moves);
   }
 }
 
@@ -155,13 +154,13 @@ Positions CarriedShape::skin_of_followers() const {
 }
 
 void CarriedShape::fit_lids() {
-  goals_.resize(prepared_.eyes.size());
-  for (std::size_t e = 0; e < goals_.size(); ++e) {
+  targets_.resize(prepared_.eyes.size());
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidMove& move = shape_.lids[e];
     if (move.lids.empty()) continue;
-    goals_[e] = LidClosure::mean_goals(move.goals, shares_of_part(prepared_.eyes[e].part));
-    move.lids.fit_lids(face_frames_.mesh, face_eyes_[e], face_frames_.frames.face_motion, goals_[e],
-                       result_.moves);
+    targets_[e] = LidClosure::mean_targets(move.targets, shares_of_part(prepared_.eyes[e].part));
+    move.lids.fit_lids(face_frames_.mesh, face_eyes_[e], face_frames_.frames.face_motion,
+                       targets_[e], result_.moves);
   }
 }
 
@@ -169,24 +168,26 @@ void CarriedShape::fit_lids() {
 /// changes equally little on the face. If the shape closes lips that its prerequisite opens, all
 /// gaps change as on the template.
 void CarriedShape::keep_contacts() {
-  // Compute the wanted change of each gap: the weighted mean of the changes in the sets of shapes.
+  // Compute the wanted change of each gap: the weighted mean of the changes that this blend shape
+  // makes in the heads' shape sets.
   std::vector<double> gap_changes(shape_.gap_changes.front().size(), 0.0);
   for (std::size_t p = 0; p < gap_changes.size(); ++p) {
     ShapeSetShares here = {{0, 1}};
     if (has_own_sets()) {
-      const auto& alpha = prepared_.contact_alpha;
+      const auto& weights = prepared_.contact_region_weights;
       here = shape_set_weights_at(
-          {&alpha(static_cast<Index>(p), 0), static_cast<std::size_t>(alpha.cols())}, shares_);
+          {&weights(static_cast<Index>(p), 0), static_cast<std::size_t>(weights.cols())}, shares_);
     }
     for (const ShapeSetShare& of_set : here) {
       gap_changes[p] +=
           of_set.share * face_frames_.frames.face_motion.scale * shape_.gap_changes[of_set.set][p];
     }
   }
-  // Adjust the mesh in the shape, and convert the result back to displacements.
+  // Apply the displacements to the mesh, adjust the gaps of this mesh, and convert the adjusted
+  // mesh back to displacements.
   result_.add_to(mesh_);
   const auto how = shape_.prerequisite ? GapPreserver::GapSelection::kAll
-                                       : GapPreserver::GapSelection::kNearlySame;
+                                       : GapPreserver::GapSelection::kNearlyUnchanged;
   prepared_.contacts.adjust(face_frames_.gaps, gap_changes, how, mesh_);
   for (std::size_t i = 0; i < result_.vertices.size(); ++i) {
     const std::uint32_t v = result_.vertices[i];
@@ -203,7 +204,7 @@ void CarriedShape::keep_contacts() {
 void CarriedShape::remove_crossings() {
   SkinCrossings::ExtraCost extra_cost;
   if (closes_lids())
-    extra_cost = [&](const Positions& moves) { return kOpenIsAsBad * lids_open(moves); };
+    extra_cost = [&](const Positions& moves) { return kOpenLidsCost * lids_open(moves); };
   const SkinCrossings::Face face{rest_, face_frames_.crosses_at_rest,
                                  face_frames_.frames.face_motion};
   double best = HUGE_VAL;
@@ -234,20 +235,21 @@ bool CarriedShape::closes_lids() const {
 
 double CarriedShape::lids_open(const Positions& moves) const {
   double open = 0;
-  for (std::size_t e = 0; e < goals_.size(); ++e) {
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (!lids.closes_lids()) continue;
     open = std::max(open, lids.largest_open_gap(face_frames_.mesh, face_frames_.frames.face_motion,
-                                                goals_[e], moves));
+                                                targets_[e], moves));
   }
   return open;
 }
 
 void CarriedShape::close_lids() {
-  for (std::size_t e = 0; e < goals_.size(); ++e) {
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (!lids.closes_lids()) continue;
-    lids.close_again(face_frames_.mesh, face_frames_.frames.face_motion, goals_[e], result_.moves);
+    lids.close_again(face_frames_.mesh, face_frames_.frames.face_motion, targets_[e],
+                     result_.moves);
   }
 }
 
@@ -255,19 +257,19 @@ void CarriedShape::close_lids() {
 /// an eyeball, see LidClosure::move_out_of_eyeball.
 bool CarriedShape::keep_lids_out() {
   bool are_out = true;
-  for (std::size_t e = 0; e < goals_.size(); ++e) {
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (lids.empty()) continue;
     const bool is_out =
         lids.move_out_of_eyeball(face_frames_.mesh, face_eyes_[e], face_frames_.frames.face_motion,
-                                 goals_[e], result_.moves);
+                                 targets_[e], result_.moves);
     are_out = are_out && is_out;
   }
   return are_out;
 }
 
-/// Moves lashes with the corrections of the lids. \param carried result of skin_of_followers before
-/// these corrections.
+/// Moves lashes by the corrections of the lid skin to which they are bound.
+/// \param carried  displacements of this skin before the corrections, from skin_of_followers.
 void CarriedShape::follow_lids(const Positions& carried) {
   Index next = 0;
   for (const LidFollower& follower : shape_.lid_followers) {
@@ -323,9 +325,10 @@ std::optional<std::size_t> ShapeTransfer::prerequisite_of(std::size_t shape) con
 }
 
 std::size_t ShapeTransfer::memory_bytes() const {
-  std::size_t bytes = static_cast<std::size_t>(prepared_->alpha.size()) * sizeof(double);
+  std::size_t bytes =
+      static_cast<std::size_t>(prepared_->vertex_region_weights.size()) * sizeof(double);
   for (const PreparedShape& shape : prepared_->shapes) {
-    for (const SingleRows& rows : shape.head_moves) {
+    for (const FloatPositions& rows : shape.head_moves) {
       bytes += static_cast<std::size_t>(rows.size()) * sizeof(float);
     }
   }

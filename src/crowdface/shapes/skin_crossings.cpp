@@ -26,7 +26,8 @@ constexpr double kEvened = 0.002, kNotEvened = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
-// factor on kEvened, kNotEvened and kCell where skin gets the template's front-to-back order
+// arrange_as_template, which gives skin the template's front-to-back order, multiplies kEvened,
+// kNotEvened and kCell by this factor.
 constexpr double kSameLayoutFactor = 0.7;
 /// Averaging applies only this fraction of its vertical change to the lids, so that the eye stays
 /// closed.
@@ -136,21 +137,21 @@ class SkinCrossings::Repair {
     return true;
   }
 
-  bool is_excused(std::uint32_t triangle) const {
+  bool may_intersect(std::uint32_t triangle) const {
     const auto& [a, b, c] = searched_skin_.search.triangles()[triangle];
-    return searched_skin_.is_excused[triangle] || face_.crosses_at_rest[a] ||
+    return searched_skin_.may_intersect[triangle] || face_.crosses_at_rest[a] ||
            face_.crosses_at_rest[b] || face_.crosses_at_rest[c];
   }
   void look() {
     pairs_ = searched_skin_.search.intersecting_pairs(
-        mesh_, boxes_, [&](std::uint32_t t) { return is_excused(t); });
+        mesh_, boxes_, [&](std::uint32_t t) { return may_intersect(t); });
   }
   /// Searches for intersections again after vertices have moved.
   ///
   /// \param before  Pairs that intersected before the move. A pair still intersects if none of its
   ///                vertices moved.
   void look_again(const std::vector<Pair>& before) {
-    for (const ShapeRow& row : searched_skin_.rows) {
+    for (const DisplacementRow& row : searched_skin_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
     }
     searched_skin_.search.update(mesh_, changed_, boxes_);
@@ -166,7 +167,7 @@ class SkinCrossings::Repair {
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
   }
 
-  Eigen::Vector3d place_of(const ShapeRow& row) const {
+  Eigen::Vector3d place_of(const DisplacementRow& row) const {
     return row3(face_.rest, row.vertex) + row3(shape_.moves, row.row);
   }
   signed char side(std::uint32_t vertex) const {
@@ -179,13 +180,15 @@ class SkinCrossings::Repair {
     }
     return 0;
   }
-  void move(const ShapeRow& row, const Eigen::Vector3d& by) {
+  void move(const DisplacementRow& row, const Eigen::Vector3d& by) {
     shape_.moves.row(row.row) += by.transpose();
     changed_[row.vertex] = true;
   }
 
   /// Averages displacements around intersections, so that skin that is close together at rest also
   /// moves together.
+  /// \param grown  factor, at least 1, by which this round's averaging radius is larger than the
+  ///               first round's.
   void even_out(double grown) {
     const double unit = grown * skin_.extent_;
     std::vector<Eigen::Vector3d> around;
@@ -195,20 +198,21 @@ class SkinCrossings::Repair {
     const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
     std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
-      const ShapeRow& row = searched_skin_.rows[i];
+      const DisplacementRow& row = searched_skin_.rows[i];
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       if (field.affects(here)) samples.push_back({i, here, row3(shape_.moves, row.row)});
     }
     const Eigen::Vector3d& up = axes_.up;
     for (auto [number, by] : field.changes(samples)) {
-      const ShapeRow& row = searched_skin_.rows[number];
+      const DisplacementRow& row = searched_skin_.rows[number];
       if (side(row.vertex) != 0) by -= (1 - kClosing) * by.dot(up) * up;
       move(row, by);
     }
   }
 
-  /// Gives skin the relative positions that it has in the template's shape: averages the difference
-  /// between face and template over skin that is close together in the template's shape.
+  /// Gives the skin near the intersections the relative positions that it has on the template with
+  /// the blend shape applied. Averages the difference between face and template over skin that is
+  /// close together on this template.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kSameLayoutFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, searched_skin_.search);
@@ -222,7 +226,7 @@ class SkinCrossings::Repair {
     const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
     std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
-      const ShapeRow& row = searched_skin_.rows[i];
+      const DisplacementRow& row = searched_skin_.rows[i];
       if (!searched_skin_.joins_distant_skin && side(row.vertex) == 0) continue;
       if (!field.affects(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.face_motion.apply(shaped(i))});
@@ -253,7 +257,7 @@ class SkinCrossings::Repair {
     }
     for (auto& [v, push] : wanted) push = push.normalized();
     const double reach = kPushed * skin_.extent_, by = grown * kPush * skin_.extent_;
-    for (const ShapeRow& row : searched_skin_.rows) {
+    for (const DisplacementRow& row : searched_skin_.rows) {
       if (side(row.vertex) == 0) continue;
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -328,27 +332,28 @@ SkinCrossings::SearchedSkin SkinCrossings::find_searched_skin(const Positions& n
   std::ranges::copy_if(skin_.triangles, std::back_inserter(triangles), [&](const Triangle& t) {
     return meets[t[0]] || meets[t[1]] || meets[t[2]];
   });
-  searched_skin.is_excused.assign(triangles.size(), false);
+  searched_skin.may_intersect.assign(triangles.size(), false);
   searched_skin.search = CrossingSearch(std::move(triangles), shaped, kMaxTemplateGap * extent_,
                                         kMaxFacingTemplateGap * extent_);
   // Ignore the intersections that the template already has in this shape.
-  mark_excused(shaped, searched_skin);
+  allow_intersections_of(shaped, searched_skin);
   return searched_skin;
 }
 
-/// Marks as excused every triangle that shares a vertex with an intersecting triangle, as
+/// Sets `may_intersect` for every triangle that shares a vertex with an intersecting triangle, as
 /// NewIntersections does.
-void SkinCrossings::mark_excused(const Positions& mesh, SearchedSkin& searched_skin) const {
+void SkinCrossings::allow_intersections_of(const Positions& mesh,
+                                           SearchedSkin& searched_skin) const {
   const CrossingSearch& search = searched_skin.search;
   std::vector<bool> there(is_skin_.size(), false);
-  const auto known = [&](std::uint32_t t) { return searched_skin.is_excused[t]; };
+  const auto known = [&](std::uint32_t t) { return searched_skin.may_intersect[t]; };
   for (const std::uint32_t v :
        vertices_of(search.intersecting_pairs(mesh, search.make_boxes(mesh), known), search)) {
     there[v] = true;
   }
-  for (std::size_t i = 0; i < searched_skin.is_excused.size(); ++i) {
+  for (std::size_t i = 0; i < searched_skin.may_intersect.size(); ++i) {
     const auto& [a, b, c] = search.triangles()[i];
-    if (there[a] || there[b] || there[c]) searched_skin.is_excused[i] = true;
+    if (there[a] || there[b] || there[c]) searched_skin.may_intersect[i] = true;
   }
 }
 

@@ -31,13 +31,14 @@ class SkinCrossings {
   /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
   struct SearchedSkin {
     CrossingSearch search;
-    /// #triangles of `search`: whether the triangle takes part in an intersection on the template
-    std::vector<bool> is_excused;
+    /// #triangles of `search`: whether the triangle may intersect other such triangles on a face,
+    /// because it is part of an intersection on the template
+    std::vector<bool> may_intersect;
     /// #V: 1 for the upper lid and −1 for the lower lid if the shape closes this eye, 0 for other
     /// skin; empty if the shape closes no eye.
     std::vector<signed char> lid_sides;
-    std::vector<ShapeRow> rows;  ///< rows of the shape that are skin
-    Positions shaped_positions;  ///< #rows by 3: these vertices of the template in the shape
+    std::vector<DisplacementRow> rows;  ///< rows of the shape that are skin
+    Positions shaped_positions;         ///< #rows by 3: these vertices of the template in the shape
     /// Whether the shape brings together skin that is far apart at rest. If so, intersecting skin
     /// gets the same front-to-back order as on the template.
     bool joins_distant_skin = false;
@@ -47,8 +48,9 @@ class SkinCrossings {
   /// \param lid_sides     See SearchedSkin::lid_sides.
   SearchedSkin find_searched_skin(const Positions& neutral, const Displacements& shape,
                                   std::vector<signed char> lid_sides) const;
-  /// Marks the triangles that intersect on `mesh` as excused, so that they are ignored on faces.
-  void mark_excused(const Positions& mesh, SearchedSkin& searched_skin) const;
+  /// Sets `may_intersect` for the triangles that intersect on `mesh`, so that their intersections
+  /// are ignored on faces.
+  void allow_intersections_of(const Positions& mesh, SearchedSkin& searched_skin) const;
 
   /// Returns one search over all triangles of the given searches.
   ///

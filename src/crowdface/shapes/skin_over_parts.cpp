@@ -34,10 +34,11 @@ constexpr double kTooNear = 0.25;
 // smallest cosine between the skin's normal and the front; excludes the rims of the lips
 constexpr double kFacesFront = 0.5;
 /// On a face, the triangle in front of a vertex may differ from the template's covering triangle.
-/// Candidates are the triangles within kSlides of the covering triangle, but at least kMinRings and
-/// at most kMaxRings rings.
+/// Candidates are the covering triangle and several rings of triangles around it. The number of
+/// rings is kMaxSlide (a fraction of the skin's extent, about 3 mm) divided by the mean edge
+/// length, but at least kMinRings and at most kMaxRings.
 constexpr double kMinRings = 2, kMaxRings = 12;
-constexpr double kSlides = 0.007;
+constexpr double kMaxSlide = 0.007;
 constexpr int kFrontRounds = 6;
 
 Eigen::Vector3d normal_of(const Corners& corners) {
@@ -143,10 +144,11 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
   for (const Triangle& t : around) area += area_vector(shaped, t).norm();
   const double edge =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, around.size())));
-  const int rings = static_cast<int>(std::clamp(kSlides * extent / edge, kMinRings, kMaxRings));
+  const int rings = static_cast<int>(std::clamp(kMaxSlide * extent / edge, kMinRings, kMaxRings));
   const FrontView view(shaped, around, axes, kFrontReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
-  // Find the vertices that the skin covers in the template's shape, at most one per cell.
+  // Find the vertices that the skin covers on the template with the blend shape applied, at most
+  // one per cell.
   for (const std::uint32_t v : inner) {
     const Eigen::Vector3d point = row3(shaped, v);
     const auto cell = [&](Index c) {
@@ -182,21 +184,21 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
 }
 
 void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& face_motion,
-                                  std::span<const ShapeRow> rows, Positions& mesh,
+                                  std::span<const DisplacementRow> rows, Positions& mesh,
                                   Displacements& shape) const {
   shape.add_to(mesh);
-  // #covered: largest distance by which each covered vertex may still push skin, at most the
-  // shape's own movement
-  std::vector<double> most;
+  // #covered: largest distance by which each covered vertex may still push skin out of the way. At
+  // the start, this is the smallest distance by which the shape moves the covering triangle.
+  std::vector<double> max_push;
   for (const CoveredVertex& covered : covered_vertices_) {
     double least = HUGE_VAL;
     for (const std::uint32_t v : covered.covering_triangle) {
       least = std::min(least, (row3(mesh, v) - row3(rest, v)).norm());
     }
-    most.push_back(least);
+    max_push.push_back(least);
   }
   for (int round = 0; round < kFrontRounds; ++round) {
-    const std::vector<Push> pushes = find_pushes(mesh, face_motion, most);
+    const std::vector<Push> pushes = find_pushes(mesh, face_motion, max_push);
     if (pushes.empty()) break;
     apply_pushes(pushes, face_motion.scale, rows, mesh, shape);
   }
@@ -205,14 +207,14 @@ void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& face
 
 std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mesh,
                                                             const RigidMotion& face_motion,
-                                                            std::span<double> most) const {
+                                                            std::span<double> max_push) const {
   const double scale = face_motion.scale;
   const HeadAxes axes = moved_axes(axes_, face_motion);
   const Eigen::Vector3d side = axes.side();
   std::vector<Push> pushes;
   for (std::size_t i = 0; i < covered_vertices_.size(); ++i) {
     const CoveredVertex& covered = covered_vertices_[i];
-    if (most[i] <= 0) continue;
+    if (max_push[i] <= 0) continue;
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
     const Corners over = corners_of(mesh, covered.covering_triangle);
     if ((over[0] - point).dot(normal_of(over)) > kNear * scale * extent_) continue;
@@ -231,8 +233,8 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
     // Push this skin if it is too near to the vertex, or behind the vertex.
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
-    const double by = std::min(missing, most[i]);
-    most[i] -= by;
+    const double by = std::min(missing, max_push[i]);
+    max_push[i] -= by;
     pushes.push_back({point + *foremost * axes.front, by * normal});
   }
   return pushes;
@@ -240,7 +242,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
 
 /// Moves the skin at the points of `pushes`, and the skin around these points with a falloff.
 void SkinOverParts::apply_pushes(std::span<const Push> pushes, double scale,
-                                 std::span<const ShapeRow> rows, Positions& mesh,
+                                 std::span<const DisplacementRow> rows, Positions& mesh,
                                  Displacements& shape) const {
   const double reach = kPushedAround * scale * extent_;
   Eigen::AlignedBox3d box;

@@ -13,7 +13,7 @@
 namespace crowdface {
 
 /// The index of a row in a shape's displacements, and the vertex that this row moves.
-struct ShapeRow {
+struct DisplacementRow {
   std::uint32_t row, vertex;
 };
 
@@ -39,7 +39,8 @@ class SkinOverParts {
   /// \param mesh   Equal to `rest`; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
   void keep_in_front(const Positions& rest, const RigidMotion& face_motion,
-                     std::span<const ShapeRow> rows, Positions& mesh, Displacements& shape) const;
+                     std::span<const DisplacementRow> rows, Positions& mesh,
+                     Displacements& shape) const;
 
  private:
   /// A vertex under the skin. `covering_triangle` is the skin in front of this vertex on the
@@ -47,7 +48,7 @@ class SkinOverParts {
   struct CoveredVertex {
     std::uint32_t vertex;
     Triangle covering_triangle;
-    /// triangles near `covering_triangle` that may cover the vertex on a face
+    /// triangles near `covering_triangle`; on a generated face, any of them may cover the vertex
     std::vector<Triangle> candidates;
     double depth;  ///< wanted depth of the vertex below the skin
   };
@@ -60,8 +61,9 @@ class SkinOverParts {
   ///                  by each push.
   std::vector<Push> find_pushes(const Positions& mesh, const RigidMotion& face_motion,
                                 std::span<double> max_push) const;
-  void apply_pushes(std::span<const Push> pushes, double scale, std::span<const ShapeRow> rows,
-                    Positions& mesh, Displacements& shape) const;
+  void apply_pushes(std::span<const Push> pushes, double scale,
+                    std::span<const DisplacementRow> rows, Positions& mesh,
+                    Displacements& shape) const;
 
   HeadAxes axes_;
   double extent_ = 0;

@@ -21,15 +21,15 @@ class CellMeans {
       nodes_a_side_[static_cast<std::size_t>(c)] =
           static_cast<std::size_t>((high[c] - low[c]) / cell) + 2;
     }
-    number_.resize(nodes_a_side_[0] * nodes_a_side_[1] * nodes_a_side_[2], kNoIndex);
+    node_index_.resize(nodes_a_side_[0] * nodes_a_side_[1] * nodes_a_side_[2], kNoIndex);
   }
   void add(const Eigen::Vector3d& place, const Eigen::Vector3d& value) {
     visit(place, [&](std::size_t at, double weight) {
-      if (number_[at] == kNoIndex) {
-        number_[at] = static_cast<std::uint32_t>(nodes_.size());
+      if (node_index_[at] == kNoIndex) {
+        node_index_[at] = static_cast<std::uint32_t>(nodes_.size());
         nodes_.emplace_back();
       }
-      Node& node = nodes_[number_[at]];
+      Node& node = nodes_[node_index_[at]];
       node.sum += weight * value;
       node.weight += weight;
     });
@@ -38,7 +38,7 @@ class CellMeans {
   Eigen::Vector3d at(const Eigen::Vector3d& place) const {
     Node mean;
     visit(place, [&](std::size_t at, double weight) {
-      const Node& node = nodes_[number_[at]];
+      const Node& node = nodes_[node_index_[at]];
       mean.sum += weight * node.sum;
       mean.weight += weight * node.weight;
     });
@@ -75,8 +75,9 @@ class CellMeans {
   Eigen::Vector3d low_;
   double cell_;
   std::array<std::size_t, 3> nodes_a_side_;
-  /// #grid nodes: index into `nodes_`; kNoIndex for the many nodes without samples
-  std::vector<std::uint32_t> number_;
+  /// #grid nodes: index of each grid node in `nodes_`, which holds only the nodes with samples;
+  /// kNoIndex for the other grid nodes
+  std::vector<std::uint32_t> node_index_;
   std::vector<Node> nodes_;
 };
 

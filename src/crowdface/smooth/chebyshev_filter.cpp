@@ -90,8 +90,8 @@ class Recurrence {
     previous_.swap(next_previous_);
   }
 
-  /// Moves the sums out of this object. Recomputes fixed rows as x times the sum of the
-  /// coefficients, which is exact.
+  /// Moves the sums out of this object. First computes the sums of fixed vertices again: every term
+  /// T_k(W) x equals x at a fixed vertex, so x times the sum of the coefficients is the exact sum.
   std::vector<RowArray<T>> take_sums() {
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       const T sum = static_cast<T>(coefficient_sum(input_.series[s]));
@@ -132,7 +132,8 @@ class Recurrence {
 /// probes.
 class ProbeRows {
  public:
-  ProbeRows(const Tiling& tiling, Probes& probes) : probes_(probes), of_tile_(tiling.tiles.size()) {
+  ProbeRows(const Tiling& tiling, RecordedTerms& probes)
+      : probes_(probes), of_tile_(tiling.tiles.size()) {
     std::vector<std::size_t> tile_of_row(tiling.vertex_of_row.size());
     for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
       const Tile& tile = tiling.tiles[t];
@@ -159,7 +160,7 @@ class ProbeRows {
     std::size_t probe;
     std::uint32_t row;
   };
-  Probes& probes_;
+  RecordedTerms& probes_;
   std::vector<std::vector<Place>> of_tile_;
 };
 
@@ -211,7 +212,7 @@ std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) cons
 
 template <class T>
 std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const FilterInput<T>> inputs,
-                                                           Probes* probes) const {
+                                                           RecordedTerms* recorded_terms) const {
   std::vector<Recurrence<T>> recurrences;
   recurrences.reserve(inputs.size());
   Index terms = 1;
@@ -220,10 +221,10 @@ std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const Filte
     terms = std::max(terms, recurrences.back().terms());
   }
   std::optional<ProbeRows> probe_rows;
-  if (probes != nullptr) {
-    probe_rows.emplace(tiling_, *probes);
-    probes->terms.resize(recurrences.front().terms(),
-                         3 * static_cast<Index>(probes->vertices.size()));
+  if (recorded_terms != nullptr) {
+    probe_rows.emplace(tiling_, *recorded_terms);
+    recorded_terms->terms.resize(recurrences.front().terms(),
+                                 3 * static_cast<Index>(recorded_terms->vertices.size()));
     for (std::size_t t = 0; t < tiling_.tiles.size(); ++t) {
       probe_rows->take(t, 0, inputs.front().values.data() + tiling_.tiles[t].first_row);
     }
@@ -251,9 +252,9 @@ std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const Filte
 template std::vector<Row<float>> ChebyshevFilter::rows_of(const Columns&, Index) const;
 template std::vector<Row<double>> ChebyshevFilter::rows_of(const Columns&, Index) const;
 template std::vector<std::vector<RowArray<float>>> ChebyshevFilter::run(
-    std::span<const FilterInput<float>>, Probes*) const;
+    std::span<const FilterInput<float>>, RecordedTerms*) const;
 template std::vector<std::vector<RowArray<double>>> ChebyshevFilter::run(
-    std::span<const FilterInput<double>>, Probes*) const;
+    std::span<const FilterInput<double>>, RecordedTerms*) const;
 
 std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
                                    std::vector<ChebyshevSeries> series) {
@@ -266,12 +267,12 @@ Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std:
 
 std::vector<Positions> smooth(const ChebyshevFilter& filter, const Positions& positions,
                               std::span<const std::uint64_t> levels) {
-  return smooth_view(filter, positions, levels);
+  return smooth_without_copy(filter, positions, levels);
 }
 
-std::vector<Positions> smooth_view(const ChebyshevFilter& filter,
-                                   const Eigen::Ref<const Positions>& positions,
-                                   std::span<const std::uint64_t> levels) {
+std::vector<Positions> smooth_without_copy(const ChebyshevFilter& filter,
+                                           const Eigen::Ref<const Positions>& positions,
+                                           std::span<const std::uint64_t> levels) {
   std::vector<ChebyshevSeries> series;
   series.reserve(levels.size());
   for (const std::uint64_t level : levels) series.push_back(power_series(filter.kind(), level));

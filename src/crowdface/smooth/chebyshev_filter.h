@@ -22,9 +22,9 @@ struct FilterInput {
                                         ///< compute
 };
 
-/// The Chebyshev terms T_k(W) x at a few vertices, for every k. Any level at these vertices is a
-/// linear combination of the terms and needs no further filter pass.
-struct Probes {
+/// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. Any level at these
+/// vertices is a linear combination of the terms and needs no further filter pass.
+struct RecordedTerms {
   std::vector<std::uint32_t> vertices;
   Columns terms;  ///< #terms by 3·#vertices: T_k(W) x at the vertices; the filter writes them
 };
@@ -51,13 +51,13 @@ class ChebyshevFilter {
   std::vector<Row<T>> rows_of(const Columns& x, Index group = 0) const;
 
   /// Evaluates every series of every input.
-  /// \param probes  may be null; receives T_k(W) x of the first input at `probes->vertices`, for
-  ///                all k.
+  /// \param recorded_terms  may be null; receives T_k(W) x of the first input at
+  ///                `recorded_terms->vertices`, for all k.
   /// \return        for each input, for each of its series: #V rows. Rows of fixed vertices are
   ///                exactly x times the sum of the series' coefficients.
   template <class T>
   std::vector<std::vector<RowArray<T>>> run(std::span<const FilterInput<T>> inputs,
-                                            Probes* probes = nullptr) const;
+                                            RecordedTerms* recorded_terms = nullptr) const;
 
  private:
   OperatorKind kind_;

@@ -43,8 +43,8 @@ std::vector<double> error_weights(const HeadLevels& head, std::span<const std::u
 
 /// The lists of a sequence of patches while the patches are made; see PatchLists.
 struct MadePatches {
-  std::vector<std::uint32_t> skeleton_sizes, field_counts;
-  std::vector<float> steps, weights;
+  std::vector<std::uint32_t> stored_vertex_counts, field_counts;
+  std::vector<float> quantization_steps, weights;
   std::vector<std::int16_t> quantized_values;
 };
 
@@ -61,7 +61,7 @@ class PatchMaker {
   void add(std::span<const std::uint32_t> vertices, MadePatches& made) {
     const std::size_t fields = count_fields(vertices);
     choose_skeleton(vertices, fields);
-    made.skeleton_sizes.push_back(static_cast<std::uint32_t>(skeleton_.size()));
+    made.stored_vertex_counts.push_back(static_cast<std::uint32_t>(skeleton_.size()));
     made.field_counts.insert(made.field_counts.end(), counts_.begin(), counts_.end());
     if (skeleton_.size() < vertices.size()) add_weights(made.weights);
     add_quantized_values(vertices, made);
@@ -94,7 +94,7 @@ class PatchMaker {
         const std::int16_t* quantized = tile.quantized_values + 3 * (vertices[i] % kTileVertices);
         float* to = first + i;
         for (std::size_t p = 0; p < tile.count; ++p, quantized += kTileValues) {
-          const float heavy = tile.steps[p] * static_cast<float>(error_weights_[h][p]);
+          const float heavy = tile.quantization_steps[p] * static_cast<float>(error_weights_[h][p]);
           for (std::size_t c = 0; c < 3; ++c, to += kPatchVertices) {
             *to = heavy * static_cast<float>(quantized[c]);
           }
@@ -113,7 +113,7 @@ class PatchMaker {
     factor_.clear();
     // The largest useful skeleton. A skeleton of s vertices needs s·#fields + s·kPatchVertices
     // numbers; storing all vertices needs kPatchVertices·#fields numbers.
-    const std::size_t most = kPatchVertices * fields / (fields + kPatchVertices);
+    const std::size_t max_size = kPatchVertices * fields / (fields + kPatchVertices);
     fill_columns(vertices, fields);
     PatchColumn left{};
     for (std::size_t column = 0; column < 3 * fields; ++column) {
@@ -125,7 +125,7 @@ class PatchMaker {
     for (;;) {
       const auto pivot = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
       if (left[pivot] <= tolerance_ * tolerance_) return;
-      if (skeleton_.size() >= std::min(most, vertices.size() - 1)) break;
+      if (skeleton_.size() >= std::min(max_size, vertices.size() - 1)) break;
       // The next column of the factor is the column of the Gram matrix minus its projection onto
       // the earlier columns.
       PatchColumn& next = factor_.emplace_back();
@@ -181,15 +181,17 @@ class PatchMaker {
         const std::int16_t* quantized = tile.quantized_values + 3 * (vertex % kTileVertices);
         for (std::size_t p = 0; p < tile.count; ++p, quantized += kTileValues) {
           for (std::size_t c = 0; c < 3; ++c) {
-            values_[p * values + c * size + j] = tile.steps[p] * static_cast<float>(quantized[c]);
+            values_[p * values + c * size + j] =
+                tile.quantization_steps[p] * static_cast<float>(quantized[c]);
           }
         }
       }
       const std::size_t at = made.quantized_values.size();
       made.quantized_values.resize(at + values_.size());
       for (std::size_t p = 0; p < counts_[h]; ++p) {
-        made.steps.push_back(quantize(std::span(std::as_const(values_)).subspan(p * values, values),
-                                      made.quantized_values.data() + at + p * values));
+        made.quantization_steps.push_back(
+            quantize(std::span(std::as_const(values_)).subspan(p * values, values),
+                     made.quantized_values.data() + at + p * values));
       }
     }
   }
@@ -243,25 +245,25 @@ bool are_patches(std::span<const std::uint32_t> vertices, std::size_t count) {
 }  // namespace
 
 std::optional<FieldPatches> FieldPatches::from_lists(PatchLists lists, Index vertex_count,
-                                                     std::span<const Index> ranks) {
+                                                     std::span<const Index> head_field_counts) {
   const auto vertices = static_cast<std::size_t>(vertex_count);
   const std::size_t patches = patch_count(vertices);
-  if (!are_patches(lists.vertices, vertices) || lists.skeleton_sizes.size() != patches ||
-      lists.field_counts.size() != patches * ranks.size()) {
+  if (!are_patches(lists.vertices, vertices) || lists.stored_vertex_counts.size() != patches ||
+      lists.field_counts.size() != patches * head_field_counts.size()) {
     return std::nullopt;
   }
   FieldPatches result;
-  result.heads_ = ranks.size();
+  result.heads_ = head_field_counts.size();
   result.patches_.reserve(patches);
   Patch end{};
   for (std::size_t i = 0; i < patches; ++i) {
     const std::size_t here = std::min(kPatchVertices, vertices - i * kPatchVertices);
-    const std::size_t skeleton = lists.skeleton_sizes[i];
+    const std::size_t skeleton = lists.stored_vertex_counts[i];
     if (skeleton > here) return std::nullopt;
     end.field_count = 0;
-    for (std::size_t h = 0; h < ranks.size(); ++h) {
-      const std::uint32_t count = lists.field_counts[i * ranks.size() + h];
-      if (count > static_cast<std::uint64_t>(ranks[h])) return std::nullopt;
+    for (std::size_t h = 0; h < head_field_counts.size(); ++h) {
+      const std::uint32_t count = lists.field_counts[i * head_field_counts.size() + h];
+      if (count > static_cast<std::uint64_t>(head_field_counts[h])) return std::nullopt;
       end.field_count += count;
     }
     result.patches_.push_back(end);
@@ -269,8 +271,10 @@ std::optional<FieldPatches> FieldPatches::from_lists(PatchLists lists, Index ver
     end.first_value += end.field_count * FieldPatch::values_per_field(skeleton);
     if (skeleton < here) end.first_weight += skeleton * kPatchVertices;
   }
-  if (end.first_field != lists.steps.size() || end.first_value != lists.quantized_values.size() ||
-      end.first_weight != lists.weights.size() || !std::ranges::all_of(lists.steps, is_step) ||
+  if (end.first_field != lists.quantization_steps.size() ||
+      end.first_value != lists.quantized_values.size() ||
+      end.first_weight != lists.weights.size() ||
+      !std::ranges::all_of(lists.quantization_steps, is_step) ||
       !std::ranges::all_of(lists.weights, [](float weight) { return std::isfinite(weight); })) {
     return std::nullopt;
   }
@@ -286,14 +290,15 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
       lists_.vertices.subspan(first, std::min(kPatchVertices, lists_.vertices.size() - first));
   result.field_counts = lists_.field_counts.subspan(patch * heads_, heads_);
   result.field_count = place.field_count;
-  result.skeleton_size = lists_.skeleton_sizes[patch];
-  result.steps = lists_.steps.data() + place.first_field;
+  result.stored_vertex_count = lists_.stored_vertex_counts[patch];
+  result.quantization_steps = lists_.quantization_steps.data() + place.first_field;
   result.quantized_values = lists_.quantized_values.data() + place.first_value;
   if (!result.is_whole()) result.weights = lists_.weights.data() + place.first_weight;
   return result;
 }
 
-std::vector<std::uint32_t> patch_order(const Positions& positions, double max_distance) {
+std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
+                                                    double max_distance) {
   constexpr std::uint32_t kLongest = 32;
   const auto vertices = static_cast<std::uint32_t>(positions.rows());
   // The first vertex of each run. At the end, the number of all vertices is appended.
@@ -327,10 +332,11 @@ FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
     const std::size_t tiles = LevelFields::tile_count(order.size());
     require(static_cast<std::size_t>(fields.vertex_count) == order.size() &&
                 fields.first_field_of_tile.size() == tiles + 1 &&
-                fields.steps.size() == fields.first_field_of_tile.back() &&
-                fields.quantized_values.size() == fields.steps.size() * kTileValues,
-            "patches: ", fields.quantized_values.size(), " numbers of ", fields.steps.size(),
-            " fields of ", tiles, " tiles of ", order.size(), " vertices");
+                fields.quantization_steps.size() == fields.first_field_of_tile.back() &&
+                fields.quantized_values.size() == fields.quantization_steps.size() * kTileValues,
+            "patches: ", fields.quantized_values.size(), " numbers of ",
+            fields.quantization_steps.size(), " fields of ", tiles, " tiles of ", order.size(),
+            " vertices");
     ranks.push_back(fields.rank);
   }
   std::vector<std::vector<double>> weights(heads.size());
@@ -351,13 +357,14 @@ FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
     }
     progress(end - begin);
   });
-  const MadePatches& made =
-      all->made = {join(parts, &MadePatches::skeleton_sizes),
-                   join(parts, &MadePatches::field_counts), join(parts, &MadePatches::steps),
-                   join(parts, &MadePatches::weights), join(parts, &MadePatches::quantized_values)};
-  auto result = FieldPatches::from_lists({all->vertices, made.skeleton_sizes, made.field_counts,
-                                          made.steps, made.weights, made.quantized_values, all},
-                                         static_cast<Index>(order.size()), ranks);
+  const MadePatches& made = all->made = {
+      join(parts, &MadePatches::stored_vertex_counts), join(parts, &MadePatches::field_counts),
+      join(parts, &MadePatches::quantization_steps), join(parts, &MadePatches::weights),
+      join(parts, &MadePatches::quantized_values)};
+  auto result =
+      FieldPatches::from_lists({all->vertices, made.stored_vertex_counts, made.field_counts,
+                                made.quantization_steps, made.weights, made.quantized_values, all},
+                               static_cast<Index>(order.size()), ranks);
   require(result.has_value(), "patches: not each vertex once, or numbers that are none");
   return *std::move(result);
 }

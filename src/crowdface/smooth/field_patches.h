@@ -27,10 +27,11 @@ struct FieldPatch {
                                             ///< numbers of the mesh
   /// #heads: for each head, how many of its leading fields the patch stores.
   std::span<const std::uint32_t> field_counts;
-  std::size_t field_count = 0;    ///< number of stored fields of all heads together, the sum of
-                                  ///< `field_counts`
-  std::size_t skeleton_size = 0;  ///< number of skeleton vertices, at which fields are stored
-  const float* steps = nullptr;   ///< #fields quantization steps: powers of two, or zero
+  std::size_t field_count = 0;  ///< number of stored fields of all heads together, the sum of
+                                ///< `field_counts`
+  /// number of vertices at which fields are stored (the skeleton, see FieldPatches)
+  std::size_t stored_vertex_count = 0;
+  const float* quantization_steps = nullptr;  ///< #fields: powers of two, or zero
   /// #fields by values_per_field(), in multiples of the quantization step. For each field: x of all
   /// skeleton vertices, then all y, then all z, then zeros as padding.
   const std::int16_t* quantized_values = nullptr;
@@ -40,12 +41,12 @@ struct FieldPatch {
   const float* weights = nullptr;
 
   /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
-  bool is_whole() const { return skeleton_size == vertices.size(); }
+  bool is_whole() const { return stored_vertex_count == vertices.size(); }
   /// Count of 16-bit numbers stored for each field: 3·#skeleton, rounded up to a multiple of
   /// kPatchPadding.
-  std::size_t values_per_field() const { return values_per_field(skeleton_size); }
-  static std::size_t values_per_field(std::size_t skeleton_size) {
-    return (3 * skeleton_size + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
+  std::size_t values_per_field() const { return values_per_field(stored_vertex_count); }
+  static std::size_t values_per_field(std::size_t stored_vertex_count) {
+    return (3 * stored_vertex_count + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
   }
 };
 
@@ -56,11 +57,12 @@ inline std::size_t patch_count(std::size_t vertex_count) {
 
 /// The data of all patches, concatenated.
 struct PatchLists {
-  std::span<const std::uint32_t> vertices;        ///< #V: each vertex once, ordered by patch
-  std::span<const std::uint32_t> skeleton_sizes;  ///< #patches: number of skeleton vertices
+  std::span<const std::uint32_t> vertices;  ///< #V: each vertex once, ordered by patch
+  /// #patches: see FieldPatch::stored_vertex_count
+  std::span<const std::uint32_t> stored_vertex_counts;
   std::span<const std::uint32_t>
       field_counts;  ///< #patches by #heads: see FieldPatch::field_counts
-  std::span<const float> steps, weights;
+  std::span<const float> quantization_steps, weights;
   std::span<const std::int16_t> quantized_values;
   std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
 };
@@ -75,11 +77,11 @@ class FieldPatches {
  public:
   FieldPatches() = default;
   /// Makes the patches from stored lists, if the lists are valid.
-  /// \param ranks  #heads: number of fields of each head.
+  /// \param head_field_counts  #heads: number of fields of each head.
   /// \return       nothing if the lists are not valid, that is, if `interpolate_fields` cannot make
-  ///               such lists for heads with `ranks` fields.
+  ///               such lists for heads with `head_field_counts` fields.
   static std::optional<FieldPatches> from_lists(PatchLists lists, Index vertex_count,
-                                                std::span<const Index> ranks);
+                                                std::span<const Index> head_field_counts);
 
   std::size_t size() const { return patches_.size(); }
   Index vertex_count() const { return static_cast<Index>(lists_.vertices.size()); }
@@ -96,18 +98,20 @@ class FieldPatches {
   std::vector<Patch> patches_;
 };
 
-/// All vertices along a space-filling curve (hilbert_order). Patches are consecutive ranges of this
-/// order. Runs of up to 32 vertices with consecutive numbers and small distances stay together, so
-/// that blending writes a new head's vertices in longer contiguous pieces.
+/// Orders all vertices along a space-filling curve (hilbert_order). Patches are consecutive ranges
+/// of this order. Runs of up to 32 vertices with consecutive numbers and small distances stay
+/// together, so that blending writes a new head's vertices in longer contiguous pieces.
 /// \param positions  #V by 3, any head of the topology.
 /// \param max_distance  largest distance between consecutive vertices of a run, in the unit of the
 ///                   positions.
-std::vector<std::uint32_t> patch_order(const Positions& positions, double max_distance);
+std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
+                                                    double max_distance);
 
 /// Compresses the fields of all heads patch by patch.
 /// \param heads      at least one head; all of the same mesh.
 /// \param levels     levels at which the error must not exceed `tolerance`.
-/// \param order      #V: all vertices, consecutive vertices close to each other (patch_order).
+/// \param order      #V: all vertices, consecutive vertices close to each other, for example the
+///                   result of vertex_order_for_patches.
 /// \param tolerance  largest allowed compression error of any vertex of any head at any of the
 ///                   levels, in the unit of the positions. Rounding to quantization steps adds to
 ///                   this error; no step of a patch exceeds the largest step of the tiles that

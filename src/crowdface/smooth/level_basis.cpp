@@ -67,13 +67,13 @@ class TileFitter {
  public:
   /// \param tolerance  largest allowed sum of truncation error and rounding error.
   TileFitter(const ChebyshevFilter& filter, const std::vector<FieldRows>& displacements,
-             const Directions& directions, double tolerance)
+             const PrincipalDirections& directions, double tolerance)
       : filter_(filter),
         displacements_(displacements),
         directions_(directions),
-        count_(static_cast<std::size_t>(directions.functions.cols())),
+        count_(static_cast<std::size_t>(directions.level_functions.cols())),
         tolerance_(tolerance) {
-    const Eigen::MatrixXd& functions = directions.functions;
+    const Eigen::MatrixXd& functions = directions.level_functions;
     for (Index l = 0; l < functions.rows(); ++l) {
       for (Index p = 0; p < functions.cols(); ++p) {
         functions_.push_back(static_cast<float>(functions(l, p)));
@@ -82,9 +82,9 @@ class TileFitter {
     for (Index p = 0; p < functions.cols(); ++p) {
       peaks_.push_back(functions.col(p).cwiseAbs().maxCoeff());
     }
-    for (Index n = 0; n < directions.combination.rows(); ++n) {
-      for (Index p = 0; p < directions.combination.cols(); ++p) {
-        combining_.push_back(static_cast<float>(directions.combination(n, p)));
+    for (Index n = 0; n < directions.field_coefficients.rows(); ++n) {
+      for (Index p = 0; p < directions.field_coefficients.cols(); ++p) {
+        combining_.push_back(static_cast<float>(directions.field_coefficients(n, p)));
       }
     }
   }
@@ -119,12 +119,12 @@ class TileFitter {
         const double half_a_step = 0.5 * static_cast<double>(quantization_step(of_field(p)));
         rounded.push_back(rounded.back() + peaks_[p] * std::sqrt(3.0) * half_a_step);
       }
-      // Of the other fields, keep the smallest number that meets the tolerance.
+      // Keep as few of the remaining fields as the tolerance allows.
       const double most =
           std::min(tolerance_ - rounded.back(), kTruncationShare * tolerance_) - skipped;
       const TruncationError left_out =
           choose_fewest_fields(by_coordinate.data(), looked_at, functions_.data(), count_,
-                               static_cast<std::size_t>(directions_.functions.rows()),
+                               static_cast<std::size_t>(directions_.level_functions.rows()),
                                most > 0 ? static_cast<float>(most * most) : 0.0F);
       fitted.fields.add(by_vertex, left_out.kept_fields);
       const double missed = std::sqrt(static_cast<double>(left_out.squared_error)) + skipped +
@@ -143,8 +143,8 @@ class TileFitter {
   /// 1/8, normals are as close to the exact normals as when all tiles keep the same fields
   /// (docs/method.md).
   static constexpr double kTruncationShare = 0.125;
-  /// The fraction of the tolerance that may be used to omit trailing fields without computing their
-  /// errors.
+  /// Trailing fields are omitted without a test at each level if the sum of their error bounds is
+  /// at most this fraction of the tolerance.
   static constexpr double kSkippedShare = 0.01;
 
   static double longest(std::span<const float> vectors) {
@@ -190,7 +190,7 @@ class TileFitter {
 
   const ChebyshevFilter& filter_;
   const std::vector<FieldRows>& displacements_;
-  const Directions& directions_;
+  const PrincipalDirections& directions_;
   std::size_t count_;  ///< number of directions, equal to the number of nodes
   double tolerance_;
   std::vector<float> functions_;  ///< #levels by #directions
@@ -199,7 +199,7 @@ class TileFitter {
 };
 
 /// The exact displacements at the probes, #levels by 3·#probes.
-Columns exact_displacements(const Probes& probes, OperatorKind kind,
+Columns exact_displacements(const RecordedTerms& probes, OperatorKind kind,
                             const std::vector<std::uint64_t>& levels) {
   Columns exact = Columns::Zero(static_cast<Index>(levels.size()), probes.terms.cols());
   parallel_for_each(exact.rows(), [&](std::ptrdiff_t l) {
@@ -243,8 +243,8 @@ ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
 
 }  // namespace
 
-std::vector<double> basis_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
-                                 std::uint64_t level) {
+std::vector<double> level_function_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
+                                          std::uint64_t level) {
   const std::vector<double> weights = nodes.weights(level);
   std::vector<double> functions(static_cast<std::size_t>(mixing.cols()), 0.0);
   for (Index p = 0; p < mixing.cols(); ++p) {
@@ -277,7 +277,7 @@ NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
                            const NodeFields& node_fields, double tolerance) {
   const std::vector<FieldRows>& displacements = node_fields.displacements;
-  const Probes& probes = node_fields.probes;
+  const RecordedTerms& probes = node_fields.probes;
   const TestedLevels tested = make_tested_levels(nodes);
   const Columns exact = exact_displacements(probes, filter.kind(), tested.levels);
   // Measure the error of interpolation between nodes. The fields may use the rest of the tolerance.
@@ -287,7 +287,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
         return displacements[static_cast<std::size_t>(n)][filter.row_of_vertex()[vertex]].value[c];
       });
   const double budget = tolerance - of_nodes.max;
-  const Directions directions =
+  const PrincipalDirections directions =
       principal_directions(tested, sample_displacements(displacements), budget);
   const TileFitter fitter(filter, displacements, directions, budget);
   const auto tiles =
@@ -317,7 +317,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   basis.mixing = directions.mixing.leftCols(rank);
   basis.fields = concatenate(filter.vertex_count(), rank, std::move(fields));
   basis.error.rms =
-      probe_error(exact, directions.functions.leftCols(rank), [&](Index v, Index p, Index c) {
+      probe_error(exact, directions.level_functions.leftCols(rank), [&](Index v, Index p, Index c) {
         const auto vertex = static_cast<Index>(probes.vertices[static_cast<std::size_t>(v)]);
         return basis.fields.value(p, vertex, c);
       }).rms;

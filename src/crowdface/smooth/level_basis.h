@@ -21,22 +21,26 @@ struct BasisError {
 /// Level L is the head after L smoothing iterations; level 0 is the head itself.
 struct LevelBasis {
   std::uint64_t max_level = 1;
-  Eigen::MatrixXd mixing;  ///< #nodes by rank: φ_p(L) = Σ_n w_n(L) mixing(n, p)
-  LevelFields fields;      ///< c_p
+  /// #nodes by rank: coefficients of the level functions, φ_p(L) = Σ_n w_n(L) mixing(n, p), where
+  /// w_n are the interpolation weights of LevelNodes
+  Eigen::MatrixXd mixing;
+  LevelFields fields;  ///< c_p
   BasisError error;
 
   Index rank() const { return mixing.cols(); }
 };
 
-/// Returns φ_p(L) for all p, for a basis with this `mixing` matrix.
-std::vector<double> basis_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
-                                 std::uint64_t level);
+/// Returns the level functions φ_p(L) of a LevelBasis for all p.
+/// \param mixing  see LevelBasis::mixing.
+std::vector<double> level_function_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
+                                          std::uint64_t level);
 
 /// The result of one filter pass over a head.
 struct NodeFields {
-  /// S_{N_n} x − x for each node, in the filter's row order.
+  /// For each node n, which is the level N_n: the displacements S_{N_n} x − x that N_n smoothing
+  /// iterations cause, in the filter's row order.
   std::vector<RowArray<float>> displacements;
-  Probes probes;  ///< exact Chebyshev terms at some vertices, to measure errors
+  RecordedTerms probes;  ///< exact Chebyshev terms at some vertices, to measure errors
 };
 
 /// Filters one head to the levels of all nodes in one pass, in single precision.

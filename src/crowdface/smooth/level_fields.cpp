@@ -13,7 +13,7 @@ namespace {
 
 struct OwnedFields {
   std::vector<std::uint32_t> first_field_of_tile;
-  std::vector<float> steps;
+  std::vector<float> quantization_steps;
   std::vector<std::int16_t> quantized_values;
 };
 
@@ -25,7 +25,8 @@ double LevelFields::value(Index field, Index vertex, Index coordinate) const {
   if (f >= tile.count) return 0;
   const std::size_t place =
       f * kTileValues + 3 * (v % kTileVertices) + static_cast<std::size_t>(coordinate);
-  return static_cast<double>(tile.steps[f]) * static_cast<double>(tile.quantized_values[place]);
+  return static_cast<double>(tile.quantization_steps[f]) *
+         static_cast<double>(tile.quantized_values[place]);
 }
 
 float quantization_step(std::span<const float> values) {
@@ -50,7 +51,7 @@ void FieldTiles::add(std::span<const float> values, std::size_t count) {
   std::int16_t* to = quantized_values.data() + quantized_values.size() - count * kTileValues;
   for (std::size_t p = 0; p < count; ++p) {
     const std::size_t at = p * kTileValues;
-    steps.push_back(quantize(values.subspan(at, kTileValues), to + at));
+    quantization_steps.push_back(quantize(values.subspan(at, kTileValues), to + at));
   }
 }
 
@@ -60,15 +61,17 @@ LevelFields concatenate(Index vertex_count, Index rank, std::vector<FieldTiles> 
   for (FieldTiles& part : tiles) {
     for (const std::uint32_t count : part.field_counts)
       all->first_field_of_tile.push_back(all->first_field_of_tile.back() + count);
-    all->steps.insert(all->steps.end(), part.steps.begin(), part.steps.end());
+    all->quantization_steps.insert(all->quantization_steps.end(), part.quantization_steps.begin(),
+                                   part.quantization_steps.end());
   }
-  all->quantized_values.reserve(all->steps.size() * kTileValues);
+  all->quantized_values.reserve(all->quantization_steps.size() * kTileValues);
   for (FieldTiles& part : tiles) {
     all->quantized_values.insert(all->quantized_values.end(), part.quantized_values.begin(),
                                  part.quantized_values.end());
     part = FieldTiles();
   }
-  return {vertex_count, rank, all->first_field_of_tile, all->steps, all->quantized_values, all};
+  return {vertex_count,          rank, all->first_field_of_tile, all->quantization_steps,
+          all->quantized_values, all};
 }
 
 LevelFields quantize(std::span<const float> fields, Index vertex_count) {

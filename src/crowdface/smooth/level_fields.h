@@ -15,7 +15,7 @@ namespace crowdface {
 /// The fields of one head at one tile of vertices.
 struct TileFields {
   std::size_t count = 0;                           ///< number of fields
-  const float* steps = nullptr;                    ///< #count quantization steps
+  const float* quantization_steps = nullptr;       ///< #count
   const std::int16_t* quantized_values = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
@@ -30,7 +30,7 @@ struct LevelFields {
   /// #tiles + 1: index of each tile's first field in the concatenated fields of all tiles.
   std::span<const std::uint32_t> first_field_of_tile;
   /// for each stored field of a tile, its quantization step in the unit of the positions
-  std::span<const float> steps;
+  std::span<const float> quantization_steps;
   /// For each stored field of a tile, kTileVertices by 3 integers. Entries beyond the mesh's last
   /// vertex are zero.
   std::span<const std::int16_t> quantized_values;
@@ -42,7 +42,7 @@ struct LevelFields {
   /// Returns the fields of the tile that contains the vertex.
   TileFields tile_fields(std::size_t vertex) const {
     const std::size_t tile = vertex / kTileVertices, begin = first_field_of_tile[tile];
-    return {first_field_of_tile[tile + 1] - begin, steps.data() + begin,
+    return {first_field_of_tile[tile + 1] - begin, quantization_steps.data() + begin,
             quantized_values.data() + begin * kTileValues};
   }
   double value(Index field, Index vertex, Index coordinate) const;
@@ -51,7 +51,7 @@ struct LevelFields {
 /// The fields of a sequence of tiles.
 struct FieldTiles {
   std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
-  std::vector<float> steps;
+  std::vector<float> quantization_steps;    ///< one for each stored field of a tile
   std::vector<std::int16_t> quantized_values;
 
   /// Quantizes and appends the fields of one tile.

@@ -101,12 +101,13 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
     // Remove the node's direction from all residuals.
     Spectrum direction = left[worst];
     orthonormalize(
-        direction, directions_.size(), [&](std::size_t m) { return std::span(directions_[m]); },
+        direction, orthonormal_basis_.size(),
+        [&](std::size_t m) { return std::span(orthonormal_basis_[m]); },
         [](std::size_t, double) {});
     for (Spectrum& spectrum : left)
       subtract_scaled(fixed_order_dot(spectrum, direction), direction, spectrum);
     chosen.push_back(candidates[worst]);
-    directions_.push_back(std::move(direction));
+    orthonormal_basis_.push_back(std::move(direction));
   }
   levels_ = chosen;
   std::ranges::sort(levels_);
@@ -116,7 +117,7 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
     const Spectrum node = displacement(level);
     std::vector<double> row;
     for (std::size_t q = 0; q <= triangular_factor_.size(); ++q)
-      row.push_back(fixed_order_dot(node, directions_[q]));
+      row.push_back(fixed_order_dot(node, orthonormal_basis_[q]));
     triangular_factor_.push_back(std::move(row));
   }
 }
@@ -134,8 +135,9 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   // directions, then solve the triangular system for the weights of the nodes.
   const Spectrum wanted = displacement(level);
   std::vector<double> share;
-  share.reserve(directions_.size());
-  for (const Spectrum& direction : directions_) share.push_back(fixed_order_dot(wanted, direction));
+  share.reserve(orthonormal_basis_.size());
+  for (const Spectrum& direction : orthonormal_basis_)
+    share.push_back(fixed_order_dot(wanted, direction));
   for (std::size_t p = choice_order_.size(); p-- > 0;) {
     const double weight = share[p] / triangular_factor_[p][p];
     for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangular_factor_[p][q];

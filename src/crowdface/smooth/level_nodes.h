@@ -41,9 +41,13 @@ class LevelNodes {
   std::uint64_t max_level_;
   std::vector<double> eigenvalues_, grid_weights_;
   std::vector<std::uint64_t> levels_;
-  std::vector<Spectrum> directions_;  ///< orthonormal; one for each node, in the order of choice
-  std::vector<std::size_t> choice_order_;  ///< indices into levels_ in the order of choice
-  /// The displacement at the node chosen p-th is Σ_q triangular_factor_[p][q] directions_[q].
+  /// orthonormal basis of the displacements at the nodes, by Gram-Schmidt; one spectrum for each
+  /// node, in the order of choice
+  std::vector<Spectrum> orthonormal_basis_;
+  std::vector<std::size_t> choice_order_;  ///< indices into levels_, in the order in which
+                                           ///< choose_nodes chose the nodes
+  /// Row p belongs to node choice_order_[p]: the displacement at this node is
+  /// Σ_q triangular_factor_[p][q] orthonormal_basis_[q].
   std::vector<std::vector<double>> triangular_factor_;
 };
 

@@ -73,18 +73,19 @@ Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
 }
 
 /// The principal directions that result if the error at level l has the weight `importance(l)`.
-Directions weighted_directions(const TestedLevels& tested, const Eigen::VectorXd& importance,
-                               const Eigen::MatrixXd& moments) {
+PrincipalDirections weighted_directions(const TestedLevels& tested,
+                                        const Eigen::VectorXd& importance,
+                                        const Eigen::MatrixXd& moments) {
   // Let Q·T be the QR factorization of the weighted functions, and C the displacements at the
   // nodes. With Z = T·C the trajectories are Q·Z. Their principal directions are the eigenvectors U
   // of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and Q·Z = (Q·U)·(Uᵀ·T·C).
   const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.node_weights);
   const Eigen::MatrixXd u =
       symmetric_eigen(product(product(t, moments), t.transpose())).eigenvectors;
-  Directions directions;
+  PrincipalDirections directions;
   directions.mixing = solve_triangle(t, u);
-  directions.combination = product(t.transpose(), u);
-  directions.functions = product(tested.node_weights, directions.mixing);
+  directions.field_coefficients = product(t.transpose(), u);
+  directions.level_functions = product(tested.node_weights, directions.mixing);
   return directions;
 }
 
@@ -95,8 +96,8 @@ using Lanes = std::array<float, kLanes>;
 
 /// Computes c_p for all p at the kLanes vertices from `begin`. Vertices from `end` on get zeros.
 /// \param fields  receives 3·#nodes by kLanes.
-void combine_fields(const Directions& directions, const NodeDisplacements& sample, Index begin,
-                    Index end, std::vector<Lanes>& fields) {
+void combine_fields(const PrincipalDirections& directions, const NodeDisplacements& sample,
+                    Index begin, Index end, std::vector<Lanes>& fields) {
   const Index nodes = sample.node_count;
   fields.assign(static_cast<std::size_t>(3 * nodes), Lanes{});
   for (Index v = begin; v < end; ++v) {
@@ -105,7 +106,7 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
       double field[3] = {};
       for (Index n = 0; n < nodes; ++n) {
         for (Index c = 0; c < 3; ++c) {
-          field[c] += directions.combination(n, p) * displacement[3 * n + c];
+          field[c] += directions.field_coefficients(n, p) * displacement[3 * n + c];
         }
       }
       for (Index c = 0; c < 3; ++c) {
@@ -118,10 +119,10 @@ void combine_fields(const Directions& directions, const NodeDisplacements& sampl
 
 /// The largest error over the sampled vertices, for each tested level and each number of kept
 /// directions: #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
-Eigen::MatrixXd max_errors(const Directions& directions, const NodeDisplacements& sample) {
-  const Index nodes = sample.node_count, levels = directions.functions.rows();
+Eigen::MatrixXd max_errors(const PrincipalDirections& directions, const NodeDisplacements& sample) {
+  const Index nodes = sample.node_count, levels = directions.level_functions.rows();
   // Transpose the matrix, so that the functions of one level are contiguous.
-  const Eigen::MatrixXf functions = directions.functions.transpose().cast<float>();
+  const Eigen::MatrixXf functions = directions.level_functions.transpose().cast<float>();
   Eigen::MatrixXf most = Eigen::MatrixXf::Zero(nodes + 1, levels);
   std::mutex mutex;
   constexpr Index kBlock = 32 * kLanes;
@@ -191,15 +192,15 @@ TestedLevels make_tested_levels(const LevelNodes& nodes) {
   return tested;
 }
 
-Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
-                                double tolerance) {
+PrincipalDirections principal_directions(const TestedLevels& tested,
+                                         const NodeDisplacements& sample, double tolerance) {
   constexpr int kRounds = 5;       // more rounds do not lower the rank (docs/method.md)
   constexpr double kFloor = 0.02;  // keeps the importance of every level above zero
   const Eigen::MatrixXd moments = second_moments(sample);
   Eigen::VectorXd importance = Eigen::VectorXd::Ones(tested.node_weights.rows());
-  Directions best;
+  PrincipalDirections best;
   for (int round = 0; round < kRounds; ++round) {
-    Directions directions = weighted_directions(tested, importance, moments);
+    PrincipalDirections directions = weighted_directions(tested, importance, moments);
     directions.max_errors = max_errors(directions, sample);
     directions.rank = min_rank(directions.max_errors, tolerance);
     const Eigen::MatrixXd distances = directions.max_errors;

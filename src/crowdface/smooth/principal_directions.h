@@ -28,10 +28,11 @@ struct NodeDisplacements {
 /// Orthogonal directions in the space of vertex trajectories, most important first. A trajectory is
 /// the displacement of a vertex as a function of the level. All directions together reproduce the
 /// displacements at the nodes exactly; the first few directions reproduce them approximately.
-struct Directions {
-  Eigen::MatrixXd mixing;       ///< #nodes by #nodes: φ_p(L) = Σ_n w_n(L) mixing(n, p)
-  Eigen::MatrixXd combination;  ///< #nodes by #nodes: c_p = Σ_n combination(n, p) (S_{N_n} x − x)
-  Eigen::MatrixXd functions;    ///< #levels by #nodes: φ_p at the tested levels
+struct PrincipalDirections {
+  Eigen::MatrixXd mixing;  ///< #nodes by #nodes: φ_p(L) = Σ_n w_n(L) mixing(n, p)
+  /// #nodes by #nodes: c_p = Σ_n field_coefficients(n, p) (S_{N_n} x − x)
+  Eigen::MatrixXd field_coefficients;
+  Eigen::MatrixXd level_functions;  ///< #levels by #nodes: φ_p at the tested levels
   /// #levels by #nodes + 1: largest error over the sampled vertices if only the first 0, 1, …
   /// directions are used.
   Eigen::MatrixXd max_errors;
@@ -44,7 +45,7 @@ struct Directions {
 /// \param tolerance  largest allowed error at the sampled vertices. The result has the lowest rank
 ///                   found whose error is within the tolerance; if there is none, the rank is
 ///                   #nodes.
-Directions principal_directions(const TestedLevels& tested, const NodeDisplacements& sample,
-                                double tolerance);
+PrincipalDirections principal_directions(const TestedLevels& tested,
+                                         const NodeDisplacements& sample, double tolerance);
 
 }  // namespace crowdface

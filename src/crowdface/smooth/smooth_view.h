@@ -14,8 +14,8 @@ namespace crowdface {
 class ChebyshevFilter;
 
 /// Like `smooth` (chebyshev_filter.h), but without copying the caller's positions.
-std::vector<Positions> smooth_view(const ChebyshevFilter& filter,
-                                   const Eigen::Ref<const Positions>& positions,
-                                   std::span<const std::uint64_t> levels);
+std::vector<Positions> smooth_without_copy(const ChebyshevFilter& filter,
+                                           const Eigen::Ref<const Positions>& positions,
+                                           std::span<const std::uint64_t> levels);
 
 }  // namespace crowdface

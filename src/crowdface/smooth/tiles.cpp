@@ -139,9 +139,10 @@ class TileBuilder {
 
   const SmoothingOperator& smoothing_;
   Tiling& tiling_;
-  std::vector<std::uint32_t> local_;     ///< #V: each vertex's local row in the tile that is being
-                                         ///< built
-  std::vector<std::uint32_t> vertices_;  ///< the vertices of the tile's local rows
+  /// #V: each vertex's local row in the current tile
+  std::vector<std::uint32_t> local_;
+  /// the vertex of each local row of the current tile
+  std::vector<std::uint32_t> vertices_;
 };
 
 }  // namespace

@@ -48,15 +48,15 @@ void interpolate(const SurfaceTexels& texels, int y, const PictureFields& fields
     const float* second = fields.values.data() + width * triangle.corners[1];
     const float* third = fields.values.data() + width * triangle.corners[2];
     const auto begin = static_cast<float>(span.begin);
-    const float b = triangle.second_coefficients[0] + row * triangle.second_coefficients[2] +
-                    begin * triangle.second_coefficients[1];
-    const float c = triangle.third_coefficients[0] + row * triangle.third_coefficients[2] +
-                    begin * triangle.third_coefficients[1];
+    const float b = triangle.second_barycentric[0] + row * triangle.second_barycentric[2] +
+                    begin * triangle.second_barycentric[1];
+    const float c = triangle.third_barycentric[0] + row * triangle.third_barycentric[2] +
+                    begin * triangle.third_barycentric[1];
     for (std::size_t f = 0; f < width; ++f) {
       const float to_second = second[f] - first[f], to_third = third[f] - first[f];
       ramps[f] = {
           first[f] + b * to_second + c * to_third,
-          triangle.second_coefficients[1] * to_second + triangle.third_coefficients[1] * to_third};
+          triangle.second_barycentric[1] * to_second + triangle.third_barycentric[1] * to_third};
       out[f] = buffer.rows()[f] + span.begin;
     }
     write_ramps(ramps, static_cast<std::size_t>(span.end - span.begin), out.data());

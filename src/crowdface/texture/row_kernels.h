@@ -19,8 +19,9 @@ struct Ramp {
   float first = 0, step = 0;
 };
 
-/// Writes the first `count` values of each ramp, and up to kRowSlack further values beyond the end.
-/// \param rows  #ramps rows.
+/// Writes the first `count` values of each arithmetic sequence to one row. May overwrite up to
+/// kRowSlack values after them.
+/// \param rows  #ramps: the start of each sequence's row.
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 
 /// One row of a head's texture map, and the factor by which each texel is multiplied.

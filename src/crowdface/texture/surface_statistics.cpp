@@ -53,7 +53,7 @@ void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_
     const auto share = [&](const std::array<float, 3>& of) {
       return of[0] + static_cast<float>(x) * of[1] + static_cast<float>(y) * of[2];
     };
-    const float b = share(triangle.second_coefficients), c = share(triangle.third_coefficients);
+    const float b = share(triangle.second_barycentric), c = share(triangle.third_barycentric);
     Sample sample{p,
                   static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(texels.width()) +
                       static_cast<std::uint32_t>(x),

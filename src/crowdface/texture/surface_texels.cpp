@@ -21,12 +21,12 @@ bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle
   const double area = cross(u, v);
   if (!(std::abs(area) > 1e-12)) return false;
   const Point origin = Point(0.5, 0.5) - at[0];
-  triangle.second_coefficients = {static_cast<float>(cross(origin, v) / area),
-                                  static_cast<float>(v.y() / area),
-                                  static_cast<float>(-v.x() / area)};
-  triangle.third_coefficients = {static_cast<float>(cross(u, origin) / area),
-                                 static_cast<float>(-u.y() / area),
-                                 static_cast<float>(u.x() / area)};
+  triangle.second_barycentric = {static_cast<float>(cross(origin, v) / area),
+                                 static_cast<float>(v.y() / area),
+                                 static_cast<float>(-v.x() / area)};
+  triangle.third_barycentric = {static_cast<float>(cross(u, origin) / area),
+                                static_cast<float>(-u.y() / area),
+                                static_cast<float>(u.x() / area)};
   return true;
 }
 
@@ -111,7 +111,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) triangles_[t].corners[c] = corners[3 * t + c];
   }
-  // Convert each row to spans of texels with the same owner.
+  // Convert each row to spans of texels that the same triangle covers.
   row_begin_ = {0};
   for (int y = 0; y < size_.height; ++y) {
     const std::uint32_t* row = owners.data() + static_cast<std::size_t>(y) * width;

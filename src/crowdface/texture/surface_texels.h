@@ -27,11 +27,11 @@ struct TextureLayout {
 class SurfaceTexels {
  public:
   /// A triangle of a polygon's fan. At the centre of texel (x, y), the barycentric coordinate of
-  /// the triangle's second corner is s[0] + x · s[1] + y · s[2] with s = second_coefficients, and
-  /// the barycentric coordinate of the third corner is the same expression of third_coefficients.
+  /// the triangle's second corner is s[0] + x · s[1] + y · s[2] with s = second_barycentric, and
+  /// the barycentric coordinate of the third corner is the same expression of third_barycentric.
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  ///< indices into `vertices()`
-    std::array<float, 3> second_coefficients, third_coefficients;
+    std::array<float, 3> second_barycentric, third_barycentric;
     std::uint32_t face = 0;
   };
   /// The texels [begin, end) of one row that one triangle covers.

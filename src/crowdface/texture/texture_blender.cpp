@@ -25,7 +25,7 @@ using HeadWeights = std::vector<double>;  ///< #heads; the sum is one, or all ar
 HeadWeights shares_by_head(const Recipe& recipe, std::size_t heads) {
   HeadWeights shares(heads, 0.0);
   for (const SourceWeight& share :
-       recipe.colours.empty() ? target_shares(recipe) : recipe.colours) {
+       recipe.colours.empty() ? target_head_weights(recipe) : recipe.colours) {
     shares[static_cast<std::size_t>(share.head)] = share.weight;
   }
   return shares;
@@ -198,12 +198,12 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
     return surface_statistics(filter, texels_, textures.maps, options_.statistics_scale);
   });
 
-  region_shares_ = region_shares(regions, options_.vertex_areas);
+  region_area_fractions_ = region_shares(regions, options_.vertex_areas);
 }
 
 PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& recipe) const {
   const auto& maps = textures_.maps[picture];
-  const FaceWeights weights = face_weights(recipe, maps, region_shares_);
+  const FaceWeights weights = face_weights(recipe, maps, region_area_fractions_);
   PictureFields fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {

@@ -14,7 +14,7 @@
 namespace crowdface {
 
 struct TextureBlendOptions {
-  StatisticsScale statistics_scale;
+  StatisticsScale statistics_scale;  ///< how many smoothing iterations the statistics use
   /// #V: weight of each vertex in means over the face; not all zero.
   std::vector<double> vertex_areas;
   /// #V, or empty: whether the vertex has the colours of the target alone (eyes, teeth).
@@ -72,7 +72,8 @@ class TextureBlender {
   std::vector<SurfaceTexels> texels_;  ///< #pictures
   std::vector<MapCoding> codings_;     ///< #pictures: coding of the blended picture
   SurfaceStatistics statistics_;
-  std::vector<double> region_shares_;  ///< #regions: fraction of the face that each region covers
+  std::vector<double>
+      region_area_fractions_;  ///< #regions: fraction of the face that each region covers
 };
 
 /// For each region, the fraction of the face's area that the region covers.

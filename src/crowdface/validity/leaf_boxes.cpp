@@ -235,7 +235,7 @@ LeafCorners::LeafCorners(std::span<const std::uint32_t> triangle_indices,
   }
 }
 
-LeafBoxes::LeafBoxes(const LeafCorners& corners, const SingleRows& points, double margin) {
+LeafBoxes::LeafBoxes(const LeafCorners& corners, const FloatPositions& points, double margin) {
   HWY_DYNAMIC_DISPATCH(measure_boxes)
   (corners, points.data(), static_cast<float>(margin), *this);
   constexpr float kEnd = std::numeric_limits<float>::infinity();
@@ -247,7 +247,7 @@ LeafBoxes::LeafBoxes(const LeafCorners& corners, const SingleRows& points, doubl
   }
 }
 
-LeafNormals::LeafNormals(const LeafCorners& corners, const SingleRows& points) {
+LeafNormals::LeafNormals(const LeafCorners& corners, const FloatPositions& points) {
   HWY_DYNAMIC_DISPATCH(measure_normals)(corners, points.data(), *this);
 }
 

@@ -42,7 +42,7 @@ struct LeafBoxes {
   LeafBoxes() = default;
   /// \param points  positions of the vertices, #V by 3
   /// \param margin  distance by which the boxes grow on all sides
-  LeafBoxes(const LeafCorners& corners, const SingleRows& points, double margin);
+  LeafBoxes(const LeafCorners& corners, const FloatPositions& points, double margin);
   /// Returns the box that contains all triangles of the leaf.
   Box bounding_box() const;
 };
@@ -53,7 +53,7 @@ struct LeafNormals {
   std::array<std::array<float, LeafCorners::kCount>, 3> components;
 
   LeafNormals() = default;
-  LeafNormals(const LeafCorners& corners, const SingleRows& points);
+  LeafNormals(const LeafCorners& corners, const FloatPositions& points);
 };
 
 /// A ray with precomputed values for intersection tests with boxes.

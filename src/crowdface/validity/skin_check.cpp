@@ -153,8 +153,9 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Target& target)
   const SelfIntersections crossing =
       self_intersections_of(triangles_, tree_, positions, triangles_at_vertex_, view_setup_);
   defects.intersecting_count = target.intersections.count(crossing.pairs);
-  defects.exposed_back_mm2 = std::max(0.0, crossing.exposed_back_area - target.exposed_back_area) *
-                             view_setup_.mm_per_unit * view_setup_.mm_per_unit;
+  defects.exposed_back_face_mm2 =
+      std::max(0.0, crossing.exposed_back_area - target.exposed_back_area) *
+      view_setup_.mm_per_unit * view_setup_.mm_per_unit;
   return defects;
 }
 
@@ -168,7 +169,7 @@ std::uint64_t SkinCheck::memory_bytes() const {
   return bytes;
 }
 
-std::uint64_t SkinCheck::compare_bytes() const {
+std::uint64_t SkinCheck::compare_memory_bytes() const {
   // A comparison of 2.4 million triangles used 120 bytes per triangle; add a margin.
   constexpr std::uint64_t kBytesPerTriangle = 150;
   return kBytesPerTriangle * triangles_.size();

@@ -27,8 +27,8 @@ struct SkinDefects {
   /// any head at the same contact. SkinCheck does not set this value; callers that know the
   /// contacts do.
   double gap_excess_mm = 0;
-  /// how much more of the skin's back side is visible than on the target
-  double exposed_back_mm2 = 0;
+  /// how much larger the visible area of the skin's back faces is than on the target
+  double exposed_back_face_mm2 = 0;
 };
 
 /// Compares the skin of meshes that have the same topology with the skin of their targets. Const
@@ -54,7 +54,7 @@ class SkinCheck {
   std::uint64_t memory_bytes() const;
   /// Returns an upper bound of the temporary memory that one `compare` uses (for boxes and pairs),
   /// in bytes.
-  std::uint64_t compare_bytes() const;
+  std::uint64_t compare_memory_bytes() const;
 
  private:
   struct Target {

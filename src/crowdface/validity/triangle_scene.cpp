@@ -44,7 +44,7 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
       leaves_(tree.leaf_count()),
       boxes_(tree.nodes.size()) {
   constexpr std::size_t kLeavesPerTask = 512;
-  const SingleRows points = positions.cast<float>();
+  const FloatPositions points = positions.cast<float>();
   parallel_for_each(leaves_.size(), kLeavesPerTask, [&](std::size_t l) {
     leaves_[l] = LeafBoxes(tree.corners[l], points, margin);
   });

@@ -57,8 +57,8 @@ TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const P
     const Vector normal = u.cross(v);
     if (!(normal.squaredNorm() > kSliver * kSliver * u.squaredNorm() * v.squaredNorm())) continue;
     const double length = std::sqrt(u.squaredNorm());
-    const double shift = u.dot(v) / length;
-    frames_.push_back({t, normal, length, shift, std::sqrt(normal.squaredNorm()) / length});
+    const double apex_x = u.dot(v) / length;
+    frames_.push_back({t, normal, length, apex_x, std::sqrt(normal.squaredNorm()) / length});
   }
 }
 
@@ -79,7 +79,7 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     // Compute the square of the largest singular value of the linear map from the target triangle
     // to this triangle. x and y are the images of the axes of `frame`.
     const Vector x = u / frame.length;
-    const Vector y = (v - frame.shift * x) / frame.height;
+    const Vector y = (v - frame.apex_x * x) / frame.apex_y;
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();
     stretches.push_back(0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b));
   }

@@ -35,11 +35,11 @@ class TargetTriangles {
 
  private:
   /// A triangle of the target, described in the plane of the triangle: in orthonormal coordinates,
-  /// its corners are (0, 0), (length, 0) and (shift, height).
+  /// its corners are (0, 0), (length, 0) and (apex_x, apex_y).
   struct Frame {
     Triangle corners;
     Eigen::Vector3d normal;  ///< the length of this vector is twice the triangle's area
-    double length, shift, height;
+    double length, apex_x, apex_y;
   };
   std::vector<Frame> frames_;  ///< one frame for each triangle that is not degenerate
 };

@@ -15,8 +15,9 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMinOpen = 0.04;         // vertices below this openness are inside
-constexpr double kOpennessOfSkin = 0.25;  // the scan has full weight from this openness on
+/// Ambient visibilities. kMinBendVisibility: vertices below this value are inside the mouth, the
+/// nose or an eye socket. kFullBendVisibility: the scan has full weight from this value on.
+constexpr double kMinBendVisibility = 0.04, kFullBendVisibility = 0.25;
 constexpr std::size_t kMaxScanPoints = 8000;
 constexpr int kBendSteps = 3;              // steps per round
 constexpr double kHiddenStiffnessMm = 10;  // smallest stiffness where the scan shows no skin
@@ -60,10 +61,11 @@ class Bending {
         areas_(vertex_areas(skin.triangles, base)),
         laplacian_(laplacian(skin.triangles, base)),
         scan_areas_(vertex_areas(scan.scan().triangles, scan.scan().positions)) {
-    visible_.resize(skin.openness.size());
+    visible_.resize(skin.ambient_visibility.size());
     for (std::size_t v = 0; v < visible_.size(); ++v) {
-      visible_[v] =
-          std::clamp((skin.openness[v] - kMinOpen) / (kOpennessOfSkin - kMinOpen), 0.0, 1.0);
+      visible_[v] = std::clamp((skin.ambient_visibility[v] - kMinBendVisibility) /
+                                   (kFullBendVisibility - kMinBendVisibility),
+                               0.0, 1.0);
     }
     choose_scan_points();
     choose_rims();
@@ -76,12 +78,13 @@ class Bending {
     for (std::size_t r = 0; r < rounds; ++r) {
       const double share =
           rounds > 1 ? static_cast<double>(r) / static_cast<double>(rounds - 1) : 1;
-      run_round(options_.wavelengths_mm[r],
-                kReachFirstMm * std::pow(kReachLastMm / kReachFirstMm, share),
-                options_.first_landmark_weight +
-                    share * (options_.last_landmark_weight - options_.first_landmark_weight),
-                options_.first_tangential_weight +
-                    share * (options_.last_tangential_weight - options_.first_tangential_weight));
+      run_round(
+          options_.wavelengths_mm[r], kReachFirstMm * std::pow(kReachLastMm / kReachFirstMm, share),
+          options_.first_round_landmark_weight +
+              share * (options_.last_round_landmark_weight - options_.first_round_landmark_weight),
+          options_.first_round_tangential_weight +
+              share *
+                  (options_.last_round_tangential_weight - options_.first_round_tangential_weight));
     }
     return base_ + displacements_;
   }

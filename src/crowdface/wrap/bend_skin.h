@@ -15,9 +15,9 @@ struct BendOptions {
   std::vector<double> wavelengths_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
   /// Weight of offsets along the surface, in the first and in the last round. Offsets along the
   /// normal have weight 1.
-  double first_tangential_weight = 0.2, last_tangential_weight = 0.8;
+  double first_round_tangential_weight = 0.2, last_round_tangential_weight = 0.8;
   /// Weight of the landmarks in the first and in the last round.
-  double first_landmark_weight = 1, last_landmark_weight = 0.3;
+  double first_round_landmark_weight = 1, last_round_landmark_weight = 0.3;
 };
 
 /// Deforms a skin onto a scan by non-rigid iterated closest points (Amberg et al. 2007), with a

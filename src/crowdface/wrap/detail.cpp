@@ -23,7 +23,7 @@ constexpr double kReachMm = 3;
 constexpr double kStiffnessEdges = 0.5;
 constexpr int kDetailRounds = 2;
 constexpr double kMinNormalCosine = 0.7;  // least cosine between the normals of scan and skin
-constexpr double kMinOpenness = 0.15;
+constexpr double kMinDetailVisibility = 0.15;
 constexpr double kNoDataWeight = 1e-4;  ///< weight of a zero offset at vertices without scan data
 constexpr int kSteps = 30;
 constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
@@ -104,7 +104,7 @@ TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const P
   parallel_blocks(positions.rows(), 256, [&](Index begin, Index end) {
     std::uint32_t before = kNoIndex;
     for (Index v = begin; v < end; ++v) {
-      if (skin.openness[static_cast<std::size_t>(v)] < kMinOpenness) continue;
+      if (skin.ambient_visibility[static_cast<std::size_t>(v)] < kMinDetailVisibility) continue;
       const Eigen::Vector3d point = row3(positions, v), normal = row3(normals, v);
       const auto place = scan.nearest(point, normal, kMinNormalCosine, kReachMm, before);
       before = place.triangle;

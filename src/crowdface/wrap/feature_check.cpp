@@ -87,7 +87,7 @@ Eigen::VectorXd relief(const Positions& positions, const Positions& normals,
 
 }  // namespace
 
-std::vector<FaceFeature> face_features(const WrapTemplate& shape,
+std::vector<FaceFeature> face_features(const WrapTemplate& wrap_template,
                                        const std::map<std::string, std::uint32_t>& landmarks) {
   constexpr std::size_t kMinVertices = 40;
   std::vector<FaceFeature> features;
@@ -95,13 +95,13 @@ std::vector<FaceFeature> face_features(const WrapTemplate& shape,
     std::vector<Eigen::Vector3d> places;
     for (const std::string& name : outline.landmarks) {
       const auto found = landmarks.find(name);
-      if (found != landmarks.end()) places.push_back(row3(shape.positions, found->second));
+      if (found != landmarks.end()) places.push_back(row3(wrap_template.positions, found->second));
     }
     if (places.size() < outline.landmarks.size()) continue;
     FaceFeature feature{std::string(outline.name), {}};
-    for (std::uint32_t v = 0; v < shape.skin.vertices.size(); ++v) {
-      if (shape.skin.openness[v] <= kVisibleOpenness) continue;
-      const Eigen::Vector3d p = row3(shape.positions, shape.skin.vertices[v]);
+    for (std::uint32_t v = 0; v < wrap_template.skin.vertices.size(); ++v) {
+      if (wrap_template.skin.ambient_visibility[v] <= kVisibleSkinThreshold) continue;
+      const Eigen::Vector3d p = row3(wrap_template.positions, wrap_template.skin.vertices[v]);
       if (distance_to_outline(p, places) < outline.reach_mm) feature.skin_vertices.push_back(v);
     }
     if (feature.skin_vertices.size() >= kMinVertices) features.push_back(std::move(feature));
@@ -109,11 +109,11 @@ std::vector<FaceFeature> face_features(const WrapTemplate& shape,
   return features;
 }
 
-std::vector<double> relief_correlations(const WrapTemplate& shape,
+std::vector<double> relief_correlations(const WrapTemplate& wrap_template,
                                         const std::vector<FaceFeature>& features,
                                         const Positions& wrapped) {
-  const SkinMesh& skin = shape.skin;
-  const Positions before = skin.rows_of(shape.positions), after = skin.rows_of(wrapped);
+  const SkinMesh& skin = wrap_template.skin;
+  const Positions before = skin.rows_of(wrap_template.positions), after = skin.rows_of(wrapped);
   const Positions normals_before = vertex_normals_or_zero(skin.triangles, before),
                   normals_after = vertex_normals_or_zero(skin.triangles, after);
   const Eigen::VectorXd areas = areas_at_vertices(skin, before);

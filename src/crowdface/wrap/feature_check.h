@@ -20,7 +20,7 @@ struct FaceFeature {
 /// Finds the facial features of a template from its landmarks. Omits a feature if one of the
 /// feature's landmarks is missing.
 /// \param landmarks  landmarks of the template by name, as vertex numbers (see propose_landmarks)
-std::vector<FaceFeature> face_features(const WrapTemplate& shape,
+std::vector<FaceFeature> face_features(const WrapTemplate& wrap_template,
                                        const std::map<std::string, std::uint32_t>& landmarks);
 
 /// Returns, for each feature, the correlation between the feature's relief before and after a wrap.
@@ -30,7 +30,7 @@ std::vector<FaceFeature> face_features(const WrapTemplate& shape,
 /// scripts/measure_wrap.sh).
 /// \param wrapped  positions of the whole template, #V by 3
 /// \return #features
-std::vector<double> relief_correlations(const WrapTemplate& shape,
+std::vector<double> relief_correlations(const WrapTemplate& wrap_template,
                                         const std::vector<FaceFeature>& features,
                                         const Positions& wrapped);
 

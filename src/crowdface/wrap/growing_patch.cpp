@@ -70,7 +70,7 @@ void PatchMender::mend_around(const Triangle& triangle,
     patch.grow();
     const auto before = count_bad();
     for (const double steepness : {1.0, 2.0, 4.0}) {
-      patch.set_steepness(steepness);
+      patch.set_weight_steepness(steepness);
       change.make(patch);
       if (count_bad() < before) return;
       change.undo(patch);

@@ -23,9 +23,9 @@ class GrowingPatch {
   /// Weight of vertex `i` of the patch: 1 at the triangle, falling to 0 beyond the last ring. With
   /// a larger steepness, the weight falls mainly near the border.
   double weight(std::size_t i) const {
-    return std::min(1.0, steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
+    return std::min(1.0, weight_steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
   }
-  void set_steepness(double steepness) { steepness_ = steepness; }
+  void set_weight_steepness(double weight_steepness) { weight_steepness_ = weight_steepness; }
 
  private:
   const SkinMesh& skin_;
@@ -33,7 +33,7 @@ class GrowingPatch {
   std::vector<int> rings_;  ///< ring of each vertex in `vertices_`
   std::vector<bool> is_member_;
   int ring_ = 0;
-  double steepness_ = 1;
+  double weight_steepness_ = 1;
 };
 
 /// An operation on a patch, and the operation that undoes it.

@@ -35,20 +35,20 @@ double percentile(std::vector<double> values, double share) {
   return nth_smallest(std::move(values), rank);
 }
 
-bool seen(const WrapTemplate& shape, Index v) {
-  return shape.skin.openness[static_cast<std::size_t>(v)] > kVisibleOpenness;
+bool seen(const WrapTemplate& wrap_template, Index v) {
+  return wrap_template.skin.ambient_visibility[static_cast<std::size_t>(v)] > kVisibleSkinThreshold;
 }
 
 /// Distances from the skin's visible vertices to the scan; only of the vertices that have scan
 /// data.
 /// \param regions, region  restrict the result to one region; null: the whole skin
-std::vector<double> seen_distances(const WrapTemplate& shape, const WrapResult& result,
+std::vector<double> seen_distances(const WrapTemplate& wrap_template, const WrapResult& result,
                                    const SkinRegions* regions = nullptr, std::size_t region = 0) {
   std::vector<double> distances;
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
     if (regions != nullptr && regions->region_of_vertex[static_cast<std::size_t>(v)] != region)
       continue;
-    if (seen(shape, v) && !result.lacks_data[static_cast<std::size_t>(v)]) {
+    if (seen(wrap_template, v) && !result.lacks_data[static_cast<std::size_t>(v)]) {
       distances.push_back(result.distance_mm(v));
     }
   }
@@ -63,12 +63,12 @@ double share_far(const std::vector<double>& distances) {
 
 /// Returns a clause that names the region farthest from the scan, such as ", most of all of the
 /// brow (12.5 %)"; or an empty text.
-std::string farthest_region(const WrapTemplate& shape, const WrapResult& result,
+std::string farthest_region(const WrapTemplate& wrap_template, const WrapResult& result,
                             const SkinRegions& regions) {
   double most = 0;
   std::string text;
   for (std::size_t r = 0; r < regions.names.size(); ++r) {
-    const double share = share_far(seen_distances(shape, result, &regions, r));
+    const double share = share_far(seen_distances(wrap_template, result, &regions, r));
     if (share <= most) continue;
     most = share;
     text =
@@ -93,9 +93,9 @@ constexpr double kScaleEndMm = 2;  // end of the heat map's scale
 constexpr std::array<View, 3> kViews = {View::kFront, View::kThreeQuarter, View::kProfile};
 
 /// Render settings for the surfaces: eyeballs are shown as eyes, lashes and tear lines are hidden.
-Surfaces surfaces_of(const WrapTemplate& shape) {
-  std::vector<SurfaceKind> of_component(shape.parts.classes.size(), SurfaceKind::kSkin);
-  for (const Part& part : shape.parts.parts) {
+Surfaces surfaces_of(const WrapTemplate& wrap_template) {
+  std::vector<SurfaceKind> of_component(wrap_template.parts.classes.size(), SurfaceKind::kSkin);
+  for (const Part& part : wrap_template.parts.parts) {
     for (const std::uint32_t c : part.components) {
       of_component[c] = part.part_class == PartClass::kBound          ? SurfaceKind::kHidden
                         : part.is_eyeball && c == part.ball_component ? SurfaceKind::kEye
@@ -104,42 +104,45 @@ Surfaces surfaces_of(const WrapTemplate& shape) {
     }
   }
   Surfaces surfaces;
-  for (Index f = 0; f < shape.topology.face_count(); ++f) {
+  for (Index f = 0; f < wrap_template.topology.face_count(); ++f) {
     surfaces.kinds.push_back(
-        of_component[shape.components.component_of_vertex[shape.topology.face(f)[0]]]);
+        of_component[wrap_template.components
+                         .component_of_vertex[wrap_template.topology.face(f)[0]]]);
   }
   return surfaces;
 }
 
 /// Returns colours in which the doubtful features are red; nothing if no feature is doubtful.
-std::optional<VertexColours> doubt_colours(const WrapTemplate& shape, const WrapResult& result) {
+std::optional<VertexColours> doubt_colours(const WrapTemplate& wrap_template,
+                                           const WrapResult& result) {
   if (std::ranges::none_of(result.features, &FeatureCheck::is_doubtful)) return std::nullopt;
-  Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(shape.topology.vertex_count);
+  Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(wrap_template.topology.vertex_count);
   for (const FeatureCheck& feature : result.features) {
     if (!feature.is_doubtful()) continue;
-    for (const std::uint32_t v : feature.skin_vertices) doubtful(shape.skin.vertices[v]) = 1;
+    for (const std::uint32_t v : feature.skin_vertices)
+      doubtful(wrap_template.skin.vertices[v]) = 1;
   }
   return mask_colours(doubtful, heat_colour(1));
 }
 
 }  // namespace
 
-WrapDistances measure_distances(const WrapTemplate& shape, const WrapResult& result) {
-  const std::vector<double> distances = seen_distances(shape, result);
+WrapDistances measure_distances(const WrapTemplate& wrap_template, const WrapResult& result) {
+  const std::vector<double> distances = seen_distances(wrap_template, result);
   return {percentile(distances, 0.5), percentile(distances, 0.95)};
 }
 
-double share_without_data(const WrapTemplate& shape, const WrapResult& result) {
+double share_without_data(const WrapTemplate& wrap_template, const WrapResult& result) {
   Index visible = 0, without = 0;
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
-    if (!seen(shape, v)) continue;
+    if (!seen(wrap_template, v)) continue;
     ++visible;
     if (result.lacks_data[static_cast<std::size_t>(v)]) ++without;
   }
   return visible == 0 ? 0 : static_cast<double>(without) / static_cast<double>(visible);
 }
 
-std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result) {
+std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const WrapResult& result) {
   std::vector<std::string> warnings;
   for (const FeatureCheck& feature : result.features) {
     if (!feature.is_doubtful()) continue;
@@ -170,28 +173,31 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult
   if (!result.face_distance_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     warnings.push_back(concat(
         "no face was recognised on the ",
-        shape.face ? "scan"
-                   : concat("template (",
-                            why_no_face_found(shape.topology, head_shape(shape), shape.axes), ')'),
+        wrap_template.face_match
+            ? "scan"
+            : concat("template (",
+                     why_no_face_found(wrap_template.topology, head_shape(wrap_template),
+                                       wrap_template.axes),
+                     ')'),
         ", so the place of the face is not verified: check the picture, or pick four landmarks or "
         "more"));
   }
   return warnings;
 }
 
-std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
+std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_head_count) {
-  std::vector<std::string> warnings = wrap_doubts(shape, result);
-  const std::vector<std::string> faults = scan_faults(shape, result, regions);
+  std::vector<std::string> warnings = wrap_doubts(wrap_template, result);
+  const std::vector<std::string> faults = scan_faults(wrap_template, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
-  const double share = share_far(seen_distances(shape, result));
+  const double share = share_far(seen_distances(wrap_template, result));
   if (share > kMaxFarShare && faults.empty()) {
     warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ",
                               kFarFromScanMm, " mm off the scan",
-                              farthest_region(shape, result, regions),
+                              farthest_region(wrap_template, result, regions),
                               ": exclude with --ignore what is not skin, or pick landmarks there"));
   }
-  if (const double lacking = share_without_data(shape, result); lacking > kMaxWithoutData) {
+  if (const double lacking = share_without_data(wrap_template, result); lacking > kMaxWithoutData) {
     warnings.push_back(concat("the scan has no data for ", format_fixed(100 * lacking, 0),
                               " % of the skin, whose shape is estimated"));
   }
@@ -206,9 +212,9 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResu
   return warnings;
 }
 
-void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
+void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result,
                      const SkinRegions& regions) {
-  if (share_without_data(shape, result) > 1 - kMinWithData) {
+  if (share_without_data(wrap_template, result) > 1 - kMinWithData) {
     throw InvalidInput(
         "the scan has no data for the skin: is it a head, and are the landmarks, or --scan-up and "
         "--scan-front, correct?");
@@ -222,11 +228,11 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
                format_fixed(median, 1), " mm apart, expected less than ", kMaxMedianMm,
                "; are left and right swapped, or vertices counted from 1?"));
   }
-  if (const double far = measure_distances(shape, result).percentile_95_mm;
+  if (const double far = measure_distances(wrap_template, result).percentile_95_mm;
       !(far <= kMaxDistanceMm)) {
     throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
                               " mm off the scan, expected less than ", kMaxDistanceMm,
-                              farthest_region(shape, result, regions),
+                              farthest_region(wrap_template, result, regions),
                               result.landmarks.empty() ? ": pick four landmarks or more"
                                                        : ": check the landmarks, pick more of them",
                               ", or exclude with --ignore what is not skin on the scan"));
@@ -239,7 +245,7 @@ void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
   }
 }
 
-std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,
+std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_template,
                                const WrapResult& result, const SkinRegions& regions,
                                const std::vector<std::string>& warnings) {
   nlohmann::ordered_json report;
@@ -252,12 +258,12 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
   report["output_scale"] = facts.output_scale;
   report["turned_degrees"] = rounded(result.pose.angle_degrees());
   report["pose_residual_mm"] = rounded(result.pose_residual_mm);
-  report["distance_mm"] = spread_json(seen_distances(shape, result));
+  report["distance_mm"] = spread_json(seen_distances(wrap_template, result));
   for (std::size_t r = 0; r < regions.names.size(); ++r) {
     report["regions_mm"][regions.names[r]] =
-        spread_json(seen_distances(shape, result, &regions, r));
+        spread_json(seen_distances(wrap_template, result, &regions, r));
   }
-  report["without_data"] = rounded(share_without_data(shape, result));
+  report["without_data"] = rounded(share_without_data(wrap_template, result));
   if (facts.filled_share) report["textures_filled"] = rounded(*facts.filled_share);
   report["flipped_triangles"] = result.folded_triangle_count;
   report["landmarks"] = nlohmann::ordered_json::array();
@@ -269,15 +275,15 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
     if (landmark.is_found_by_shape) {
       report["landmarks"].back()["detected_within_mm"] = rounded(landmark.error_mm);
     }
-    for (const auto& [key, all] : {std::pair{"left_out_mm", &facts.leave_out_pose_mm},
-                                   std::pair{"unseen_mm", &facts.leave_out_wrap_mm}}) {
+    for (const auto& [key, all] : {std::pair{"left_out_mm", &facts.leave_out_pose_errors_mm},
+                                   std::pair{"unseen_mm", &facts.leave_out_wrap_errors_mm}}) {
       const auto found = all->find(landmark.name);
       if (found != all->end()) report["landmarks"].back()[key] = rounded(found->second);
     }
   }
-  if (!facts.leave_out_wrap_mm.empty()) {
+  if (!facts.leave_out_wrap_errors_mm.empty()) {
     std::vector<double> all;
-    for (const auto& [name, mm] : facts.leave_out_wrap_mm) all.push_back(mm);
+    for (const auto& [name, mm] : facts.leave_out_wrap_errors_mm) all.push_back(mm);
     report["correspondence_mm"] = spread_json(all);
   }
   for (const FeatureCheck& feature : result.features) {
@@ -288,8 +294,9 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape
   return report.dump(2) + "\n";
 }
 
-std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const WrapResult& result,
-                         const HeadFrame& frame, const std::string& title) {
+std::string wrap_picture(const WrapTemplate& wrap_template, const Scan& scan,
+                         const WrapResult& result, const HeadFrame& frame,
+                         const std::string& title) {
   const Positions standing = inverse(result.pose).apply(scan.positions);
   const std::array<const Positions*, 1> heads = {&result.positions};
   const std::vector<Camera> cameras =
@@ -297,13 +304,13 @@ std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const Wrap
   const RenderOptions options{.size_px = kSidePx, .front = frame.front};
   const Topology scan_topology = topology_of(scan.triangles, scan.positions.rows());
   const FaceRenderer of_scan(scan_topology, options, {}, &standing),
-      of_head(shape.topology, options, surfaces_of(shape), &result.positions);
-  Eigen::VectorXd distances = Eigen::VectorXd::Zero(shape.topology.vertex_count);
-  for (std::size_t i = 0; i < shape.skin.vertices.size(); ++i) {
-    distances(shape.skin.vertices[i]) = result.distance_mm(static_cast<Index>(i));
+      of_head(wrap_template.topology, options, surfaces_of(wrap_template), &result.positions);
+  Eigen::VectorXd distances = Eigen::VectorXd::Zero(wrap_template.topology.vertex_count);
+  for (std::size_t i = 0; i < wrap_template.skin.vertices.size(); ++i) {
+    distances(wrap_template.skin.vertices[i]) = result.distance_mm(static_cast<Index>(i));
   }
   const VertexColours colours = heat_colours(distances, kScaleEndMm);
-  const std::optional<VertexColours> doubts = doubt_colours(shape, result);
+  const std::optional<VertexColours> doubts = doubt_colours(wrap_template, result);
   std::vector<Rgb8Image> scans, wrapped, heat;
   for (const Camera& camera : cameras) {
     scans.push_back(of_scan.render(standing, camera));

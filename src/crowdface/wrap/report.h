@@ -17,45 +17,48 @@ namespace crowdface {
 struct WrapDistances {
   double median_mm = 0, percentile_95_mm = 0;
 };
-WrapDistances measure_distances(const WrapTemplate& shape, const WrapResult& result);
+WrapDistances measure_distances(const WrapTemplate& wrap_template, const WrapResult& result);
 /// Returns the fraction of the visible skin for which there is no scan data.
-double share_without_data(const WrapTemplate& shape, const WrapResult& result);
+double share_without_data(const WrapTemplate& wrap_template, const WrapResult& result);
 
 /// Warnings for the user; one sentence each, with advice.
 /// \param regions  the warnings name each region of which a large fraction is far from the scan.
 /// \param model_head_count  number of heads in the model; 0: no model.
-std::vector<std::string> wrap_warnings(const WrapTemplate& shape, const WrapResult& result,
+std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_head_count);
 
 /// The warnings about parts of the wrapped head that may be wrong: features, automatically found
 /// landmarks, and the position of the face.
-std::vector<std::string> wrap_doubts(const WrapTemplate& shape, const WrapResult& result);
+std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const WrapResult& result);
 
 /// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
-void refuse_bad_wrap(const WrapTemplate& shape, const WrapResult& result,
+void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result,
                      const SkinRegions& regions);
 
 /// Facts for the report that the result of a wrap does not contain.
 struct WrapFacts {
   std::string template_file, scan_file, inputs_digest, mesh_digest;
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
-  /// Distance in mm of each landmark from the position that a similarity fitted to the other
-  /// landmarks predicts; no entry if there is no prediction.
-  std::map<std::string, double> leave_out_pose_mm;
-  /// Result of `leave_out_distances`; empty if the user did not request it.
-  std::map<std::string, double> leave_out_wrap_mm = {};
+  /// Leave-one-out error of the pose by landmark name, in mm: distance of the landmark from the
+  /// position that a similarity fitted to the other landmarks predicts; no entry if there is no
+  /// prediction.
+  std::map<std::string, double> leave_out_pose_errors_mm;
+  /// Leave-out error of the wrap by landmark name, in mm: the result of `leave_out_distances`;
+  /// empty if the user did not request it.
+  std::map<std::string, double> leave_out_wrap_errors_mm = {};
   /// Fraction of the texels, 0 … 1, that are filled in because the scan does not cover them.
   std::optional<double> filled_share = {};
 };
 
 /// The report as JSON.
-std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& shape,
+std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_template,
                                const WrapResult& result, const SkinRegions& regions,
                                const std::vector<std::string>& warnings);
 
 /// The bytes of a PNG file with three rows: the scan, the wrapped head, and the wrapped head
 /// coloured by its distance to the scan. Each row shows the surface from three sides.
-std::string wrap_picture(const WrapTemplate& shape, const Scan& scan, const WrapResult& result,
-                         const HeadFrame& frame, const std::string& title);
+std::string wrap_picture(const WrapTemplate& wrap_template, const Scan& scan,
+                         const WrapResult& result, const HeadFrame& frame,
+                         const std::string& title);
 
 }  // namespace crowdface

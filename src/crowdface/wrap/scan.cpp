@@ -92,7 +92,7 @@ std::vector<bool> used_vertices(const Scan& scan) {
   return used;
 }
 
-double unclosed_fraction(const Scan& scan) {
+double net_area_fraction(const Scan& scan) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0;
   for (const Triangle& triangle : scan.triangles) {
@@ -130,7 +130,7 @@ Scan remove_small_pieces(const Scan& scan, double min_share) {
   return kept;
 }
 
-Scan remove_shells(const Scan& scan) {
+Scan remove_covering_layers(const Scan& scan) {
   return of_modelled_head(scan, [](PartClass of) { return of != PartClass::kBound; });
 }
 

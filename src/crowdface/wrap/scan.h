@@ -15,8 +15,8 @@ struct Scan {
   Positions positions;                  ///< #V by 3
   std::vector<Triangle> triangles;      ///< oriented outwards
   std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
-  /// #triangles: index of each triangle in the file's own list of triangles, which `triangles_of`
-  /// makes from the file's polygons; empty if the scan does not come from a file.
+  /// #triangles: index of each triangle among all triangles into which `triangles_of` divides the
+  /// file's polygons; empty if the scan does not come from a file
   std::vector<std::uint32_t> file_triangles = {};
 };
 
@@ -30,7 +30,7 @@ std::vector<bool> used_vertices(const Scan& scan);
 /// How far a surface is from being closed: the length of the sum of the triangles' area vectors,
 /// divided by the sum of their areas. 0 for a closed surface, less than 0.2 for a head with its
 /// neck, about 0.5 for half a head, 0.8 for a face alone.
-double unclosed_fraction(const Scan& scan);
+double net_area_fraction(const Scan& scan);
 
 /// The vertices at which the surface ends, ascending: the vertices of all boundary loops that are
 /// at least `min_length` long.
@@ -41,9 +41,9 @@ std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangle
 /// triangles with a repeated vertex. Keeps all vertices, so that vertex indices do not change.
 Scan remove_small_pieces(const Scan& scan, double min_share);
 
-/// If the scan is a modelled head with eyeballs, removes the surfaces that lie in front of skin and
-/// eyes: lashes, tear lines, shadow shells. Returns other scans unchanged.
-Scan remove_shells(const Scan& scan);
+/// If the scan is a modelled head with eyeballs, removes the thin layers that lie in front of skin
+/// and eyes: lashes, tear lines, shadow shells. Returns other scans unchanged.
+Scan remove_covering_layers(const Scan& scan);
 /// If the scan is a modelled head with eyeballs, keeps only the skin. Returns other scans
 /// unchanged.
 Scan keep_skin(const Scan& scan);

@@ -46,15 +46,18 @@ std::optional<double> lid_opening(const Lids& lids, const ComponentShape& ball,
   return *above - *below;
 }
 
-void look_at_eyes(const WrapTemplate& shape, const WrapResult& result,
+void look_at_eyes(const WrapTemplate& wrap_template, const WrapResult& result,
                   std::vector<std::string>& faults) {
-  for (const Part& part : shape.parts.parts) {
+  for (const Part& part : wrap_template.parts.parts) {
     if (!part.is_eyeball) continue;
-    const ComponentShape& ball = shape.parts.shapes[part.ball_component];
-    const Lids lids = find_lids(shape.positions, PointGrid(shape.positions, part.vertices),
-                                ball.centre, ball.radius, shape.axes, shape.skin.vertices);
-    const auto before = lid_opening(lids, ball, shape.axes, shape.positions, shape.positions);
-    const auto after = lid_opening(lids, ball, shape.axes, shape.positions, result.positions);
+    const ComponentShape& ball = wrap_template.parts.shapes[part.ball_component];
+    const Lids lids =
+        find_lids(wrap_template.positions, PointGrid(wrap_template.positions, part.vertices),
+                  ball.centre, ball.radius, wrap_template.axes, wrap_template.skin.vertices);
+    const auto before = lid_opening(lids, ball, wrap_template.axes, wrap_template.positions,
+                                    wrap_template.positions);
+    const auto after =
+        lid_opening(lids, ball, wrap_template.axes, wrap_template.positions, result.positions);
     if (!before || !after || *after > kClosed * *before) continue;
     faults.push_back(concat("an eye seems to be closed: its lids are ", format_fixed(*after, 1),
                             " mm apart, the template's ", format_fixed(*before, 1),
@@ -62,15 +65,15 @@ void look_at_eyes(const WrapTemplate& shape, const WrapResult& result,
   }
 }
 
-void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const SkinRegions& regions,
-                   std::vector<std::string>& faults) {
+void look_at_mouth(const WrapTemplate& wrap_template, const WrapResult& result,
+                   const SkinRegions& regions, std::vector<std::string>& faults) {
   std::vector<std::uint32_t> of_mouth;
-  for (std::uint32_t v = 0; v < shape.skin.vertex_count(); ++v) {
-    if (regions.contains(v, "mouth")) of_mouth.push_back(shape.skin.vertices[v]);
+  for (std::uint32_t v = 0; v < wrap_template.skin.vertex_count(); ++v) {
+    if (regions.contains(v, "mouth")) of_mouth.push_back(wrap_template.skin.vertices[v]);
   }
-  const HeadSet faces{shape.topology, {}, {{"template", shape.positions}}};
-  const SkinContacts contacts(faces, shape.adjacency, of_mouth);
-  const std::vector<double> before = contacts.gaps(shape.positions),
+  const HeadSet faces{wrap_template.topology, {}, {{"template", wrap_template.positions}}};
+  const SkinContacts contacts(faces, wrap_template.adjacency, of_mouth);
+  const std::vector<double> before = contacts.gaps(wrap_template.positions),
                             after = contacts.gaps(result.positions);
   std::vector<double> wider;
   for (std::size_t i = 0; i < contacts.size(); ++i) wider.push_back(after[i] - before[i]);
@@ -80,13 +83,14 @@ void look_at_mouth(const WrapTemplate& shape, const WrapResult& result, const Sk
   }
 }
 
-void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const SkinRegions& regions,
-                  std::vector<std::string>& faults) {
-  const Positions rest = shape.skin.rows_of(shape.positions),
-                  wrapped = shape.skin.rows_of(result.positions);
+void look_at_hair(const WrapTemplate& wrap_template, const WrapResult& result,
+                  const SkinRegions& regions, std::vector<std::string>& faults) {
+  const Positions rest = wrap_template.skin.rows_of(wrap_template.positions),
+                  wrapped = wrap_template.skin.rows_of(result.positions);
   std::vector<std::uint32_t> face, skull;
   for (std::uint32_t v = 0; v < regions.region_of_vertex.size(); ++v) {
-    if (shape.skin.openness[v] <= kVisibleOpenness || result.lacks_data[v]) continue;
+    if (wrap_template.skin.ambient_visibility[v] <= kVisibleSkinThreshold || result.lacks_data[v])
+      continue;
     if (regions.contains(v, "nose") || regions.contains(v, "mouth")) face.push_back(v);
     if (regions.contains(v, "brow")) skull.push_back(v);
   }
@@ -94,7 +98,7 @@ void look_at_hair(const WrapTemplate& shape, const WrapResult& result, const Ski
   const Similarity faces_meet =
       fit_similarity(rest(face, kAllColumns), wrapped(face, kAllColumns), ScaleFit::kUniform);
   const Positions placed = faces_meet.apply(rest);
-  const Positions normals = vertex_normals_or_zero(shape.skin.triangles, placed);
+  const Positions normals = vertex_normals_or_zero(wrap_template.skin.triangles, placed);
   std::vector<double> out;
   std::size_t far = 0;
   for (const std::uint32_t v : skull) {
@@ -117,13 +121,13 @@ bool SkinRegions::contains(std::uint32_t vertex, const std::string& name) const 
   return vertex < region_of_vertex.size() && names[region_of_vertex[vertex]] == name;
 }
 
-std::vector<std::string> scan_faults(const WrapTemplate& shape, const WrapResult& result,
+std::vector<std::string> scan_faults(const WrapTemplate& wrap_template, const WrapResult& result,
                                      const SkinRegions& regions) {
   std::vector<std::string> faults;
-  look_at_eyes(shape, result, faults);
+  look_at_eyes(wrap_template, result, faults);
   if (!regions.region_of_vertex.empty()) {
-    look_at_mouth(shape, result, regions, faults);
-    look_at_hair(shape, result, regions, faults);
+    look_at_mouth(wrap_template, result, regions, faults);
+    look_at_hair(wrap_template, result, regions, faults);
   }
   return faults;
 }

@@ -25,7 +25,7 @@ struct SkinRegions {
 /// eyeball), an open mouth (lips that do not touch), hair (a skull that is larger than the
 /// template's after the faces are aligned, or that is far from the scan). Returns one sentence per
 /// defect, with advice. Without regions the function checks only the eyes.
-std::vector<std::string> scan_faults(const WrapTemplate& shape, const WrapResult& result,
+std::vector<std::string> scan_faults(const WrapTemplate& wrap_template, const WrapResult& result,
                                      const SkinRegions& regions);
 
 }  // namespace crowdface

@@ -105,7 +105,7 @@ Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
   if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
   weld_vertices(scan);
   refuse_fan(scan, path);
-  return remove_shells(scan);
+  return remove_covering_layers(scan);
 }
 
 }  // namespace crowdface

@@ -31,7 +31,7 @@ struct Match {
 std::vector<std::uint32_t> choose_probes(const SkinMesh& skin) {
   std::vector<std::uint32_t> open;
   for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
-    if (skin.openness[v] > kUnfoldedOpenness) open.push_back(v);
+    if (skin.ambient_visibility[v] > kUnfoldedSkinThreshold) open.push_back(v);
   }
   return evenly_spaced_items(open, kMaxProbes);
 }
@@ -177,8 +177,8 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   if (modes > 0) {  // the model, not the pose, explains differences in size
     equations.hold(6, 1 - fit.pose.scale / first_scale, 1 / (kGrowth * kGrowth));
   }
-  // A small weight keeps a pose unknown at zero if the surface does not determine this unknown.
-  // Example: the rotation of a sphere.
+  // Pull all pose unknowns towards zero with a tiny weight. Otherwise the equations have no unique
+  // solution if the surface does not determine an unknown, such as the rotation of a sphere.
   for (Index k = 0; k < kPoseUnknowns; ++k) equations.hold(k, 0, 1e-9);
   apply(equations.solve(), middle, fit);
   return matches.size();

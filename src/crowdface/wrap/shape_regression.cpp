@@ -30,8 +30,8 @@ struct Observation {
 std::vector<std::uint32_t> spread_places(const SkinMesh& skin, const Positions& positions,
                                          std::size_t most) {
   std::vector<std::uint32_t> visible, places;
-  for (std::uint32_t v = 0; v < skin.openness.size(); ++v) {
-    if (skin.openness[v] > kUnfoldedOpenness) visible.push_back(v);
+  for (std::uint32_t v = 0; v < skin.ambient_visibility.size(); ++v) {
+    if (skin.ambient_visibility[v] > kUnfoldedSkinThreshold) visible.push_back(v);
   }
   most = std::min(most, visible.size());
   std::vector<double> squared(visible.size(), 1e300);
@@ -71,7 +71,7 @@ class Regression {
       values(i) = one.value;
       variances(i) = one.variance;
     }
-    const double local = options_.local_share,
+    const double local = options_.local_variance_fraction,
                  smooth = options_.smooth_deviation_mm * options_.smooth_deviation_mm;
     const Eigen::MatrixXd heads = along.transpose() * along;
     Eigen::MatrixXd covariance = (1 - local) * heads + pose.transpose() * pose;

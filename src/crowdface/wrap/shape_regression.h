@@ -13,7 +13,7 @@ namespace crowdface {
 struct RegressionOptions {
   /// Fraction of the heads' variance that the model treats as local: correlated only between nearby
   /// points.
-  double local_share = 0.15;
+  double local_variance_fraction = 0.15;
   double correlation_length_mm = 45;  ///< correlation length of the local variation
   /// Standard deviation, along each axis, of an additional smooth random deformation with the same
   /// correlation length. It allows shapes that a few heads do not span.

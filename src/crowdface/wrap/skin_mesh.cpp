@@ -34,9 +34,9 @@ Positions SkinMesh::rows_of(const Positions& positions) const {
   return positions(vertices, kAllColumns);
 }
 
-std::vector<double> vertex_openness(const Positions& positions, const Positions& normals,
-                                    const std::vector<Triangle>& triangles,
-                                    const std::vector<std::uint32_t>& vertices) {
+std::vector<double> vertex_ambient_visibility(const Positions& positions, const Positions& normals,
+                                              const std::vector<Triangle>& triangles,
+                                              const std::vector<std::uint32_t>& vertices) {
   std::vector<float> points(positions.data(), positions.data() + positions.size());
   std::vector<Quad> quads;
   quads.reserve(triangles.size());

@@ -104,9 +104,10 @@ struct ReducedInputs {
   std::vector<WrapLandmark> landmarks;
 };
 
-ReducedInputs reduce(const WrapTemplate& shape, const Positions& rest, const ShapeModel* model,
-                     const std::vector<WrapLandmark>& landmarks, const Similarity& pose) {
-  const SkinMesh& mesh = shape.reduced_skin->mesh;
+ReducedInputs reduce(const WrapTemplate& wrap_template, const Positions& rest,
+                     const ShapeModel* model, const std::vector<WrapLandmark>& landmarks,
+                     const Similarity& pose) {
+  const SkinMesh& mesh = wrap_template.reduced_skin->mesh;
   ReducedInputs small{mesh.rows_of(rest), std::nullopt, landmarks};
   if (model != nullptr) {
     small.model = ShapeModel{mesh.rows_of(model->mean), {}};
@@ -123,8 +124,9 @@ ReducedInputs reduce(const WrapTemplate& shape, const Positions& rest, const Sha
   return small;
 }
 
-Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTemplate& shape,
-                      const ScanSurface& surface, const std::vector<WrapLandmark>& landmarks,
+Similarity first_pose(const SkinMesh& bent, const Positions& rest,
+                      const WrapTemplate& wrap_template, const ScanSurface& surface,
+                      const std::vector<WrapLandmark>& landmarks,
                       const std::optional<PoseHint>& hint) {
   if (landmarks.size() >= kMinLandmarks) {
     refuse_mirrored_landmarks(rest, landmarks);
@@ -137,8 +139,8 @@ Similarity first_pose(const SkinMesh& bent, const Positions& rest, const WrapTem
                               "(--scan-up, --scan-front), found ",
                               landmarks.size(), " landmarks"));
   }
-  return guess_pose(bent, shape.reduced_skin ? bent.rows_of(rest) : rest, shape.axes, surface,
-                    *hint, shape.face);
+  return guess_pose(bent, wrap_template.reduced_skin ? bent.rows_of(rest) : rest,
+                    wrap_template.axes, surface, *hint, wrap_template.face_match);
 }
 
 void refuse_no_pose(const Similarity& pose) {
@@ -153,32 +155,33 @@ void refuse_no_pose(const Similarity& pose) {
 
 }  // namespace
 
-ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape) {
-  const FoundMirror mirror =
-      find_mirror(shape.topology, shape.components, heads.mean, shape.axes.side());
+ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& wrap_template) {
+  const FoundMirror mirror = find_mirror(wrap_template.topology, wrap_template.components,
+                                         heads.mean, wrap_template.axes.side());
   const ShapeModel both =
       mirror.partner_fraction() < kMirroredShare ? heads : add_mirror_images(heads, mirror.map);
-  ShapeModel of_skin{shape.skin.rows_of(both.mean), {}};
-  for (const Positions& mode : both.modes) of_skin.modes.push_back(shape.skin.rows_of(mode));
+  ShapeModel of_skin{wrap_template.skin.rows_of(both.mean), {}};
+  for (const Positions& mode : both.modes)
+    of_skin.modes.push_back(wrap_template.skin.rows_of(mode));
   return of_skin;
 }
 
-static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
-                               const std::vector<WrapLandmark>& all_landmarks,
+static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeModel* model,
+                               const Scan& scan, const std::vector<WrapLandmark>& all_landmarks,
                                const std::optional<PoseHint>& hint) {
   const std::optional<ReliefMatch> face = hint ? hint->face : std::nullopt;
-  const SkinMesh& skin = shape.skin;
-  const SkinMesh& bent = shape.reduced_skin ? shape.reduced_skin->mesh : skin;
+  const SkinMesh& skin = wrap_template.skin;
+  const SkinMesh& bent = wrap_template.reduced_skin ? wrap_template.reduced_skin->mesh : skin;
   std::vector<WrapLandmark> landmarks = landmarks_on_skin(skin, all_landmarks);
-  const Positions rest = skin.rows_of(shape.positions);
+  const Positions rest = skin.rows_of(wrap_template.positions);
   WrapResult result;
   ShapeFit fit;
   std::optional<ReducedInputs> small;
   const ShapeModel* used = nullptr;
   {
     const ScanSurface surface(scan);
-    fit.pose = first_pose(bent, rest, shape, surface, landmarks, hint);
-    if (shape.reduced_skin) small = reduce(shape, rest, model, landmarks, fit.pose);
+    fit.pose = first_pose(bent, rest, wrap_template, surface, landmarks, hint);
+    if (wrap_template.reduced_skin) small = reduce(wrap_template, rest, model, landmarks, fit.pose);
     const auto& marks = small ? small->landmarks : landmarks;
     const ShapeModel alone{small ? small->rest : rest, {}};
     fit = fit_shape(bent, alone, surface, marks, fit);
@@ -207,24 +210,24 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
     // weight would pull vertices along the surface to their closest points, which are less exact
     // correspondences than those of the model.
     bend = {.wavelengths_mm = {10, 5, 2.5},
-            .first_tangential_weight = 0,
-            .last_tangential_weight = 0.05,
-            .first_landmark_weight = 2,
-            .last_landmark_weight = 1.5};
+            .first_round_tangential_weight = 0,
+            .last_round_tangential_weight = 0.05,
+            .first_round_landmark_weight = 2,
+            .last_round_landmark_weight = 1.5};
   }
   wrapped = bend_skin(bent, wrapped, surface, marks, bend);
   if (small) {
     repair_folded_triangles(bent, small->rest, wrapped);
-    wrapped = rest + shape.reduced_skin->interpolate(wrapped - small->rest, skin);
+    wrapped = rest + wrap_template.reduced_skin->interpolate(wrapped - small->rest, skin);
   }
-  wrapped =
-      follow_detail(skin, rest, wrapped, surface, small ? shape.reduced_skin->smoothing_steps : 0);
+  wrapped = follow_detail(skin, rest, wrapped, surface,
+                          small ? wrap_template.reduced_skin->smoothing_steps : 0);
   result.folded_triangle_count = repair_folded_triangles(skin, rest, wrapped);
   add_final(wrapped, landmarks, result.landmarks);
   measure(wrapped, surface, result);
-  if (face && shape.face) {
+  if (face && wrap_template.face_match) {
     Index between = 0;
-    (rest.rowwise() - shape.face->eye_midpoint.transpose())
+    (rest.rowwise() - wrap_template.face_match->eye_midpoint.transpose())
         .rowwise()
         .squaredNorm()
         .minCoeff(&between);
@@ -232,16 +235,16 @@ static WrapResult wrap_centred(const WrapTemplate& shape, const ShapeModel* mode
         (row3(wrapped, between) - apply_similarity(back, face->eye_midpoint)).norm();
   }
 
-  result.positions = shape.positions;
+  result.positions = wrap_template.positions;
   for (Index v = 0; v < wrapped.rows(); ++v) {
     result.positions.row(skin.vertices[static_cast<std::size_t>(v)]) = wrapped.row(v);
   }
-  const HeadSet faces{shape.topology, {}, {{"template", shape.positions}}};
-  PartFollower(faces, shape.parts, shape.axes).follow(0, result.positions);
+  const HeadSet faces{wrap_template.topology, {}, {{"template", wrap_template.positions}}};
+  PartFollower(faces, wrap_template.parts, wrap_template.axes).follow(0, result.positions);
   return result;
 }
 
-WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
+WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint) {
   const CentredScan moved = centre_scan(scan, landmarks);
   std::optional<PoseHint> standing = hint;
@@ -252,12 +255,12 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
     standing->face = find_scan_face(scan, hint);
   }
   if (standing && standing->face) standing->face->eye_midpoint -= moved.box_centre;
-  WrapResult result = wrap_centred(shape, model, moved.scan, moved.landmarks, standing);
+  WrapResult result = wrap_centred(wrap_template, model, moved.scan, moved.landmarks, standing);
   result.pose.translation += moved.box_centre;
   return result;
 }
 
-WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
+WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* model,
                         const std::vector<FaceFeature>& features, const Scan& scan,
                         const std::vector<WrapLandmark>& all_landmarks,
                         const std::optional<PoseHint>& hint) {
@@ -267,8 +270,9 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
     return feature == result.features.end() ? 1.0 : feature->relief_correlation;
   };
   const auto wrapped_with = [&](const std::vector<WrapLandmark>& landmarks) {
-    WrapResult result = wrap(shape, model, scan, landmarks, hint);
-    const std::vector<double> correlations = relief_correlations(shape, features, result.positions);
+    WrapResult result = wrap(wrap_template, model, scan, landmarks, hint);
+    const std::vector<double> correlations =
+        relief_correlations(wrap_template, features, result.positions);
     for (std::size_t i = 0; i < features.size(); ++i) {
       result.features.push_back({features[i].name, correlations[i], features[i].skin_vertices});
     }
@@ -281,7 +285,7 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   // landmarks of the mouth lie in the crease above the chin. The error shows only in a fit that
   // does not use these landmarks.
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
-    const std::uint32_t row = index_in_list(shape.skin.vertices, landmark.vertex);
+    const std::uint32_t row = index_in_list(wrap_template.skin.vertices, landmark.vertex);
     return std::ranges::any_of(doubts, [&](const FeatureCheck& feature) {
       return feature.relief_correlation < kSureCorrelation &&
              std::ranges::binary_search(feature.skin_vertices, row);
@@ -306,7 +310,7 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
   return best;
 }
 
-std::map<std::string, double> leave_out_distances(const WrapTemplate& shape,
+std::map<std::string, double> leave_out_distances(const WrapTemplate& wrap_template,
                                                   const ShapeModel* model, const Scan& scan,
                                                   const std::vector<WrapLandmark>& landmarks,
                                                   const std::optional<PoseHint>& hint) {
@@ -319,7 +323,7 @@ std::map<std::string, double> leave_out_distances(const WrapTemplate& shape,
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
       (i % folds == fold ? left_out : known).push_back(landmarks[i]);
     }
-    const WrapResult result = wrap(shape, model, scan, known, hint);
+    const WrapResult result = wrap(wrap_template, model, scan, known, hint);
     const Similarity back = inverse(result.pose);
     for (const WrapLandmark& landmark : left_out) {
       unseen[landmark.name] =

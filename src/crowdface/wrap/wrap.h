@@ -61,7 +61,7 @@ struct WrapResult {
 
 /// Restricts a model of whole heads to the vertices of the template's skin. If the template is
 /// nearly symmetric, the function also adds the mirror images of the heads to the model.
-ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& shape);
+ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& wrap_template);
 
 inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determine the pose
 
@@ -72,7 +72,7 @@ inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determ
 /// ignores landmarks outside the skin.
 /// \throws InvalidInput if there are fewer than kMinLandmarks and no hint, or if the scan has no
 /// data near the landmarks.
-WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& scan,
+WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
 /// Wraps the template, and checks with `relief_correlations` whether each feature of the template
@@ -80,8 +80,8 @@ WrapResult wrap(const WrapTemplate& shape, const ShapeModel* model, const Scan& 
 /// automatically found landmarks of this feature, and then without all automatically found
 /// landmarks. Returns the result whose worst feature agrees best.
 /// \param features  see `face_features`; may be empty
-/// \param shape, model, scan, landmarks, hint  as for `wrap`
-WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
+/// \param wrap_template, model, scan, landmarks, hint  as for `wrap`
+WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* model,
                         const std::vector<FaceFeature>& features, const Scan& scan,
                         const std::vector<WrapLandmark>& landmarks,
                         const std::optional<PoseHint>& hint);
@@ -91,8 +91,8 @@ WrapResult wrap_checked(const WrapTemplate& shape, const ShapeModel* model,
 /// in places without landmarks, plus the picking error. The function runs one wrap per landmark if
 /// there are at most eleven landmarks, otherwise four wraps. The result is empty if too few
 /// landmarks would remain.
-/// \param shape, model, scan, landmarks, hint  as for `wrap`
-std::map<std::string, double> leave_out_distances(const WrapTemplate& shape,
+/// \param wrap_template, model, scan, landmarks, hint  as for `wrap`
+std::map<std::string, double> leave_out_distances(const WrapTemplate& wrap_template,
                                                   const ShapeModel* model, const Scan& scan,
                                                   const std::vector<WrapLandmark>& landmarks,
                                                   const std::optional<PoseHint>& hint);

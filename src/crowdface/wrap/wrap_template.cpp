@@ -13,21 +13,26 @@ namespace {
 
 constexpr Index kMinVertices = 100;
 
-/// Computes the openness of the skin. For a large skin, computes it only at the vertices of the
-/// reduced skin.
-void find_openness(const TemplateOptions& options, WrapTemplate& shape) {
-  const Positions normals = vertex_normals(shape.topology, shape.positions);
-  const std::vector<Triangle> solid = occluding_triangles(shape);
-  SkinMesh& skin = shape.skin;
+/// Computes the ambient visibility of the skin. For a large skin, computes it only at the vertices
+/// of the reduced skin, and interpolates it.
+void compute_ambient_visibility(const TemplateOptions& options, WrapTemplate& wrap_template) {
+  const Positions normals = vertex_normals(wrap_template.topology, wrap_template.positions);
+  const std::vector<Triangle> solid = occluding_triangles(wrap_template);
+  SkinMesh& skin = wrap_template.skin;
   if (skin.vertices.size() <= options.max_vertices) {
-    skin.openness = vertex_openness(shape.positions, normals, solid, skin.vertices);
+    skin.ambient_visibility =
+        vertex_ambient_visibility(wrap_template.positions, normals, solid, skin.vertices);
     return;
   }
-  shape.reduced_skin = reduce_skin(skin, skin.rows_of(shape.positions), options.reduced_vertices);
+  wrap_template.reduced_skin =
+      reduce_skin(skin, skin.rows_of(wrap_template.positions), options.reduced_vertices);
   std::vector<std::uint32_t> rows;
-  for (const std::uint32_t v : shape.reduced_skin->mesh.vertices) rows.push_back(skin.vertices[v]);
-  shape.reduced_skin->mesh.openness = vertex_openness(shape.positions, normals, solid, rows);
-  skin.openness = shape.reduced_skin->interpolate(shape.reduced_skin->mesh.openness);
+  for (const std::uint32_t v : wrap_template.reduced_skin->mesh.vertices)
+    rows.push_back(skin.vertices[v]);
+  wrap_template.reduced_skin->mesh.ambient_visibility =
+      vertex_ambient_visibility(wrap_template.positions, normals, solid, rows);
+  skin.ambient_visibility =
+      wrap_template.reduced_skin->interpolate(wrap_template.reduced_skin->mesh.ambient_visibility);
 }
 
 }  // namespace
@@ -53,28 +58,29 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
   }
   result.skin.adjacency =
       build_adjacency(topology_of(result.skin.triangles, result.skin.vertex_count()));
-  find_openness(options, result);
-  result.face = face ? face : find_face(topology, head_shape(result), axes);
+  compute_ambient_visibility(options, result);
+  result.face_match = face ? face : find_face(topology, head_shape(result), axes);
   return result;
 }
 
-HeadShape head_shape(const WrapTemplate& shape) {
+HeadShape head_shape(const WrapTemplate& wrap_template) {
   HeadShape head;
-  head.positions = shape.positions;
-  for (const std::uint32_t c : shape.components.component_of_vertex) {
-    head.is_skin.push_back(shape.parts.classes[c] == PartClass::kSkin);
+  head.positions = wrap_template.positions;
+  for (const std::uint32_t c : wrap_template.components.component_of_vertex) {
+    head.is_skin.push_back(wrap_template.parts.classes[c] == PartClass::kSkin);
   }
-  for (const Part& part : shape.parts.parts) {
+  for (const Part& part : wrap_template.parts.parts) {
     if (part.is_eyeball)
-      head.eyeball_centres.push_back(shape.parts.shapes[part.ball_component].centre);
+      head.eyeball_centres.push_back(wrap_template.parts.shapes[part.ball_component].centre);
   }
   return head;
 }
 
-std::vector<Triangle> occluding_triangles(const WrapTemplate& shape) {
+std::vector<Triangle> occluding_triangles(const WrapTemplate& wrap_template) {
   std::vector<Triangle> solid;
-  for (const Triangle& t : triangles_of(shape.topology)) {
-    if (shape.parts.classes[shape.components.component_of_vertex[t[0]]] != PartClass::kBound) {
+  for (const Triangle& t : triangles_of(wrap_template.topology)) {
+    if (wrap_template.parts.classes[wrap_template.components.component_of_vertex[t[0]]] !=
+        PartClass::kBound) {
       solid.push_back(t);
     }
   }

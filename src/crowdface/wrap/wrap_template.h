@@ -21,7 +21,8 @@ struct WrapTemplate {
   HeadAxes axes;
   Positions positions;  ///< #V by 3, in millimetres
   SkinMesh skin;
-  std::optional<ReliefMatch> face;  ///< nothing if the skin does not have the relief of a face
+  /// the face found on the skin; nothing if the skin does not have the relief of a face
+  std::optional<ReliefMatch> face_match;
   std::optional<ReducedSkin> reduced_skin;  ///< replaces a skin of many vertices during deformation
 };
 
@@ -39,11 +40,11 @@ WrapTemplate make_template(const Topology& topology, const Positions& positions,
                            const HeadAxes& axes, const TemplateOptions& options = {},
                            const std::optional<ReliefMatch>& face = {});
 
-/// The template's data that the search for its face needs.
-HeadShape head_shape(const WrapTemplate& shape);
+/// Returns the template as a HeadShape, the input of `find_face` and `marks_of_face`.
+HeadShape head_shape(const WrapTemplate& wrap_template);
 
 /// The triangles that can hide the skin from view: all triangles except those of lashes and tear
 /// lines.
-std::vector<Triangle> occluding_triangles(const WrapTemplate& shape);
+std::vector<Triangle> occluding_triangles(const WrapTemplate& wrap_template);
 
 }  // namespace crowdface

@@ -36,7 +36,7 @@ struct FittedMesh {
   Topology topology;
   TextureCoordinates uvs;                             ///< #T by 2
   std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V, each three base-mesh vertices
-  Positions weights;                                  ///< #V by 3, weights of the anchors
+  Positions weights;                                  ///< #V by 3, a weight for each anchor
   Positions offsets;                                  ///< #V by 3, decimetres
   std::vector<Picture> pictures;                      ///< one for each alternative material
   AssetLicence licence;

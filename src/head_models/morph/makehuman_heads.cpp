@@ -136,7 +136,7 @@ std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
   return rows;
 }
 
-void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
+void MakeHumanHeads::add_parts(std::vector<FittedPart> parts) {
   // Keep the polygons of the skin, which is the first material.
   const Topology& naked = mesh_.head.topology;
   Topology topology;
@@ -173,7 +173,7 @@ void MakeHumanHeads::add_parts(std::vector<ClothingPart> parts) {
 
 Positions MakeHumanHeads::append_parts(const Positions& base) const {
   Positions head = base(skin_rows_, kAllColumns);
-  for (const ClothingPart& part : parts_) {
+  for (const FittedPart& part : parts_) {
     const Positions more = part.mesh.fitted_to(base);
     head.conservativeResize(head.rows() + more.rows(), Eigen::NoChange);
     head.bottomRows(more.rows()) = more;

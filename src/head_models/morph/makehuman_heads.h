@@ -28,7 +28,7 @@ struct MakeHumanMesh {
 MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file);
 
 /// A fitted mesh, such as eyes or teeth, that is part of every head.
-struct ClothingPart {
+struct FittedPart {
   std::string material;  ///< "eyelashes"
   FittedMesh mesh;
 };
@@ -43,7 +43,7 @@ class MakeHumanHeads : public HeadModel {
   explicit MakeHumanHeads(const std::filesystem::path& package);
   /// Adds parts to all heads and removes the base mesh's eyeballs. The vertices of the skin stay
   /// the same, bit for bit.
-  void add_parts(std::vector<ClothingPart> parts);
+  void add_parts(std::vector<FittedPart> parts);
 
   /// Returns all vertices of the base mesh, including helpers and joints, in decimetres.
   const Positions& base_positions() const { return mesh_.file_positions; }
@@ -70,7 +70,7 @@ class MakeHumanHeads : public HeadModel {
   MorphTargets targets_;
   std::vector<std::uint32_t> eye_rows_;   ///< rows of the eyeballs in the base mesh
   std::vector<std::uint32_t> skin_rows_;  ///< rows of the skin in the base mesh; set by add_parts()
-  std::vector<ClothingPart> parts_;
+  std::vector<FittedPart> parts_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;
   FaceHeights heights_;

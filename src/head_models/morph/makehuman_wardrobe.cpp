@@ -201,7 +201,7 @@ std::vector<SkinShare> makehuman_skin_shares(const fs::path& package, const Make
   return out;
 }
 
-double makehuman_skin_density_factor(std::uint64_t seed, std::uint64_t index) {
+double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t index) {
   return std::clamp(1 + 0.1 * random_normal({seed, index, "makehuman/tone"}), 0.75, 1.25);
 }
 

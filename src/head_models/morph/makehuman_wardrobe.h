@@ -14,7 +14,7 @@ namespace crowdface {
 /// A skin texture of the package, and its weight in a person's blended skin.
 struct SkinShare {
   std::filesystem::path picture;
-  double share = 0;
+  double share = 0;  ///< weight of `picture` in the blended skin, 0 … 1
 };
 
 /// Returns the skin textures that are blended for a person, by sex, age and ancestry. The shares
@@ -24,7 +24,7 @@ std::vector<SkinShare> makehuman_skin_shares(const std::filesystem::path& packag
                                              std::uint64_t index);
 
 /// Returns a random factor, 0.75 to 1.25, on the optical density of a person's skin textures.
-double makehuman_skin_density_factor(std::uint64_t seed, std::uint64_t index);
+double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t index);
 
 /// Returns a person's random eye colour: the name of a material of the package's eyes. "brown" has
 /// a probability of 0.9 for African, 0.85 for Asian and 0.25 for Caucasian ancestry.
@@ -38,7 +38,7 @@ std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t s
 
 /// The parts that all heads have in addition to skin.
 struct MakeHumanParts {
-  std::vector<ClothingPart> clothing;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
+  std::vector<FittedPart> clothing;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
   std::vector<FittedMesh::Picture> eye_colours;
   std::filesystem::path lashes, teeth, tongue;  ///< textures
   AssetLicence eyes_licence, lashes_licence, teeth_licence, tongue_licence;

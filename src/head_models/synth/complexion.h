@@ -37,7 +37,7 @@ struct Complexion {
   double moustache = 0;   ///< on the upper lip, on the same scale as `beard`
   double chin_beard = 0;  ///< on the chin, on the same scale as `beard`
   ScreenColour iris;
-  double recession = 0;  ///< 0 (full hairline) … 1 (bald on top)
+  double recession = 0;  ///< of the hairline: 0 (full hairline) … 1 (bald on top)
   double makeup = 0;     ///< 0 … 1: make-up on lids, lashes and cheeks
   double lipstick = 0;   ///< 0 … 1; 0 for most people
 };

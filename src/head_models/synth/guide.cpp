@@ -60,8 +60,8 @@ constexpr std::array<LatticeRow, kRows> kLattice = {{
 }};
 // clang-format on
 
-/// The origin of a ray that replaces the default origin of rays. Around the nose and under the
-/// chin, rays start close to the skin, so that the rays meet the skin at nearly right angles.
+/// A ray's own origin, instead of the default origin. Around the nose and under the chin, rays
+/// start close to the skin, so that they meet the skin at nearly right angles.
 struct NearOrigin {
   int row, column;
   double x, y, z;
@@ -75,8 +75,8 @@ constexpr std::array<NearOrigin, 13> kNearOrigins = {{
 // clang-format on
 
 /// The rays of all lattice points.
-struct Web {
-  Web() {
+struct GuideRays {
+  GuideRays() {
     for (int j = 0; j < kRows; ++j) {
       for (int k = 0; k < kColumns; ++k) place(j, k);
     }
@@ -92,8 +92,8 @@ struct Web {
     if (k <= kBackColumn) {
       ray.guide = point(k);
     } else {
-      const double from = column_unit(kBackColumn), to = column_unit(kColumns - 1);
-      const double f = (column_unit(k) - from) / (to - from), g = f * (2 - f);
+      const double from = units_to_column(kBackColumn), to = units_to_column(kColumns - 1);
+      const double f = (units_to_column(k) - from) / (to - from), g = f * (2 - f);
       const Vector3d corner = point(kBackColumn), back = point(kPlaced - 1);
       ray.guide = {corner.x() * (1 - f), corner.y() + (back.y() - corner.y()) * g,
                    corner.z() + (back.z() - corner.z()) * g};
@@ -125,17 +125,17 @@ struct Web {
   std::array<std::array<GuideRay, kColumns>, kRows> rays;
 };
 
-const Web& web() {
-  static const Web instance;
+const GuideRays& guide_rays() {
+  static const GuideRays instance;
   return instance;
 }
 
-/// Like column_unit, but continues beyond the midline of the back.
-double wide_column_unit(int k) {
+/// Like units_to_column, but continues beyond the midline of the back.
+double wide_units_to_column(int k) {
   const int last = kColumns - 1;
-  if (k > last) return 2 * column_unit(last) - column_unit(2 * last - k);
-  if (k < -last) return -wide_column_unit(-k);
-  return column_unit(k);
+  if (k > last) return 2 * units_to_column(last) - units_to_column(2 * last - k);
+  if (k < -last) return -wide_units_to_column(-k);
+  return units_to_column(k);
 }
 
 /// Weights of the four knots u at x in [u[1], u[2]]: cubic Hermite interpolation with
@@ -156,19 +156,20 @@ struct Interval {
 
 Interval columns_around(double a) {
   int k = -(kColumns - 1);
-  while (k < kColumns - 2 && column_unit(k + 1) <= a) ++k;
+  while (k < kColumns - 2 && units_to_column(k + 1) <= a) ++k;
   return {{k - 1, k, k + 1, k + 2},
-          cubic_weights({wide_column_unit(k - 1), column_unit(k), column_unit(k + 1),
-                         wide_column_unit(k + 2)},
+          cubic_weights({wide_units_to_column(k - 1), units_to_column(k), units_to_column(k + 1),
+                         wide_units_to_column(k + 2)},
                         a)};
 }
 
 Interval rows_around(double b) {
   int j = 0;
-  while (j < kRows - 2 && row_unit(j + 1) <= b) ++j;
+  while (j < kRows - 2 && units_to_row(j + 1) <= b) ++j;
   const int above = std::max(j - 1, 0), below = std::min(j + 2, kRows - 1);
   return {{above, j, j + 1, below},
-          cubic_weights({row_unit(above), row_unit(j), row_unit(j + 1), row_unit(below)}, b)};
+          cubic_weights(
+              {units_to_row(above), units_to_row(j), units_to_row(j + 1), units_to_row(below)}, b)};
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ GuideRay strip_ray(double a, double b) {
   GuideRay sum{Vector3d::Zero(), Vector3d::Zero()};
   for (std::size_t j = 0; j < 4; ++j) {
     for (std::size_t k = 0; k < 4; ++k) {
-      const GuideRay ray = web().at(rows.knots[j], columns.knots[k]);
+      const GuideRay ray = guide_rays().at(rows.knots[j], columns.knots[k]);
       const double weight = rows.weights[j] * columns.weights[k];
       sum.origin += weight * ray.origin;
       sum.guide += weight * ray.guide;
@@ -189,7 +190,7 @@ GuideRay strip_ray(double a, double b) {
 
 GuideRay cap_ray(double a, double b) {
   // A Coons patch between the four sides of the cap's rim, plus a bulge of 2.5 cm.
-  const double front = column_unit(kFrontColumn), deep = column_unit(kBackColumn) - front;
+  const double front = units_to_column(kFrontColumn), deep = units_to_column(kBackColumn) - front;
   const double s = (a / front + 1) / 2, t = b / deep;
   const double behind = 2 * front + deep;
   const auto rim = [](double unit) { return strip_ray(unit, 0); };
@@ -209,8 +210,8 @@ GuideRay cap_ray(double a, double b) {
 }
 
 GuideRay opening_ray(const Opening& opening, double around) {
-  const double x0 = column_unit(opening.column0), x1 = column_unit(opening.column1);
-  const double y0 = row_unit(opening.row0), y1 = row_unit(opening.row1);
+  const double x0 = units_to_column(opening.column0), x1 = units_to_column(opening.column1);
+  const double y0 = units_to_row(opening.row0), y1 = units_to_row(opening.row1);
   if (around < 1) return strip_ray(x0, y0 + (y1 - y0) * around);
   if (around < 2) return strip_ray(x0 + (x1 - x0) * (around - 1), y1);
   if (around < 3) return strip_ray(x1, y1 + (y0 - y1) * (around - 2));

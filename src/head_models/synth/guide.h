@@ -16,7 +16,7 @@ struct GuideRay {
 /// Returns the ray for an address (a, b) of the strip, interpolated smoothly from hand-placed
 /// lattice points.
 GuideRay strip_ray(double a, double b);
-/// Like strip_ray, for an address of the cap.
+/// Returns the ray for an address (a, b) of the cap, the skin patch on top of the head.
 GuideRay cap_ray(double a, double b);
 
 /// Returns the ray of a point on the outline (ring coordinate b = 0) of the opening at x > 0.

@@ -17,12 +17,13 @@ struct HairStyle {
   double nape_length = 0;     ///< length of the hair that falls behind the ears and down the neck
   double bun_height = 0;      ///< height of a bun on top; 0: none
   double curliness = 0;       ///< 0 (straight) … 1 (tight curls)
-  double extra_volume_to_side = 0;  ///< −1 … 1: additional volume on one side of the top
-  bool low_edge = false;  ///< the hairline covers the temples and extends in front of the ears
+  /// −1 … 1: additional volume of the top hair on one side; positive: on the side x > 0
+  double extra_volume_to_side = 0;
+  bool low_edge = false;  ///< low hairline: hair covers the temples and grows in front of the ears
 };
 
 /// Returns the height of a point above the hairline, cm; negative below.
-/// \param low_edge  hairline of women, which covers the temples.
+/// \param low_edge  whether the hairline is low, as of women: hair covers the temples.
 /// \param recession  0 (full hairline) … 1 (bald); ignored if `low_edge` is set.
 double height_above_hairline(const Eigen::Vector3d& p, bool low_edge, double recession = 0);
 
@@ -38,8 +39,8 @@ class Hair {
 
   /// Returns whether hair may be at a point; a fast conservative test.
   bool may_cover(const Eigen::Vector3d& p) const;
-  /// Returns how much brighter (positive) or darker (negative) than the hair colour the strand at a
-  /// point is, about −1 … 1.
+  /// Returns the brightness of the strand at a point relative to the hair colour: about −1 (darker)
+  /// … 1 (brighter).
   double strand_brightness(const Eigen::Vector3d& p) const;
   /// Returns the fraction of the skin that hair hides at a point, 0 … 1.
   /// \param strand_brightness  strand_brightness(p).

@@ -39,7 +39,8 @@ std::vector<Root> roots_on_scalp(const HairCut& cut) {
     const SkinPoint skin = mean_skin_with_sockets(address);
     const Vector3d& p = skin.position;
     const bool at_nape = cut.layers > 1 && p.y() < 0;  // keep curls off the neck
-    if (skin.relief < 0.5 || distance_inside_hair(cut, p) < (at_nape ? 0.6 : least)) continue;
+    if (skin.relief_weight < 0.5) continue;
+    if (distance_inside_hair(cut, p) < (at_nape ? 0.6 : least)) continue;
     const bool near = std::ranges::any_of(roots, [&](const Root& other) {
       return (other.place - p).squaredNorm() < kBetween * kBetween;
     });

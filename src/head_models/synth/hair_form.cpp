@@ -42,12 +42,12 @@ double across_hair(const HairCut& cut, const Vector3d& p) {
 
 /// Returns the texture coordinate v of the cap at a point whose distance from the hairline,
 /// measured inwards, is `within` cm.
-double from_edge(const HairCut& cut, double within) {
+double v_at_distance_from_hairline(const HairCut& cut, double within) {
   constexpr double kTips = 0.02, kSpan = 0.75;
   const double closed = within + kRim - kFade;
   if (closed <= 0) return kTips + kSpan * std::max(0.0, 1 + closed / kFade);
-  // Farther inside, straight hair shows the part of the texture without strand tips; for curls, the
-  // coordinate v varies too, so that curls differ in both directions.
+  // Farther from the hairline, straight hair shows the part of the texture without strand tips. For
+  // curls, v varies too, so that curls differ in both directions.
   return kTips + kSpan - (cut.layers > 1 ? 0.25 * triangle_wave(closed / 1.2) : 0);
 }
 
@@ -109,12 +109,13 @@ void add_hair_cap(const HairCut& cut, HairMesh& hair) {
   for (std::size_t v = 0; v < place.size(); ++v) {
     const SkinPoint skin = mean_skin_with_sockets(layout.addresses[v]);
     const double within = distance_inside_hair(cut, skin.position);
-    if (skin.relief < 0.5 || within < -kRim - kCapEdge) continue;
+    if (skin.relief_weight < 0.5 || within < -kRim - kCapEdge) continue;
     place[v] = static_cast<std::uint32_t>(hair.points.size());
     hair.points.emplace_back(skin.position +
                              (0.03 + hair_stand_off(cut, skin.position)) * skin.normal);
     const double u = 0.03 + 0.94 * triangle_wave(across_hair(cut, skin.position) / kStripWidth);
-    hair.uvs.emplace_back((kCardStrips + u) / kHairStrips, from_edge(cut, within));
+    hair.uvs.emplace_back((kCardStrips + u) / kHairStrips,
+                          v_at_distance_from_hairline(cut, within));
   }
   for (Index f = 0; f < layout.topology.face_count(); ++f) {
     std::vector<std::uint32_t> corners;

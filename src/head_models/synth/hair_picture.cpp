@@ -15,8 +15,9 @@ namespace {
 constexpr std::size_t kStrands = 30;          // strands per strip
 constexpr double kAcross = 1.9, kDown = 1.5;  // noise frequencies of curls on the cap's strip
 
-/// The strip for the cap shows closed strands in this fraction of its length, beginning at v = 1,
-/// and single roots in the remaining part.
+/// The last strip of the texture is for the cap, the mesh on the scalp under the hair cards. From
+/// v = 1 down to this fraction of its length, the strip shows strands without gaps; the remaining
+/// part shows single hair roots.
 constexpr double kCapClosed = 0.5;
 
 struct Strand {

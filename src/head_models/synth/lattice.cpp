@@ -20,13 +20,13 @@ constexpr std::array<Opening, 4> kOpenings = {{{SkinPatch::kEye, 2, 4, 2, 3},
 
 }  // namespace
 
-double column_unit(int column) {
+double units_to_column(int column) {
   const auto first = kColumnWeights.begin();
   const double sum = std::accumulate(first, first + std::abs(column), 0.0);
   return column < 0 ? -sum : sum;
 }
 
-double row_unit(int row) {
+double units_to_row(int row) {
   return std::accumulate(kRowWeights.begin(), kRowWeights.begin() + row, 0.0);
 }
 

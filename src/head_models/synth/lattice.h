@@ -19,9 +19,10 @@ struct Address {
   /// Rings: 0 … 4 along the sides of the opening, counter-clockwise from its upper left corner,
   /// seen on the side x > 0. Ear core: 0 … 1 across.
   double a = 0;
-  /// Second coordinate. Strip: units down from the cap. Cap: units from front to back. Rings: 0 at
-  /// the opening's outline, 1 at the edge of the opening (ear: of the core), 2 at the hole. Ear
-  /// core: 0 … 1 down.
+  /// Second coordinate; its meaning depends on the patch.
+  /// Strip: units down from the cap. Cap: units from front to back. Ear core: 0 … 1 downwards.
+  /// Rings of eyes, nostrils, mouth: 0 at the outline, 1 at the edge of the opening, 2 at the hole.
+  /// Rings of an ear: 0 at the outline, 1 at the core's edge.
   double b = 0;
 };
 
@@ -33,10 +34,10 @@ inline constexpr int kBackColumn = 8;   ///< between side and back: rear corners
 
 /// Returns the distance, in units, from the midline to a lattice column.
 /// \param column  −13 … 13, negative at x < 0.
-double column_unit(int column);
+double units_to_column(int column);
 /// Returns the distance, in units, from the cap to a lattice row.
 /// \param row  0 … 11.
-double row_unit(int row);
+double units_to_row(int row);
 
 /// A rectangle of the lattice that is cut out of the strip: an eye, an ear, a nostril or the mouth.
 struct Opening {

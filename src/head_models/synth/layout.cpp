@@ -24,10 +24,11 @@ class Sewing {
         rows_(counts.quads_to_row(kRows - 1)) {}
 
   Layout sew() {
-    for (int k = 0; k + 1 < kColumns; ++k) spread(counts_.columns, k, column_unit, column_units_);
-    column_units_.push_back(column_unit(kColumns - 1));
-    for (int k = 0; k + 1 < kRows; ++k) spread(counts_.rows, k, row_unit, row_units_);
-    row_units_.push_back(row_unit(kRows - 1));
+    for (int k = 0; k + 1 < kColumns; ++k)
+      spread(counts_.columns, k, units_to_column, column_units_);
+    column_units_.push_back(units_to_column(kColumns - 1));
+    for (int k = 0; k + 1 < kRows; ++k) spread(counts_.rows, k, units_to_row, row_units_);
+    row_units_.push_back(units_to_row(kRows - 1));
     add_strip();
     add_cap();
     for (const Opening& opening : openings()) {
@@ -123,7 +124,8 @@ class Sewing {
     }
   }
 
-  /// Returns the vertex of the strip at column i and row k of the cap, on the cap's rim.
+  /// Returns the vertex at column i and row k of the cap's grid. The vertex must be on the rim of
+  /// the cap, where cap and strip share their vertices.
   std::uint32_t rim(int i, int k) {
     if (k == 0) return strip(i, 0).vertex;
     if (i == front_) return strip(front_ + k, 0).vertex;
@@ -165,8 +167,8 @@ class Sewing {
     double a;
     int i, j;
   };
-  /// Returns the ring coordinate of a point on the outline; a point and its mirror image have the
-  /// same coordinate.
+  /// Returns the ring coordinate (0 … 4 along the four sides, see Address::a) of a point on an
+  /// opening's outline. A point and its mirror image have the same coordinate.
   double around(const Span& s, int side, int i, int j) const {
     const double x0 = column_at(side > 0 ? s.i0 : -s.i1), x1 = column_at(side > 0 ? s.i1 : -s.i0);
     const double y0 = row_at(s.j0), y1 = row_at(s.j1);

@@ -46,13 +46,14 @@ Row row_at(double t, double up) {
 }
 
 /// Returns points on the inner edges of the lids of the average head, at the eye at x > 0.
-std::vector<Vector3d> lid_feet() {
-  std::vector<Vector3d> feet;
-  constexpr int kFeet = 32;
-  for (int i = 0; i < kFeet; ++i) {
-    feet.push_back(mean_skin_with_sockets({SkinPatch::kEye, 1, 4.0 * i / kFeet, 1.2}).position);
+std::vector<Vector3d> inner_lid_points() {
+  std::vector<Vector3d> lid_points;
+  constexpr int kPoints = 32;
+  for (int i = 0; i < kPoints; ++i) {
+    lid_points.push_back(
+        mean_skin_with_sockets({SkinPatch::kEye, 1, 4.0 * i / kPoints, 1.2}).position);
   }
-  return feet;
+  return lid_points;
 }
 
 /// The sphere of an eyeball.
@@ -60,14 +61,16 @@ struct Ball {
   Vector3d centre;
   double radius;
 };
-/// Returns the eyeball of a head, placed behind the head's lids. \param feet  from lid_feet.
-Ball ball_behind_lids(const Identity& identity, const std::vector<Vector3d>& feet, double side) {
+/// Returns the eyeball of a head, placed behind the head's lids.
+/// \param lid_points  from inner_lid_points.
+Ball ball_behind_lids(const Identity& identity, const std::vector<Vector3d>& lid_points,
+                      double side) {
   const auto placed = [&](Vector3d p) {
     p.x() *= side;
     return identity.deform(p);
   };
   std::vector<Vector3d> edge;
-  for (const Vector3d& foot : feet) edge.push_back(placed(foot));
+  for (const Vector3d& point : lid_points) edge.push_back(placed(point));
   Ball ball{placed(eye_centre()), 0};
   for (const Vector3d& p : edge) ball.radius += (p - ball.centre).norm();
   ball.radius = ball.radius / static_cast<double>(edge.size()) - kLidGap;
@@ -211,11 +214,11 @@ void LooseParts::append_to(Topology& topology, TextureCoordinates& uvs) const {
 
 Positions LooseParts::positions(const Identity& identity) const {
   Positions out(vertex_count(), 3);
-  const std::vector<Vector3d> feet = lid_feet();
+  const std::vector<Vector3d> lid_points = inner_lid_points();
   const Index teeth = first_vertex(LoosePiece::kUpperTeeth);
   for (const LoosePiece eye : {LoosePiece::kLeftEye, LoosePiece::kRightEye}) {
     const bool left = eye == LoosePiece::kLeftEye;  // at x > 0
-    const Ball ball = ball_behind_lids(identity, feet, left ? 1 : -1);
+    const Ball ball = ball_behind_lids(identity, lid_points, left ? 1 : -1);
     const Index end = left ? first_vertex(LoosePiece::kRightEye) : teeth;
     for (Index i = first_vertex(eye); i < end; ++i) {
       out.row(i) = (ball.centre + ball.radius * points_[static_cast<std::size_t>(i)]).transpose();

@@ -10,8 +10,8 @@ namespace crowdface::synth {
 /// A point on the average head in cm: +Y is up, the head faces +Z, the eyes are at y = 0.
 struct SkinPoint {
   Eigen::Vector3d position;
-  Eigen::Vector3d normal;  ///< unit, outward
-  double relief = 1;       ///< weight of fine relief: 0 on eyeballs and inside openings
+  Eigen::Vector3d normal;    ///< unit, outward
+  double relief_weight = 1;  ///< factor on the fine relief: 0 on eyeballs and inside openings
 };
 
 /// Returns the point of the average head at an address. The skin covers the eyeballs up to the

@@ -9,10 +9,10 @@
 namespace crowdface::synth {
 namespace {
 
-/// Consecutive rings of an opening: the range of the ring coordinate b, and the number of rings if
-/// quads have a width of one unit.
+/// Consecutive rings of an opening.
 struct RingSpan {
-  double from, to, weight;
+  double from, to;  ///< range of the ring coordinate b
+  double weight;    ///< number of rings at a density of one quad per unit
 };
 std::vector<RingSpan> ring_spans(SkinPatch patch) {
   if (patch == SkinPatch::kEye) return {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};
@@ -28,8 +28,8 @@ int quads(double weight, double scale) {
 }  // namespace
 
 QuadCounts::QuadCounts(double density) : quads_per_unit(density) {
-  const auto in_column = [](int k) { return column_unit(k + 1) - column_unit(k); };
-  const auto in_row = [](int k) { return row_unit(k + 1) - row_unit(k); };
+  const auto in_column = [](int k) { return units_to_column(k + 1) - units_to_column(k); };
+  const auto in_row = [](int k) { return units_to_row(k + 1) - units_to_row(k); };
   for (int i = 0; i + 1 < kColumns; ++i) {
     columns[static_cast<std::size_t>(i)] = quads(in_column(i), quads_per_unit);
   }
@@ -66,8 +66,8 @@ Index QuadCounts::vertex_count() const {
     const Index nx = quads_to_column(w.column1) - quads_to_column(w.column0),
                 ny = quads_to_row(w.row1) - quads_to_row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(ring_coordinates(w.patch).size());
-    // Subtract the strip's vertices inside the opening. An ear needs no subtraction, because its
-    // core has as many vertices.
+    // The strip has no vertices inside an opening. The core of an ear has as many vertices as the
+    // strip lacks there, so nothing is subtracted for an ear.
     if (w.patch != SkinPatch::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.patch == SkinPatch::kMouth ? piece : 2 * piece;
   }

@@ -74,10 +74,10 @@ double carried(double wavelength, double edge) {
 }  // namespace
 
 Relief::Relief(const Identity& identity, double edge_cm)
-    : waver_x_(mix(identity.seed(), identity.index(), 11), 1.4),
-      waver_y_(mix(identity.seed(), identity.index(), 12), 1.4),
-      wander_(mix(identity.seed(), identity.index(), 14), 1.1),
-      breaks_(mix(identity.seed(), identity.index(), 15), 0.9),
+    : place_noise_x_(mix(identity.seed(), identity.index(), 11), 1.4),
+      place_noise_y_(mix(identity.seed(), identity.index(), 12), 1.4),
+      curve_noise_(mix(identity.seed(), identity.index(), 14), 1.1),
+      gap_noise_(mix(identity.seed(), identity.index(), 15), 0.9),
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
   const std::uint64_t seed = identity.seed(), index = identity.index();
   const double aged = identity.person().scaled_age();
@@ -119,8 +119,8 @@ void Relief::add_stroke(std::size_t fold_index, double side, double depth) {
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;
     Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
-    p += fold.wander * Vector2d(0.5 * wander_.at({stroke.noise_row, 0.5 * p.y(), 5}),
-                                wander_.at({0.5 * p.x(), stroke.noise_row, 0}));
+    p += fold.wander * Vector2d(0.5 * curve_noise_.at({stroke.noise_row, 0.5 * p.y(), 5}),
+                                curve_noise_.at({0.5 * p.x(), stroke.noise_row, 0}));
     p.x() *= side;
     stroke.points[static_cast<std::size_t>(i)] = p;
   }
@@ -149,7 +149,8 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
   const double distance = std::sqrt(nearest);
   double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
   if (stroke.noise_length > 0)
-    taper *= smooth_step(-0.7, 0.3, breaks_.at({along * stroke.noise_length, stroke.noise_row, 0}));
+    taper *=
+        smooth_step(-0.7, 0.3, gap_noise_.at({along * stroke.noise_length, stroke.noise_row, 0}));
   double height = -bump(distance / stroke.width);
   const double beside = side * distance * (stroke.bulge < 0 ? -1 : 1);
   height += std::abs(stroke.bulge) * bump((beside - 1.5 * stroke.width) / (1.5 * stroke.width));
@@ -159,7 +160,7 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
 double Relief::fold_height(const Vector3d& p) const {
   const double front = smooth_step(0.5, 2.5, p.z());
   if (front <= 0) return 0;
-  const Vector2d place(p.x() + 0.08 * waver_x_.at(p), p.y() + 0.08 * waver_y_.at(p));
+  const Vector2d place(p.x() + 0.08 * place_noise_x_.at(p), p.y() + 0.08 * place_noise_y_.at(p));
   double sum = 0;
   for (const Stroke& stroke : strokes_) sum += stroke_height(stroke, place);
   return front * sum;
@@ -181,8 +182,8 @@ double Relief::grain(const Vector3d& p) const {
 }
 
 double Relief::height(const SkinPoint& mean) const {
-  if (mean.relief <= 0) return 0;
-  return mean.relief * (fold_height(mean.position) + grain(mean.position));
+  if (mean.relief_weight <= 0) return 0;
+  return mean.relief_weight * (fold_height(mean.position) + grain(mean.position));
 }
 
 }  // namespace crowdface::synth

@@ -33,7 +33,7 @@ class Relief {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    /// noise coordinates of interruptions; noise_length 0: uninterrupted
+    /// row and length of the part of `gap_noise_` that interrupts the curve; length 0: no gaps
     double noise_row = 0, noise_length = 0;
     Eigen::AlignedBox2d affected_box;  ///< bounding box of the curve's effect
   };
@@ -42,7 +42,9 @@ class Relief {
   void add_stroke(std::size_t fold_index, double side, double depth);
 
   std::vector<Stroke> strokes_;
-  SmoothNoise waver_x_, waver_y_, wander_, breaks_;
+  SmoothNoise place_noise_x_, place_noise_y_;  ///< shift the places of all folds
+  SmoothNoise curve_noise_;                    ///< shifts the curves of single folds
+  SmoothNoise gap_noise_;                      ///< interrupts folds
   struct Octave {
     SmoothNoise noise;
     double amplitude;

@@ -14,12 +14,12 @@ double skin_distance(const Eigen::Vector3d& point);
 template <class Distance>
 Eigen::Vector3d central_differences(const Distance& distance, const Eigen::Vector3d& point,
                                     double step) {
-  Eigen::Vector3d central_differences;
+  Eigen::Vector3d differences;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d along = step * Eigen::Vector3d::Unit(k);
-    central_differences[k] = distance(point + along) - distance(point - along);
+    differences[k] = distance(point + along) - distance(point - along);
   }
-  return central_differences;
+  return differences;
 }
 
 /// Returns the unit normal of the skin at a point on or near the skin.

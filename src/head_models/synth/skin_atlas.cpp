@@ -37,7 +37,7 @@ AtlasTexel mix_places(const std::array<const AtlasTexel*, 3>& corners,
   for (std::size_t c = 0; c < 3; ++c) {
     place.skin.position += weights[c] * corners[c]->skin.position;
     place.skin.normal += weights[c] * corners[c]->skin.normal;
-    place.skin.relief += weights[c] * corners[c]->skin.relief;
+    place.skin.relief_weight += weights[c] * corners[c]->skin.relief_weight;
     place.eye_ring += weights[c] * corners[c]->eye_ring;
     place.mouth_ring += weights[c] * corners[c]->mouth_ring;
     place.nostril_ring += weights[c] * corners[c]->nostril_ring;

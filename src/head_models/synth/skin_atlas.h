@@ -14,7 +14,9 @@ namespace crowdface::synth {
 struct AtlasTexel {
   SkinPoint skin;       ///< on the average head
   double eye_ring = 0;  ///< Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2
-  double mouth_ring = 0;    ///< Address::b around the mouth
+  /// Address::b around the mouth: 0 … 1 from the outline of the mouth's patch to the edge of the
+  /// lips' opening, then up to 2
+  double mouth_ring = 0;
   double nostril_ring = 0;  ///< Address::b around a nostril
   double on_eyeball = 0;    ///< 1 on an eyeball
   Eigen::Vector3d point_on_ball =

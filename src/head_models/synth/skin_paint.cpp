@@ -141,7 +141,7 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
   const double lashes = smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye_ring) *
                         smooth_step(1.12, 1.03, place.eye_ring);
-  const ScreenColour hair = has_own_hair() ? complexion_.hair : from_bytes(70, 54, 44);
+  const ScreenColour hair = paints_all_hair() ? complexion_.hair : from_bytes(70, 54, 44);
   const ScreenColour dark = (0.45 - 0.25 * complexion_.makeup) * hair + 0.02;
   cover(colour, dark,
         lashes * (upper ? 0.75 + 0.25 * complexion_.makeup : 0.3 + 0.4 * complexion_.makeup));
@@ -263,26 +263,26 @@ ScreenColour SkinPaint::at(const AtlasTexel& place) const {
   paint_around_eyes(place, colour);
   paint_lips(place, colour);
   paint_openings(place, colour);
-  if (has_own_hair()) paint_beard(p, colour);
-  const bool ear = place.skin.relief < 0.5;
+  if (paints_all_hair()) paint_beard(p, colour);
+  const bool ear = place.skin.relief_weight < 0.5;
   if (!ear && hair_.may_cover(p)) {
     const double lock = hair_.strand_brightness(p);
-    const ScreenColour hair = has_own_hair() ? complexion_.hair : 0.45 * colour;
+    const ScreenColour hair = paints_all_hair() ? complexion_.hair : 0.45 * colour;
     cover(colour, hair * (1 + (0.24 - 0.16 * hair.mean()) * lock),
           scalp_hair_ * hair_.coverage(p, lock) * std::clamp(0.92 + 0.06 * lock, 0.0, 0.97));
   }
-  if (has_own_hair()) cover(colour, complexion_.brow_hair, brow_coverage(p));
+  if (paints_all_hair()) cover(colour, complexion_.brow_hair, brow_coverage(p));
   return colour.max(0.0).min(1.0);
 }
 
 double SkinPaint::roughness_at(const AtlasTexel& place) const {
   const Vector& p = place.skin.position;
-  double hair = has_own_hair() ? brow_coverage(p) : 0;
-  if (has_own_hair() && complexion_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
+  double hair = paints_all_hair() ? brow_coverage(p) : 0;
+  if (paints_all_hair() && complexion_.beard > 0 && p.z() > -0.5 && p.y() < 0) {
     hair =
         std::max(hair, beard_length(p) * beard_coverage(p, hairs_.at({p.x(), 0.3 * p.y(), p.z()})));
   }
-  if (place.skin.relief >= 0.5 && hair_.may_cover(p)) {
+  if (place.skin.relief_weight >= 0.5 && hair_.may_cover(p)) {
     hair = std::max(hair, scalp_hair_ * hair_.coverage(p, hair_.strand_brightness(p)));
   }
   const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring));

@@ -39,7 +39,8 @@ class SkinPaint {
   void paint_around_eyes(const AtlasTexel& place, ScreenColour& colour) const;
   void paint_openings(const AtlasTexel& place, ScreenColour& colour) const;
   void paint_beard(const Vector& p, ScreenColour& colour) const;
-  bool has_own_hair() const { return scalp_hair_ == 1; }
+  /// Whether hair, brows and beard are painted on the skin instead of being separate meshes.
+  bool paints_all_hair() const { return scalp_hair_ == 1; }
   double beard_coverage(const Vector& p, double strand) const;
   double beard_length(const Vector& p) const;
 

@@ -27,20 +27,20 @@ double piecewise(double unit, double (*knot)(int), const double* sizes, int inte
 
 /// Returns the signed distance from the midline, in the unit of kWidths.
 double across(double unit) {
-  const double x = piecewise(std::abs(unit), column_unit, kWidths.data(), kColumns - 1);
+  const double x = piecewise(std::abs(unit), units_to_column, kWidths.data(), kColumns - 1);
   return unit < 0 ? -x : x;
 }
 
 double down(double unit) {
-  return piecewise(unit, row_unit, kHeights.data(), kRows - 1);
+  return piecewise(unit, units_to_row, kHeights.data(), kRows - 1);
 }
 
 /// Half the width of the texture, and the height of its part below the cap, in the unit of kWidths.
 double half_width() {
-  return across(column_unit(kColumns - 1));
+  return across(units_to_column(kColumns - 1));
 }
 double strip_height() {
-  return down(row_unit(kRows - 1));
+  return down(units_to_row(kRows - 1));
 }
 
 Eigen::RowVector2d scaled(double x, double y) {
@@ -49,10 +49,11 @@ Eigen::RowVector2d scaled(double x, double y) {
           kMargin + (1 - 2 * kMargin) * (height - y) / (height + kCapHeight)};
 }
 
-// The texture areas of the eyeballs fill the corners of the texture beside the cap.
-constexpr double kDisc = 4.9;  ///< radius
+// Each eyeball's texture area is a disc in a free corner of the texture, beside the area of the cap
+// (the patch on top of the head).
+constexpr double kDisc = 4.9;  ///< radius of the disc
 Eigen::Vector2d disc_centre() {
-  return {(across(column_unit(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
+  return {(across(units_to_column(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
 /// Half-axes of the edge of an opening, and of the edge of the opening's hole, as fractions of half
@@ -82,8 +83,8 @@ Eigen::Vector2d in_opening(const Address& address) {
 /// Maps a point q in the square [−1, 1]² of an opening to texture coordinates.
 Eigen::RowVector2d unwrap_opening(SkinPatch patch, double side, const Eigen::Vector2d& q) {
   const Opening& w = opening_of(patch);
-  const double x0 = across(column_unit(w.column0)), x1 = across(column_unit(w.column1));
-  const double y0 = down(row_unit(w.row0)), y1 = down(row_unit(w.row1));
+  const double x0 = across(units_to_column(w.column0)), x1 = across(units_to_column(w.column1));
+  const double y0 = down(units_to_row(w.row0)), y1 = down(units_to_row(w.row1));
   return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
                 (y0 + y1) / 2 - (y1 - y0) / 2 * q.y());
 }
@@ -112,8 +113,8 @@ Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv) {
   return {(std::abs(x) - centre.x()) / kDisc, (centre.y() - y) / kDisc};
 }
 
-double strip_v(double unit) {
-  return scaled(0, down(unit)).y();
+double strip_v(double b) {
+  return scaled(0, down(b)).y();
 }
 
 Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector2d& place) {
@@ -123,7 +124,7 @@ Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector
 Eigen::RowVector2d unwrap(const Address& address) {
   if (address.patch == SkinPatch::kStrip) return scaled(across(address.a), down(address.b));
   if (address.patch == SkinPatch::kCap) {
-    const double deep = column_unit(kBackColumn) - column_unit(kFrontColumn);
+    const double deep = units_to_column(kBackColumn) - units_to_column(kFrontColumn);
     return scaled(across(address.a), -kCapHeight * address.b / deep);
   }
   const SkinPatch patch = address.patch == SkinPatch::kEarCore ? SkinPatch::kEar : address.patch;

@@ -17,8 +17,8 @@ Eigen::RowVector2d unwrap(const Address& address);
 /// \param place  point in the unit disc, which maps to the hole.
 Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector2d& place);
 
-/// Returns texture coordinates in the texture area of an eyeball, a disc beside the cap that is
-/// large enough that the pupil is round in a texture of 1,024 texels.
+/// Returns texture coordinates in the texture area of an eyeball. This area is a disc, large enough
+/// that the pupil is round in a texture of 1,024 texels.
 /// \param place  point in the unit disc.
 Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
 
@@ -27,11 +27,12 @@ Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
 /// an eyeball.
 Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 
-/// Returns v of the strip at `unit` row units below the cap; v decreases from forehead to neck.
-double strip_v(double unit);
+/// Returns the texture coordinate v of a point of the strip (SkinPatch) whose address has this b; v
+/// decreases from forehead to neck.
+double strip_v(double b);
 
-/// Maps the ring coordinate a to the point on the outline of an opening's square [−1, 1]², with x
-/// outward and y up.
+/// Maps a ring coordinate (0 … 4, one unit per side) to the point on the outline of the square
+/// [−1, 1]², with x outward and y up.
 Eigen::Vector2d point_on_square(double around);
 /// Returns the point of the unit circle in the direction of point_on_square(around).
 inline Eigen::Vector2d point_on_circle(double around) {
