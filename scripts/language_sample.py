@@ -23,11 +23,14 @@ def comments():
         block, code_before = [], ""
         for line in path.read_text().split("\n"):
             text = line.strip()
-            if text.startswith("//") and "SPDX" not in text:
+            is_comment = text.startswith("//") and "SPDX" not in text
+            continues = is_comment and (not code_before or text.startswith("///<"))
+            if block and not continues:
+                yield f"{path.relative_to(ROOT)}: {' '.join(block)}    [{code_before or text}]"
+                block, code_before = [], ""
+            if is_comment:
                 block.append(text.lstrip("/< ").rstrip())
                 continue
-            if block:
-                yield f"{path.relative_to(ROOT)}: {' '.join(block)}    [{code_before or text}]"
             code, mark, comment = text.partition("///<")
             block, code_before = ([comment.strip()], code.strip()) if mark else ([], "")
 

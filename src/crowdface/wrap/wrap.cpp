@@ -99,8 +99,8 @@ void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& resu
 struct ReducedInputs {
   Positions rest;
   std::optional<ShapeModel> model;
-  /// The landmarks, shifted by the offset between the original vertex and the nearest reduced
-  /// vertex.
+  /// The landmarks at vertices of the reduced skin. Each landmark's target is shifted by the offset
+  /// from the landmark's original vertex to the reduced vertex.
   std::vector<WrapLandmark> landmarks;
 };
 
