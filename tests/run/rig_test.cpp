@@ -242,7 +242,7 @@ TEST(GltfRig, BrokenScenesAreRefused) {
   const std::string position = R"({"bufferView":0,"componentType":5126,"count":1})";
   const std::string weights = R"(,{"bufferView":2,"componentType":5126,"count":1})";
   refuse(scene(R"({},{"children":[2]},{"children":[1],"mesh":0})", position), {"form a cycle"});
-  refuse(scene(R"({"matrix":[1,0,0]})", position), {"accessors that it does not have"});
+  refuse(scene(R"({"matrix":[1,0,0]})", position), {"16 numbers in the matrix"});
   refuse(scene(R"({},{"mesh":0,"skin":0})", R"({"bufferView":3,"componentType":5126,"count":40})"),
          {"accessor 0", "beyond its data"});
   refuse(scene(R"({},{"mesh":0,"skin":0})",

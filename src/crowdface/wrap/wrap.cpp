@@ -278,8 +278,6 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
     }
     return result;
   };
-  // With a lower correlation, a wrap without the landmarks may be better.
-  constexpr double kSureCorrelation = 0.7;
   WrapResult best = wrapped_with(all_landmarks);
   // All automatically found landmarks of a feature may be wrong in the same way, for example if the
   // landmarks of the mouth lie in the crease above the chin. The error shows only in a fit that
@@ -287,13 +285,12 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
   const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = index_in_list(wrap_template.skin.vertices, landmark.vertex);
     return std::ranges::any_of(doubts, [&](const FeatureCheck& feature) {
-      return feature.relief_correlation < kSureCorrelation &&
-             std::ranges::binary_search(feature.skin_vertices, row);
+      return feature.is_doubtful() && std::ranges::binary_search(feature.skin_vertices, row);
     });
   };
   std::vector<WrapLandmark> landmarks = all_landmarks;
   for (const bool drops_all : {false, true}) {
-    if (worst(best) >= kSureCorrelation) break;
+    if (worst(best) >= kMinReliefCorrelation) break;
     const std::size_t dropped = std::erase_if(landmarks, [&](const WrapLandmark& landmark) {
       return landmark.is_found_by_shape && (drops_all || is_of_doubtful_feature(landmark));
     });

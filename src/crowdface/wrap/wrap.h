@@ -27,9 +27,8 @@ struct LandmarkResidual {
   double error_mm = 0;  ///< see `WrapLandmark::error_mm`
 };
 
-/// A feature is doubtful if its relief correlation is smaller. Synthetic heads whose mouths are
-/// right within 1.6 mm have correlations from 0.57 on.
-inline constexpr double kMinReliefCorrelation = 0.55;
+/// A feature is doubtful if its relief correlation is smaller.
+inline constexpr double kMinReliefCorrelation = 0.7;
 
 /// Correlation between a feature's relief on the wrapped template and on the template; see
 /// `relief_correlations`.
