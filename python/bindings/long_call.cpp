@@ -134,7 +134,7 @@ void long_call(const py::object& progress, const std::function<void()>& work) {
     worker.join();
   }
   set_progress_listener({});
-  allow_work();
+  end_cancellation();
   if (stop) std::rethrow_exception(stop);
   if (failure) std::rethrow_exception(failure);
 }

@@ -22,7 +22,7 @@ TEST(Cancel, StopsLoopsUntilWorkIsAllowed) {
   cancel_work();
   EXPECT_TRUE(interrupted());
   EXPECT_THROW(count(), Interrupted);
-  allow_work();
+  end_cancellation();
   EXPECT_FALSE(interrupted());
   EXPECT_EQ(count(), 1000);
 }

@@ -50,9 +50,13 @@ TEST(Progress, ComparesWholeBursts) {
       progress.step();
       now += 0.001;
       const double left = 10 * (640 - 64 * (batch - 1) - i - 1) / 64.0;
-      if (batch > 1) EXPECT_NEAR(progress.seconds_left().value(), left, 0.02 * left);
+      if (batch > 1) {
+        EXPECT_NEAR(progress.seconds_left().value(), left, 0.02 * left);
+      }
     }
-    if (batch == 1) EXPECT_EQ(progress.seconds_left(), std::nullopt);
+    if (batch == 1) {
+      EXPECT_EQ(progress.seconds_left(), std::nullopt);
+    }
   }
 }
 

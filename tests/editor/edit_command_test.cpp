@@ -268,8 +268,8 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
     EXPECT_EQ(by_hand->status, 400);
     EXPECT_THAT(by_hand->body, ::testing::HasSubstr("written by hand"));
     EXPECT_EQ(post("api/review", {{"id", "adam"}, {"verdict", "keep"}})->status, 200);
-    const auto change = [&](const std::string& face, const Json& what) {
-      return post("api/review", {{"id", face}, {"change", what}});
+    const auto change = [&](const std::string& id_to_change, const Json& what) {
+      return post("api/review", {{"id", id_to_change}, {"change", what}});
     };
     EXPECT_EQ(change("mob_0002", {{"variant_of", "mob_0003"}})->status, 200);
     EXPECT_EQ(change("mob_0003", {{"colours", {{folder_.names()[0], 1}}}})->status, 200);

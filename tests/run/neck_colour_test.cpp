@@ -36,15 +36,15 @@ using NeckColour = testing::NeckCrowd;
 std::map<std::string, std::string> table_row(const fs::path& crowd, const std::string& id) {
   std::istringstream lines(testing::read_text(crowd / "crowd.csv"));
   const auto cells = [](const std::string& line) {
-    std::vector<std::string> cells = {""};
+    std::vector<std::string> found = {""};
     for (const char c : line) {
       if (c == ',') {
-        cells.emplace_back();
+        found.emplace_back();
       } else if (c != '\r') {
-        cells.back() += c;
+        found.back() += c;
       }
     }
-    return cells;
+    return found;
   };
   std::string line;
   std::getline(lines, line);

@@ -71,8 +71,8 @@ void SkinGaps::restore_gaps(const Positions& face, const Positions& normals,
     if (heights_[p] == kNowhere) return;
     const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
-    // Move a point that was near the skin back to its original distance from the skin. Move a point
-    // that was outside the skin at least to its minimum distance.
+    // Move a point that was near the skin back to its original distance from the skin. A point
+    // that was outside the skin must keep at least its minimum distance from the skin.
     const double off = std::abs(heights_[p]) / skin_.units_per_mm();
     const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
     double move = held * (heights_[p] - place.height);

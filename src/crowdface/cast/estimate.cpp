@@ -61,7 +61,7 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
   for (const std::uint64_t count : counts) {
     if (count < 2 || count > closest.size()) continue;
     EstimateRow row{count, closest[count - 1], 0};
-    double works = 0, fails = 1.2 * row.spread_mode_distance_mm;
+    double works = 0, fails = 1.2 * row.distance_in_spread_mode_mm;
     for (int i = 0; i < kCountHalvings; ++i) {
       throw_if_interrupted();
       const double mm = 0.5 * (works + fails);

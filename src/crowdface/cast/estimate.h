@@ -13,7 +13,7 @@ namespace crowdface {
 struct EstimateRow {
   std::uint64_t face_count = 0;
   /// smallest distance between two faces if the crowd is cast in spread mode
-  double spread_mode_distance_mm = 0;
+  double distance_in_spread_mode_mm = 0;
   /// largest min_distance at which first-fit casting finds this many faces
   double first_fit_distance_mm = 0;
 };

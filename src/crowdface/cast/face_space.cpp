@@ -36,9 +36,9 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 
 }  // namespace
 
-/// The order of the rows that hold functions: first the mean head, then each head's deviation from
+/// The order in which the rows of a matrix hold the basis functions: first the mean head, then each head's deviation from
 /// the mean head, then the fields, sorted by region, head and mode.
-struct FaceSpace::FunctionRowOrder {
+struct FaceSpace::BasisRowOrder {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
   Index of_field(Index region_and_head, Index mode) const {
@@ -50,7 +50,7 @@ struct FaceSpace::FunctionRowOrder {
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands)
     : heads_(std::move(heads)) {
   choose_nonzero_weight_samples(weights);
-  const FloatRows basis = find_functions();
+  const FloatRows basis = compute_basis_functions();
   compute_head_shapes_and_fields();
   find_principal_directions(bands);
   directions_transposed_ = tables_.directions.transpose();
@@ -70,8 +70,8 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, Fac
 
 bool FaceSpace::tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
   const std::size_t orientation_count = heads.mirror_images == nullptr ? 1 : 2;
-  const FunctionRowOrder rows{static_cast<Index>(orientation_count * heads.heads.size()),
-                              tables.levels.cols()};
+  const BasisRowOrder rows{static_cast<Index>(orientation_count * heads.heads.size()),
+                           tables.levels.cols()};
   const Index regions = heads.region_weights.cols(), rank = tables.directions.rows();
   return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
          tables.functions.rows() == rows.count(regions) &&
@@ -137,7 +137,7 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
 ///                          coefficient.
 FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
                                           const std::vector<float>& max_coefficients,
-                                          const FunctionRowOrder& rows) const {
+                                          const BasisRowOrder& rows) const {
   const Index size = weight_square_roots_.size(), regions = heads_.region_weights.cols();
   FloatRows functions(rows.count(regions), size);
   for (Index c = 0; c < 3; ++c) {
@@ -177,7 +177,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
 /// rotating the samples and taking distances between the samples. The centre is the origin.
 ///
 /// \return  The functions, #P by #S.
-FloatRows FaceSpace::find_functions() {
+FloatRows FaceSpace::compute_basis_functions() {
   const SpanBasis modes = smoothing_displacement_modes();
   tables_.levels = modes.coordinates;
   std::vector<float> max_coefficients;
@@ -186,7 +186,7 @@ FloatRows FaceSpace::find_functions() {
     for (Index l = 0; l < tables_.levels.rows(); ++l)
       tables_.levels(l, r) /= max_coefficients.back();
   }
-  const FunctionRowOrder rows{head_point_count(), modes.directions.rows()};
+  const BasisRowOrder rows{head_point_count(), modes.directions.rows()};
   SpanBasis basis = span_basis(coordinate_functions(modes, max_coefficients, rows), kFieldTolerance,
                                orientation_count() * kMaxBasisFunctions);
   tables_.functions = std::move(basis.coordinates);
@@ -194,7 +194,7 @@ FloatRows FaceSpace::find_functions() {
 }
 
 void FaceSpace::compute_head_shapes_and_fields() {
-  const FunctionRowOrder rows{head_point_count(), tables_.levels.cols()};
+  const BasisRowOrder rows{head_point_count(), tables_.levels.cols()};
   const auto shape_at = [&](Index row) -> Shape {
     return tables_.functions.middleRows<3>(row).transpose();
   };

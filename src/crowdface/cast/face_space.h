@@ -86,7 +86,7 @@ class FaceSpace {
   /// A face in the basis of scalar functions, #P by 3, before alignment.
   using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  struct FunctionRowOrder;
+  struct BasisRowOrder;
 
   /// Returns the number of orientations: 2 if there are mirror images (which are the heads from
   /// number head_count() on), otherwise 1.
@@ -105,8 +105,8 @@ class FaceSpace {
   template <class Value>
   void write_centred_values(const Value& value, float* row) const;
   FloatRows coordinate_functions(const SpanBasis& modes, const std::vector<float>& max_coefficients,
-                                 const FunctionRowOrder& rows) const;
-  FloatRows find_functions();
+                                 const BasisRowOrder& rows) const;
+  FloatRows compute_basis_functions();
   void compute_head_shapes_and_fields();
   void find_principal_directions(std::size_t bands);
   void find_region_metrics(const FloatRows& basis);

@@ -247,7 +247,11 @@ std::string write_review(const Config& config, const WriteContext& context) {
 
 std::optional<FaceChange> parse_change(const std::string& id, std::string_view text,
                                        const Config& config, Problems& problems) {
-  if (text == "{}") return FaceChange{.id = id};
+  if (text == "{}") {
+    FaceChange change;
+    change.id = id;
+    return change;
+  }
   const Review review =
       parse_review(concat("schema: 1\nchanges: {", write_scalar(id), ": ", text, "}\n"), "change",
                    config, problems);

@@ -14,7 +14,7 @@ void cancel_work() {
   cancelled = true;
 }
 
-void allow_work() {
+void end_cancellation() {
   cancelled = false;
 }
 

@@ -92,12 +92,12 @@ std::string EditedFolder::saved_state() const {
 
 void EditedFolder::set_editing_page(std::string page) {
   const std::lock_guard lock(mutex_);
-  editing_page_ = std::move(page);
+  editing_page_id_ = std::move(page);
 }
 
 bool EditedFolder::save_state(std::string_view text, const std::string& page) {
   const std::lock_guard lock(mutex_);
-  if (page != editing_page_) return false;
+  if (page != editing_page_id_) return false;
   require_same_folder();
   write_file(path_ / "state.json", text);
   return true;

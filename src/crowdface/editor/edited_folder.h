@@ -72,7 +72,7 @@ class EditedFolder {
   std::filesystem::path path_;
   DirectoryHandle handle_;
   std::mutex mutex_;
-  std::string editing_page_;  ///< see set_editing_page
+  std::string editing_page_id_;  ///< see set_editing_page
 };
 
 }  // namespace crowdface

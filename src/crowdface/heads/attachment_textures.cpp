@@ -195,8 +195,8 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
             .push_back(head);
       }
     }
-    for (const auto& [text, heads] : heads_of_warning) {
-      result.warnings.push_back(concat(text, " (", join(heads), ")"));
+    for (const auto& [text, names] : heads_of_warning) {
+      result.warnings.push_back(concat(text, " (", join(names), ")"));
     }
     if (result.has_files()) {
       for (HeadTextureFiles& placed : result.heads)

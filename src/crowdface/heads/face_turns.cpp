@@ -118,7 +118,7 @@ FacePoses::FacePoses(const Inputs& inputs, const Prepared& prepared, const Regio
 
 std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
                                                 const MirrorPlane* plane) const {
-  const bool is_turned = uses_other_pose(recipe);
+  const bool is_turned = uses_rotated_head(recipe);
   if (!is_turned && is_unmirrored(recipe)) return std::nullopt;
   Recipe plain = recipe;
   plain.asymmetry = 1;
@@ -139,7 +139,7 @@ std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
                          : motion;
 }
 
-bool FacePoses::uses_other_pose(const Recipe& recipe) const {
+bool FacePoses::uses_rotated_head(const Recipe& recipe) const {
   const auto is_turned = [&](const SourceWeight& part) {
     return !neck_.heads[static_cast<std::size_t>(part.head)].pose_rotation.isZero(0);
   };

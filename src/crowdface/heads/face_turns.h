@@ -28,7 +28,8 @@ class FacePoses {
   std::optional<RigidMotion> motion_of(const Recipe& recipe, const MirrorPlane* plane) const;
 
  private:
-  bool uses_other_pose(const Recipe& recipe) const;
+  /// Returns whether a head with weight in the recipe was rotated to the common pose.
+  bool uses_rotated_head(const Recipe& recipe) const;
 
   const HeadsOnBody& neck_;
   SampledHeads placed_heads_,

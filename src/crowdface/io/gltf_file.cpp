@@ -2,7 +2,6 @@
 #include "crowdface/io/gltf_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -57,30 +56,26 @@ std::string decoded_base64(std::string_view text) {
   return out;
 }
 
-/// Reads a list of N numbers of a node.
-/// \throws InvalidInput (exit 3) if the list has another length.
-template <std::size_t N>
-std::array<double, N> numbers_of_node(const GltfFile& file, std::size_t node, const char* key,
-                                      const std::array<double, N>& if_missing) {
-  const auto numbers = file.scene().at("nodes")[node].value(
-      key, std::vector<double>(if_missing.begin(), if_missing.end()));
-  if (numbers.size() != N) {
-    file.fail(concat("expected ", N, " numbers in the ", key, " of node ", node, ", found ",
-                     numbers.size()));
+/// Reads a list of numbers of a node; returns `if_missing` if the node does not have the list.
+/// \throws InvalidInput (exit 65) if the list has another length than `if_missing`.
+std::vector<double> numbers_of_node(const GltfFile& file, std::size_t node, const char* key,
+                                    const std::vector<double>& if_missing) {
+  const auto numbers = file.scene().at("nodes")[node].value(key, if_missing);
+  if (numbers.size() != if_missing.size()) {
+    file.fail(concat("expected ", if_missing.size(), " numbers in the ", key, " of node ", node,
+                     ", found ", numbers.size()));
   }
-  std::array<double, N> read;
-  std::copy(numbers.begin(), numbers.end(), read.begin());
-  return read;
+  return numbers;
 }
 
 Eigen::Matrix4d local_matrix(const GltfFile& file, std::size_t node) {
   if (file.scene().at("nodes")[node].contains("matrix")) {
-    const auto columns = numbers_of_node<16>(file, node, "matrix", {});
-    return matrix_from({columns.begin(), columns.end()});
+    return matrix_from(numbers_of_node(file, node, "matrix", std::vector<double>(16)));
   }
-  const auto t = numbers_of_node<3>(file, node, "translation", {0, 0, 0});
-  const auto [x, y, z, w] = numbers_of_node<4>(file, node, "rotation", {0, 0, 0, 1});
-  const auto s = numbers_of_node<3>(file, node, "scale", {1, 1, 1});
+  const std::vector<double> t = numbers_of_node(file, node, "translation", {0, 0, 0}),
+                            q = numbers_of_node(file, node, "rotation", {0, 0, 0, 1}),
+                            s = numbers_of_node(file, node, "scale", {1, 1, 1});
+  const double x = q[0], y = q[1], z = q[2], w = q[3];
   Eigen::Matrix4d matrix;
   matrix << s[0] * (1 - 2 * (y * y + z * z)), s[1] * 2 * (x * y - z * w),
       s[2] * 2 * (x * z + y * w), t[0],  //

@@ -35,16 +35,16 @@ class DepthMap {
   double depth(double lateral, double height) const;
 
  private:
-  /// The squares around a coordinate along one axis of the grid.
+  /// Indices, along one axis of the grid, of the cells around a coordinate.
   struct AxisCells {
-    Index containing = -1;    ///< the square that contains the coordinate; −1: none
-    Index centre_below = -1;  ///< the last square whose centre is below the coordinate; −1: none
-    double weight_above = 0;  ///< interpolation weight of square `centre_below` + 1
+    Index containing = -1;    ///< the cell that contains the coordinate; −1: none
+    Index centre_below = -1;  ///< the last cell whose centre is below the coordinate; −1: none
+    double weight_above = 0;  ///< interpolation weight of cell `centre_below` + 1
   };
   AxisCells cells_at(double offset, double extent, Index count) const;
   /// Depth at a point of the grid: interpolated bilinearly between the centres of the four nearest
-  /// squares if all four show the surface, otherwise the depth of the square that contains the
-  /// point. kNoDepth outside the grid.
+  /// cells if all four show the surface, otherwise the depth of the cell that contains the point.
+  /// kNoDepth outside the grid.
   double depth_in_cells(const AxisCells& column, const AxisCells& row) const;
   std::size_t cell_index(double x, double y) const;
 

@@ -56,7 +56,7 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
   const Mesh whole{painter != nullptr ? painter->topology() : neck.body->file.topology, positions,
                    painter != nullptr ? painter->uvs() : TextureCoordinates(0, 2)};
   const Mesh bust = cut_mesh(whole, above_chest(config, inputs, positions));
-  Body body{inputs.head_set.topology, inputs.head_set.uvs, Positions(0, 3), {}};
+  Body body{inputs.head_set.topology, inputs.head_set.uvs, Positions(0, 3), {}, {}};
   const auto uv_rows = static_cast<std::uint32_t>(body.uvs.rows());
   if (painter != nullptr) {
     body.uvs.conservativeResize(body.uvs.rows() + bust.uvs.rows(), Eigen::NoChange);

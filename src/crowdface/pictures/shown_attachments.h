@@ -16,8 +16,8 @@ namespace crowdface {
 /// once; each face only adds positions. Thread-safe.
 class ShownAttachments {
  public:
-  /// Returns the data of an attachment that are equal for all faces, as JSON: the triangles and the
-  /// appearance of each material.
+  /// Returns the triangles and materials of an attachment as JSON. These are the same for all
+  /// faces.
   std::string appearance_as_json(const AttachmentLook& look,
                                  const AttachmentSurface& surface) const;
   /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape

@@ -45,9 +45,9 @@ class FrameField {
     Eigen::Vector3d centre;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// The node's map is a sum of two terms. One term comes from the samples; the other term is the
-    /// rotation and scale of the whole skin, times this matrix. The second term determines the map
-    /// in directions in which the samples do not extend.
+    /// The node's map is A + R·F. A is fitted to the samples, R is the rotation and scale of the
+    /// whole skin, and F is this matrix. R·F determines the map in directions in which the samples
+    /// do not extend.
     Eigen::Matrix3d whole_skin_factor;
   };
   struct NodeWeight {

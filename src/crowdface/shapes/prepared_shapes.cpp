@@ -75,11 +75,11 @@ std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape
   return prerequisites;
 }
 
-PreparedShapes::PreparedShapes(const HeadSet& head_set, const Adjacency& adjacency,
+PreparedShapes::PreparedShapes(const HeadSet& all_heads, const Adjacency& adjacency,
                                const PartList& parts, const HeadAxes& head_axes,
-                               const ShapeSet& shape_set, const RegionWeights& regions)
-    : head_set(head_set),
-      shape_set(shape_set),
+                               const ShapeSet& all_shapes, const RegionWeights& regions)
+    : head_set(all_heads),
+      shape_set(all_shapes),
       axes(head_axes),
       vertex_faces(head_set.topology),
       skin(skin_of(parts, vertex_faces)),

@@ -91,8 +91,8 @@ struct PreparedShape {
 /// each head, move skin, parts, lids and lips.
 struct PreparedShapes {
   /// For the parameters see ShapeTransfer.
-  PreparedShapes(const HeadSet& head_set, const Adjacency& adjacency, const PartList& parts,
-                 const HeadAxes& head_axes, const ShapeSet& shape_set,
+  PreparedShapes(const HeadSet& all_heads, const Adjacency& adjacency, const PartList& parts,
+                 const HeadAxes& head_axes, const ShapeSet& all_shapes,
                  const RegionWeights& regions);
 
   const HeadSet& head_set;

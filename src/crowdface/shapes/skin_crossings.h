@@ -48,8 +48,8 @@ class SkinCrossings {
   /// \param lid_sides     See SearchedSkin::lid_sides.
   SearchedSkin find_searched_skin(const Positions& neutral, const Displacements& shape,
                                   std::vector<signed char> lid_sides) const;
-  /// Sets `may_intersect` for the triangles that intersect on `mesh`, so that their intersections
-  /// are ignored on faces.
+  /// Finds the triangles that intersect other triangles in `mesh` and sets their `may_intersect`.
+  /// Their intersections on faces are then ignored.
   void allow_intersections_of(const Positions& mesh, SearchedSkin& searched_skin) const;
 
   /// Returns one search over all triangles of the given searches.
