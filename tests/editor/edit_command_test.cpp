@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "crowdface/core/text.h"
 #include "support/program.h"
 #include "support/small_crowd.h"
 

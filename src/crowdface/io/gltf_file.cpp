@@ -60,7 +60,7 @@ std::string decoded_base64(std::string_view text) {
 /// \throws InvalidInput (exit 65) if the list has another length than `if_missing`.
 std::vector<double> numbers_of_node(const GltfFile& file, std::size_t node, const char* key,
                                     const std::vector<double>& if_missing) {
-  const auto numbers = file.scene().at("nodes")[node].value(key, if_missing);
+  std::vector<double> numbers = file.scene().at("nodes")[node].value(key, if_missing);
   if (numbers.size() != if_missing.size()) {
     file.fail(concat("expected ", if_missing.size(), " numbers in the ", key, " of node ", node,
                      ", found ", numbers.size()));
