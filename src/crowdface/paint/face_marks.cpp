@@ -323,9 +323,10 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   marks.mouth_height = height(mouth);
   marks.chin_height = height(chin);
   marks.chin_front = place(chin).dot(marks.axes.front);
-  // The eyes lie at a fixed distance below the bridge, or at the eyeballs if these are near that
-  // height.
-  marks.eyes_height = height(bridge - kBridgeMm * match.stretch * mm);
+  // Take the mean of two estimates: the eyes of the matched relief, and a fixed distance below the
+  // bridge. If there are eyeballs near this height, take the eyeballs.
+  marks.eyes_height =
+      (match.eye_midpoint.dot(marks.axes.up) + height(bridge - kBridgeMm * match.stretch * mm)) / 2;
   double of_balls = 0;
   for (const Eigen::Vector3d& eye : head.eyeball_centres) {
     of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeball_centres.size());

@@ -123,8 +123,8 @@ ReliefMatch match_of(const Candidate& candidate, const HeadAxes& axes) {
 class Refinement {
  public:
   Refinement(const Positions& samples, const ReliefMatch& first) : best_(first) {
-    constexpr double kAroundMm = 110, kBehindMm = 80;
-    constexpr std::size_t kMax = 20'000;
+    constexpr double kAroundMm = 160, kBehindMm = 80;
+    constexpr std::size_t kMax = 60'000;
     std::vector<Index> near;
     for (Index i = 0; i < samples.rows(); ++i) {
       const Eigen::Vector3d off = (row3(samples, i) - first.eye_midpoint) / first.scale;
@@ -141,14 +141,22 @@ class Refinement {
 
   ReliefMatch find() {
     search();
+    make_symmetric();
+    ReliefMatch best = best_;
+    double highest = kWorst;
+    for (const ReliefMatch& start : starts_in_symmetry_plane()) {
+      restart(start, start.frame);
+      for (int round = 0; round < kRounds && make_upright() >= kSteadyDegrees; ++round) {
+      }
+      if (score_ <= highest) continue;
+      highest = score_;
+      best = best_;
+    }
+    restart(best, best.frame);
     for (int round = 0; round < kRounds; ++round) {
       const HeadAxes before = best_.frame;
       make_symmetric();
-      place();
-      // A slope of the depths shows that the head is pitched: compensate the pitch.
-      const HeadAxes axes =
-          turned(best_.frame, best_.frame.side(), std::atan(slope_up_) / kRadians);
-      restart(best_, axes);
+      make_upright();
       if (angle_between(before, best_.frame) < kSteadyDegrees) break;
     }
     place();
@@ -162,6 +170,60 @@ class Refinement {
   static constexpr double kWorst = -2;
   static constexpr int kRounds = 6;
   static constexpr double kSteadyDegrees = 0.3;
+
+  /// Searches heights, sizes and stretches in steps for several pitches of the face. The score has
+  /// several maxima; which of them a pattern search reaches depends on where it starts.
+  /// \return the matches with the highest scores that differ in size or height
+  std::vector<ReliefMatch> starts_in_symmetry_plane() {
+    constexpr std::size_t kStarts = 4;
+    constexpr double kOtherSize = 0.12, kOtherHeightMm = 10;
+    struct Start {
+      double score = kWorst;
+      ReliefMatch match;
+    };
+    const ReliefMatch middle = best_;
+    std::vector<Start> found = {{score_, best_}};
+    for (const double pitch : {-20, -10, 0, 10, 20}) {
+      const HeadAxes axes = turned(middle.frame, middle.frame.side(), pitch);
+      for (int grow = -4; grow <= 4; ++grow) {
+        ReliefMatch next = middle;
+        next.scale = middle.scale * std::pow(1 + kGrow, grow);
+        restart(next, axes);
+        for (int up = -5; up <= 5; ++up) {
+          for (int stretch = -2; stretch <= 2; ++stretch) {
+            next = middle;
+            next.frame = axes;
+            next.eye_midpoint += up * kMoveMm * middle.scale * axes.up;
+            next.scale = middle.scale * std::pow(1 + kGrow, grow);
+            next.stretch = 1 + stretch * kGrow;
+            try_match(next);
+          }
+        }
+        found.push_back({score_, best_});
+      }
+    }
+    std::ranges::stable_sort(found, std::greater(), &Start::score);
+    std::vector<ReliefMatch> starts;
+    for (const Start& start : found) {
+      const bool is_new = std::ranges::none_of(starts, [&](const ReliefMatch& other) {
+        const double up =
+            (start.match.eye_midpoint - other.eye_midpoint).dot(middle.frame.up) / middle.scale;
+        return std::abs(std::log(start.match.scale / other.scale)) < kOtherSize &&
+               std::abs(up) < kOtherHeightMm;
+      });
+      if (is_new && starts.size() < kStarts) starts.push_back(start.match);
+    }
+    return starts;
+  }
+
+  /// A slope of the depths shows that the head is pitched: compensates the pitch.
+  /// \return the angle of the compensation in degrees
+  double make_upright() {
+    place();
+    const double pitch = std::atan(slope_up_) / kRadians;
+    restart(best_, turned(best_.frame, best_.frame.side(), pitch));
+    return std::abs(pitch);
+  }
 
   void search(bool turns = true) {
     for (double step = 1; step >= 1.0 / 16;) {
