@@ -186,9 +186,9 @@ struct MouthAndChin {
   double mouth = 0, chin = 0;  ///< heights
 };
 
-/// Finds mouth and chin together: the mouth is a hollow of the profile, the chin is convex, and the
-/// mouth divides the distance from the tip of the nose to the chin in about the same ratio in all
-/// faces. The ratio distinguishes the line between the lips from the hollow above the chin.
+/// Finds mouth and chin together: the mouth is a hollow of the profile between two convex lips, the
+/// chin is convex, and the mouth divides the distance from the tip of the nose to the chin in about
+/// the same ratio in all faces.
 /// \param tip    height of the tip of the nose
 /// \param prior  penalty of a mouth at the end of its search range
 MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, double stretch,
@@ -200,15 +200,22 @@ MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, doubl
   // Depth beyond kDeepMm counts only by the factor kDeeperShare, because an open mouth may be
   // arbitrarily deep.
   constexpr double kDeepMm = 4, kDeeperShare = 0.25;
-  constexpr double kMaxConvexMm = 6;
+  constexpr double kMaxConvexMm = 4.5;
+  // The lips are convex above and below the line between them; the hollow above the chin lies
+  // between a lip and the flatter chin.
+  constexpr double kToLipMm = 6, kMaxLipMm = 2;
+  const auto lip = [&](double height) {
+    return std::clamp(-outline.hollow(height, kLipWayMm * mm), 0.0, kMaxLipMm * mm);
+  };
   MouthAndChin best{tip - kMouthBelowTipMm * stretch * mm, tip - kMouthBelowTipMm / kRatio * mm};
   double most = -std::numeric_limits<double>::infinity();
   std::vector<double> of_mouth;
   for (double below = kMouthToMm; below <= kMouthFromMm; below += kStepMm) {
     const double hollow = outline.hollow(tip - below * mm, kLipWayMm * mm);
     const double deeper = std::max(hollow - kDeepMm * mm, 0.0);
+    const double lips = lip(tip - (below - kToLipMm) * mm) + lip(tip - (below + kToLipMm) * mm);
     const double off = (below - kMouthBelowTipMm * stretch) / kMouthReachMm;
-    of_mouth.push_back(hollow - (1 - kDeeperShare) * deeper - prior / 2 * off * off);
+    of_mouth.push_back(hollow - (1 - kDeeperShare) * deeper + lips - prior / 2 * off * off);
   }
   for (double to_chin = kChinToMm; to_chin <= kChinFromMm; to_chin += kStepMm) {
     const double convex =
