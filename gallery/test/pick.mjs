@@ -132,6 +132,16 @@ assert.equal(await steps(), count + 1);
 assert.ok(far((await landmark('mouth_right')).scan.point, ofScan[picked.template.vertex]) < 2.5, 'it is where it was let go');
 assert.deepEqual(await picker('picker.views.scan.camera.position.toArray()'), place);
 
+// A click on the ring of another name picks this place for the chosen name.
+await choose('chin');
+const ring = await picker('picker.suggested.scan.nose_base.point');
+await clickStep(...await onScreen('scan', ring));
+picked = await landmark('chin');
+assert.ok(far(picked.scan.point, ring) < 2.5, `the click on a ring was taken ${far(picked.scan.point, ring)} mm beside it`);
+assert.equal((await landmark('nose_base')).scan, null);
+await page.keyboard.press('Control+z');
+await settled();
+
 // The other names of the middle and the eyes, by clicks on the scan alone; then one on the wrong side.
 for (const name of ['eye_outer_right', 'chin', 'nose_base', 'eye_inner_left', 'eye_inner_right']) {
   await choose(name);

@@ -205,10 +205,10 @@ class Picker extends ProgramPage {
     this.choose(landmarks[(at + way + landmarks.length) % landmarks.length].name);
   }
 
-  /// A mark is chosen, and dragged as long as the button is down.
+  /// A picked mark is chosen, and dragged as long as the button is down. (Rings, which are only suggested, let the
+  /// mouse through to the surface.)
   pressMark(side, name, event) {
     this.choose(name);
-    if (!this.landmark(name)[side]) return;
     const view = this.views[side];
     const begun = [event.clientX, event.clientY];
     let wanted = null;
