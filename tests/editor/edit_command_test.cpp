@@ -18,6 +18,7 @@
 #include <sys/stat.h>
 
 #include "crowdface/core/text.h"
+
 #include "support/program.h"
 #include "support/small_crowd.h"
 

@@ -44,9 +44,8 @@ class CheckedWrap : public ::testing::Test {
         .norm();
   }
 
-  double agreement(const WrapResult& result, const std::string& name) const {
-    const auto feature = std::ranges::find(result.features, name, &FeatureCheck::name);
-    return feature == result.features.end() ? -1 : feature->relief_correlation;
+  ReliefCorrelation correlation(const WrapResult& result, const std::string& name) const {
+    return std::ranges::find(result.features, name, &FeatureCheck::name)->correlation;
   }
 
   WrapResult wrapped() const {
@@ -66,7 +65,7 @@ TEST_F(CheckedWrap, RightLandmarksGiveFeaturesThatAgree) {
   const WrapResult result = wrapped();
   ASSERT_GE(features_.size(), 4U);
   for (const FeatureCheck& feature : result.features) {
-    EXPECT_GT(feature.relief_correlation, 0.75) << feature.name;
+    EXPECT_GT(feature.correlation.in_place, 0.75) << feature.name;
   }
   EXPECT_TRUE(wrap_doubts(shape_, result).empty());
   EXPECT_TRUE(result.dropped_landmarks.empty());
@@ -79,7 +78,7 @@ TEST_F(CheckedWrap, FoundLandmarksThatPutTheMouthOnTheChinAreDropped) {
   const WrapResult result = wrapped();
   EXPECT_LT(lips_off(result), lips_off(trusted) - 1);
   EXPECT_THAT(result.dropped_landmarks, Contains("lip_lower"));
-  EXPECT_GT(agreement(result, "mouth"), 0.75);
+  EXPECT_GT(correlation(result, "mouth").in_place, 0.75);
   EXPECT_TRUE(wrap_doubts(shape_, result).empty());
 }
 
@@ -88,8 +87,25 @@ TEST_F(CheckedWrap, PickedLandmarksStayAndTheWrongMouthIsNamed) {
   const WrapResult result = wrapped();
   EXPECT_GT(lips_off(result), 5);
   EXPECT_TRUE(result.dropped_landmarks.empty());
-  EXPECT_LT(agreement(result, "mouth"), kMinReliefCorrelation);
+  EXPECT_TRUE(correlation(result, "mouth").is_doubtful());
   EXPECT_THAT(wrap_doubts(shape_, result), Contains(HasSubstr("the mouth is doubtful")));
+}
+
+TEST_F(CheckedWrap, AMouthInItsPlaceIsNotDoubtfulBecauseItsShapeDiffers) {
+  const WrapTemplate other = make_template(shape_.topology, 10 * some_head(1), {});
+  const Positions there = 10 * some_head(4);
+  std::vector<WrapLandmark> landmarks;
+  for (const auto& [name, vertex] : propose_landmarks(other)) {
+    landmarks.push_back({name, vertex, row3(there, vertex), true});
+  }
+  const WrapResult result =
+      wrap_checked(other, nullptr, face_features(other, propose_landmarks(other)),
+                   Scan{other.skin.rows_of(there), other.skin.triangles}, landmarks,
+                   PoseHint{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()});
+  const ReliefCorrelation mouth = correlation(result, "mouth");
+  EXPECT_FALSE(mouth.is_high()) << "the test needs shapes that differ";
+  EXPECT_GT(mouth.in_place, mouth.beside + 0.1);
+  EXPECT_TRUE(wrap_doubts(other, result).empty());
 }
 
 }  // namespace

@@ -162,7 +162,7 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
     }
     m.notes += "  agreement:";
     for (const FeatureCheck& feature : result.features) {
-      m.notes += concat(" ", feature.name, " ", format_fixed(feature.relief_correlation, 2));
+      m.notes += concat(" ", feature.name, " ", format_fixed(feature.correlation.in_place, 2));
     }
     m.notes += concat(", dropped ", result.dropped_landmarks.size(), "\n");
     const SkinRegions named = face_regions(shape);

@@ -56,33 +56,148 @@ Eigen::VectorXd areas_at_vertices(const SkinMesh& skin, const Positions& positio
   return areas;
 }
 
-/// Heights of vertices above the quadratic surface that fits these vertices best.
+/// A frame at a feature: the middle of the feature's vertices, the mean of their normals, and two
+/// directions along the skin.
+struct FeatureFrame {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero(), side, up, normal = Eigen::Vector3d::Zero();
+
+  /// Coordinates along `side`, `up` and `normal`.
+  Eigen::Vector3d coordinates(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d offset = point - middle;
+    return {offset.dot(side), offset.dot(up), offset.dot(normal)};
+  }
+};
+
 /// \param weights  #vertices
-Eigen::VectorXd relief(const Positions& positions, const Positions& normals,
-                       const std::vector<std::uint32_t>& vertices, const Eigen::VectorXd& weights) {
-  Eigen::Vector3d up = Eigen::Vector3d::Zero(), middle = Eigen::Vector3d::Zero();
+/// \param up       the head's direction up
+FeatureFrame feature_frame(const Positions& positions, const Positions& normals,
+                           const std::vector<std::uint32_t>& vertices,
+                           const Eigen::VectorXd& weights, const Eigen::Vector3d& up) {
+  FeatureFrame frame;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    up += weights(static_cast<Index>(i)) * row3(normals, vertices[i]);
-    middle += weights(static_cast<Index>(i)) * row3(positions, vertices[i]);
+    frame.normal += weights(static_cast<Index>(i)) * row3(normals, vertices[i]);
+    frame.middle += weights(static_cast<Index>(i)) * row3(positions, vertices[i]);
   }
-  up.normalize();
-  middle /= weights.sum();
-  const Eigen::Vector3d x = up.unitOrthogonal(), y = up.cross(x);
+  frame.normal.normalize();
+  frame.middle /= weights.sum();
+  frame.side = up.cross(frame.normal).normalized();
+  frame.up = frame.normal.cross(frame.side);
+  return frame;
+}
+
+/// Coordinates of vertices in a frame, #vertices by 3.
+Positions coordinates_of(const FeatureFrame& frame, const Positions& positions,
+                         const std::vector<std::uint32_t>& vertices) {
+  Positions coordinates(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    coordinates.row(static_cast<Index>(i)) =
+        frame.coordinates(row3(positions, vertices[i])).transpose();
+  }
+  return coordinates;
+}
+
+/// Heights of points above the quadratic surface that fits these points best.
+/// \param points   #points by 3: two coordinates along the skin, and the height, in mm
+/// \param weights  #points
+Eigen::VectorXd relief(const Positions& points, const Eigen::VectorXd& weights) {
   constexpr double kUnitMm = 20;  // keeps the powers near 1
-  const auto count = static_cast<Index>(vertices.size());
-  Eigen::MatrixXd surface(count, 6);
-  Eigen::VectorXd heights(count);
-  for (Index i = 0; i < count; ++i) {
-    const Eigen::Vector3d p =
-        (row3(positions, vertices[static_cast<std::size_t>(i)]) - middle) / kUnitMm;
-    const double a = p.dot(x), b = p.dot(y);
-    surface.row(i) << 1, a, b, a * a, a * b, b * b;
-    heights(i) = p.dot(up);
-  }
+  const Eigen::ArrayXd a = points.col(0).array() / kUnitMm, b = points.col(1).array() / kUnitMm;
+  Eigen::MatrixXd surface(points.rows(), 6);
+  surface << Eigen::VectorXd::Ones(points.rows()), a, b, a * a, a * b, b * b;
   const Eigen::MatrixXd weighted = weights.asDiagonal() * surface;
-  const Eigen::VectorXd fit =
-      (surface.transpose() * weighted).ldlt().solve(weighted.transpose() * heights);
-  return kUnitMm * (heights - surface * fit);
+  return points.col(2) -
+         surface *
+             (surface.transpose() * weighted).ldlt().solve(weighted.transpose() * points.col(2));
+}
+
+double weighted_correlation(const Eigen::VectorXd& p, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& weights) {
+  const auto product = [&](const Eigen::VectorXd& r, const Eigen::VectorXd& s) {
+    return (weights.array() * r.array() * s.array()).sum();
+  };
+  const double sizes = std::sqrt(product(p, p) * product(q, q));
+  return sizes > 0 ? product(p, q) / sizes : 0;
+}
+
+/// Height of a surface at a point, interpolated between the vertices around the point.
+/// \param vertices  #vertices by 3: coordinates and heights in mm
+double height_at(const Positions& vertices, double a, double b) {
+  const Eigen::ArrayXd squares =
+      (vertices.col(0).array() - a).square() + (vertices.col(1).array() - b).square();
+  const Eigen::ArrayXd weights = (-squares / std::max(1.0, 2 * squares.minCoeff())).exp();
+  return (weights * vertices.col(2).array()).sum() / weights.sum();
+}
+
+/// The relief of the template's and of the wrapped skin, prepared once for all features.
+struct SkinPair {
+  SkinPair(const WrapTemplate& wrap_template, const Positions& wrapped)
+      : skin(wrap_template.skin),
+        up(wrap_template.axes.up),
+        before(skin.rows_of(wrap_template.positions)),
+        after(skin.rows_of(wrapped)),
+        normals_before(vertex_normals_or_zero(skin.triangles, before)),
+        normals_after(vertex_normals_or_zero(skin.triangles, after)),
+        areas(areas_at_vertices(skin, before)) {}
+
+  const SkinMesh& skin;
+  Eigen::Vector3d up;
+  Positions before, after, normals_before, normals_after;
+  Eigen::VectorXd areas;
+};
+
+/// Every k-th element, so that at most `count` elements remain.
+std::vector<std::uint32_t> thinned(const std::vector<std::uint32_t>& all, std::size_t count) {
+  std::vector<std::uint32_t> kept;
+  const std::size_t step = (all.size() + count - 1) / count;
+  for (std::size_t i = 0; i < all.size(); i += step) kept.push_back(all[i]);
+  return kept;
+}
+
+double correlation_in_place(const SkinPair& pair, const FaceFeature& feature) {
+  const std::vector<std::uint32_t>& vertices = feature.skin_vertices;
+  const Eigen::VectorXd weights = pair.areas(vertices);
+  const auto relief_of = [&](const Positions& positions, const Positions& normals) {
+    return relief(coordinates_of(feature_frame(positions, normals, vertices, weights, pair.up),
+                                 positions, vertices),
+                  weights);
+  };
+  return weighted_correlation(relief_of(pair.before, pair.normals_before),
+                              relief_of(pair.after, pair.normals_after), weights);
+}
+
+/// The highest correlation between the feature's relief on the template and the relief of the
+/// wrapped skin 4, 8 or 12 mm above or below the feature.
+double correlation_beside(const SkinPair& pair, const FaceFeature& feature) {
+  constexpr std::size_t kMaxVertices = 400, kMaxSurroundings = 20000;
+  constexpr double kSurroundingsMm = 70, kMinCosine = 0.1;
+  const std::vector<std::uint32_t> vertices = thinned(feature.skin_vertices, kMaxVertices);
+  const Eigen::VectorXd weights = pair.areas(vertices);
+  const Eigen::VectorXd expected = relief(
+      coordinates_of(feature_frame(pair.before, pair.normals_before, vertices, weights, pair.up),
+                     pair.before, vertices),
+      weights);
+  const FeatureFrame frame =
+      feature_frame(pair.after, pair.normals_after, vertices, weights, pair.up);
+  std::vector<std::uint32_t> around;
+  for (std::uint32_t v = 0; v < pair.skin.vertices.size(); ++v) {
+    if (pair.skin.ambient_visibility[v] > kVisibleSkinThreshold &&
+        (row3(pair.after, v) - frame.middle).norm() < kSurroundingsMm &&
+        row3(pair.normals_after, v).dot(frame.normal) > kMinCosine) {
+      around.push_back(v);
+    }
+  }
+  const Positions surroundings =
+      coordinates_of(frame, pair.after, thinned(around, kMaxSurroundings));
+  const Positions in_place = coordinates_of(frame, pair.after, vertices);
+  double best = -1;
+  for (const double shift : {-12.0, -8.0, -4.0, 4.0, 8.0, 12.0}) {
+    Positions shifted = in_place;
+    for (Index i = 0; i < shifted.rows(); ++i) {
+      shifted(i, 2) = height_at(surroundings, in_place(i, 0), in_place(i, 1) + shift);
+    }
+    best = std::max(best, weighted_correlation(expected, relief(shifted, weights), weights));
+  }
+  return best;
 }
 
 }  // namespace
@@ -109,26 +224,17 @@ std::vector<FaceFeature> face_features(const WrapTemplate& wrap_template,
   return features;
 }
 
-std::vector<double> relief_correlations(const WrapTemplate& wrap_template,
-                                        const std::vector<FaceFeature>& features,
-                                        const Positions& wrapped) {
-  const SkinMesh& skin = wrap_template.skin;
-  const Positions before = skin.rows_of(wrap_template.positions), after = skin.rows_of(wrapped);
-  const Positions normals_before = vertex_normals_or_zero(skin.triangles, before),
-                  normals_after = vertex_normals_or_zero(skin.triangles, after);
-  const Eigen::VectorXd areas = areas_at_vertices(skin, before);
-  std::vector<double> agreements;
+std::vector<ReliefCorrelation> relief_correlations(const WrapTemplate& wrap_template,
+                                                   const std::vector<FaceFeature>& features,
+                                                   const Positions& wrapped) {
+  const SkinPair pair(wrap_template, wrapped);
+  std::vector<ReliefCorrelation> correlations;
   for (const FaceFeature& feature : features) {
-    const Eigen::VectorXd weights = areas(feature.skin_vertices);
-    const Eigen::VectorXd a = relief(before, normals_before, feature.skin_vertices, weights),
-                          b = relief(after, normals_after, feature.skin_vertices, weights);
-    const auto product = [&](const Eigen::VectorXd& p, const Eigen::VectorXd& q) {
-      return (weights.array() * p.array() * q.array()).sum();
-    };
-    const double sizes = std::sqrt(product(a, a) * product(b, b));
-    agreements.push_back(sizes > 0 ? product(a, b) / sizes : 0);
+    ReliefCorrelation correlation{correlation_in_place(pair, feature)};
+    if (!correlation.is_high()) correlation.beside = correlation_beside(pair, feature);
+    correlations.push_back(correlation);
   }
-  return agreements;
+  return correlations;
 }
 
 }  // namespace crowdface

@@ -115,10 +115,13 @@ Surfaces surfaces_of(const WrapTemplate& wrap_template) {
 /// Returns colours in which the doubtful features are red; nothing if no feature is doubtful.
 std::optional<VertexColours> doubt_colours(const WrapTemplate& wrap_template,
                                            const WrapResult& result) {
-  if (std::ranges::none_of(result.features, &FeatureCheck::is_doubtful)) return std::nullopt;
+  if (std::ranges::none_of(result.features, [](const FeatureCheck& feature) {
+        return feature.correlation.is_doubtful();
+      }))
+    return std::nullopt;
   Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(wrap_template.topology.vertex_count);
   for (const FeatureCheck& feature : result.features) {
-    if (!feature.is_doubtful()) continue;
+    if (!feature.correlation.is_doubtful()) continue;
     for (const std::uint32_t v : feature.skin_vertices)
       doubtful(wrap_template.skin.vertices[v]) = 1;
   }
@@ -145,13 +148,14 @@ double share_without_data(const WrapTemplate& wrap_template, const WrapResult& r
 std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const WrapResult& result) {
   std::vector<std::string> warnings;
   for (const FeatureCheck& feature : result.features) {
-    if (!feature.is_doubtful()) continue;
+    if (!feature.correlation.is_doubtful()) continue;
     warnings.push_back(concat("the ", feature.name,
                               " is doubtful: on the wrapped head it does not look like the "
                               "template's (agreement ",
-                              format_fixed(feature.relief_correlation, 2), ", expected ",
-                              format_fixed(kMinReliefCorrelation, 2),
-                              " or more): check the picture, where it is red, and pick landmarks "
+                              format_fixed(feature.correlation.in_place, 2),
+                              "; a few mm above or below ",
+                              format_fixed(feature.correlation.beside, 2),
+                              "): check the picture, where it is red, and pick landmarks "
                               "there"));
   }
   for (const LandmarkResidual& landmark : result.landmarks) {
@@ -287,7 +291,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_
     report["correspondence_mm"] = spread_json(all);
   }
   for (const FeatureCheck& feature : result.features) {
-    report["features"][feature.name] = rounded(feature.relief_correlation);
+    report["features"][feature.name] = rounded(feature.correlation.in_place);
   }
   if (!result.dropped_landmarks.empty()) report["dropped_landmarks"] = result.dropped_landmarks;
   report["warnings"] = warnings;

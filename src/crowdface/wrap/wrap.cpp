@@ -265,13 +265,15 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
                         const std::vector<WrapLandmark>& all_landmarks,
                         const std::optional<PoseHint>& hint) {
   const auto worst = [](const WrapResult& result) {
-    const auto feature =
-        std::ranges::min_element(result.features, {}, &FeatureCheck::relief_correlation);
-    return feature == result.features.end() ? 1.0 : feature->relief_correlation;
+    ReliefCorrelation correlation;
+    for (const FeatureCheck& feature : result.features) {
+      if (feature.correlation.in_place < correlation.in_place) correlation = feature.correlation;
+    }
+    return correlation;
   };
   const auto wrapped_with = [&](const std::vector<WrapLandmark>& landmarks) {
     WrapResult result = wrap(wrap_template, model, scan, landmarks, hint);
-    const std::vector<double> correlations =
+    const std::vector<ReliefCorrelation> correlations =
         relief_correlations(wrap_template, features, result.positions);
     for (std::size_t i = 0; i < features.size(); ++i) {
       result.features.push_back({features[i].name, correlations[i], features[i].skin_vertices});
@@ -282,21 +284,22 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
   // All automatically found landmarks of a feature may be wrong in the same way, for example if the
   // landmarks of the mouth lie in the crease above the chin. The error shows only in a fit that
   // does not use these landmarks.
-  const auto is_of_doubtful_feature = [&, doubts = best.features](const WrapLandmark& landmark) {
+  const auto is_of_questioned_feature = [&, checks = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = index_in_list(wrap_template.skin.vertices, landmark.vertex);
-    return std::ranges::any_of(doubts, [&](const FeatureCheck& feature) {
-      return feature.is_doubtful() && std::ranges::binary_search(feature.skin_vertices, row);
+    return std::ranges::any_of(checks, [&](const FeatureCheck& feature) {
+      return !feature.correlation.is_high() &&
+             std::ranges::binary_search(feature.skin_vertices, row);
     });
   };
   std::vector<WrapLandmark> landmarks = all_landmarks;
   for (const bool drops_all : {false, true}) {
-    if (worst(best) >= kMinReliefCorrelation) break;
+    if (worst(best).is_high()) break;
     const std::size_t dropped = std::erase_if(landmarks, [&](const WrapLandmark& landmark) {
-      return landmark.is_found_by_shape && (drops_all || is_of_doubtful_feature(landmark));
+      return landmark.is_found_by_shape && (drops_all || is_of_questioned_feature(landmark));
     });
     if (dropped == 0) continue;
     WrapResult other = wrapped_with(landmarks);
-    if (worst(other) <= worst(best)) continue;
+    if (worst(other).in_place <= worst(best).in_place) continue;
     for (const WrapLandmark& landmark : all_landmarks) {
       if (std::ranges::find(landmarks, landmark.name, &WrapLandmark::name) == landmarks.end()) {
         other.dropped_landmarks.push_back(landmark.name);

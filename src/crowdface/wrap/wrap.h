@@ -27,16 +27,11 @@ struct LandmarkResidual {
   double error_mm = 0;  ///< see `WrapLandmark::error_mm`
 };
 
-/// A feature is doubtful if its relief correlation is smaller.
-inline constexpr double kMinReliefCorrelation = 0.7;
-
-/// Correlation between a feature's relief on the wrapped template and on the template; see
-/// `relief_correlations`.
+/// A feature of the template, and whether it lies on the same feature of the wrapped scan.
 struct FeatureCheck {
   std::string name;
-  double relief_correlation = 1;
+  ReliefCorrelation correlation;
   std::vector<std::uint32_t> skin_vertices;  ///< rows of the skin, ascending
-  bool is_doubtful() const { return relief_correlation < kMinReliefCorrelation; }
 };
 
 struct WrapResult {
@@ -44,8 +39,8 @@ struct WrapResult {
   Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
   std::vector<LandmarkResidual> landmarks;
   std::vector<FeatureCheck> features;  ///< set by `wrap_checked` only
-  /// Names of automatically found landmarks that `wrap_checked` did not use, because a feature was
-  /// doubtful in the wrap that used them.
+  /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
+  /// without them agrees better.
   std::vector<std::string> dropped_landmarks;
   double pose_residual_mm = 0;  ///< median distance after the similarity
   Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
@@ -75,9 +70,9 @@ WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, cons
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
 /// Wraps the template, and checks with `relief_correlations` whether each feature of the template
-/// ended on the same feature of the scan. If a feature is doubtful, repeats the wrap without the
-/// automatically found landmarks of this feature, and then without all automatically found
-/// landmarks. Returns the result whose worst feature agrees best.
+/// ended on the same feature of the scan. If a feature's correlation is not high, repeats the wrap
+/// without the automatically found landmarks of this feature, and then without all automatically
+/// found landmarks. Returns the result whose worst feature agrees best.
 /// \param features  see `face_features`; may be empty
 /// \param wrap_template, model, scan, landmarks, hint  as for `wrap`
 WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* model,
