@@ -133,12 +133,15 @@ export class Turntable extends Stage {
     await this.prepare();
     await loadScript(path);
     const face = window.crowdface.faces[name];
-    const [worn, pictures] = await Promise.all([this.attachments(face.worn),
-      Promise.all((face.skin?.pictures ?? []).map((address) => pictureAt(address, { colours: true, repeated: true })))]);
+    const texturesOf = async (layer, colours) => {
+      const pictures = await Promise.all((layer?.pictures ?? []).map((address) => pictureAt(address, { colours, repeated: true })));
+      return { pictures, ofLook: layer?.of_look ?? [] };
+    };
+    const [worn, skin, relief] = await Promise.all([this.attachments(face.worn), texturesOf(face.skin, true), texturesOf(face.relief, false)]);
     if (this.wanted !== name) return;
     const { points, normals, roughness } = unpackFace(face.points, this.mesh);
     this.face = { points, normals, worn, shapes: face.moves ? unpackMoves(face.moves, this.mesh) : [] };
-    this.wear(pictures, face.skin?.of_look ?? [], face.colours);
+    this.wear(skin, relief, face.colours);
     this.object.geometry.setAttribute('rough', new BufferAttribute(roughness ?? this.evenly, 1));
     this.shown = name;
     this.shade = null;
@@ -146,21 +149,24 @@ export class Turntable extends Stage {
   }
 
   /// Where a look has a picture its vertices are white.
-  /// \param own  the face's colours at vertices; none: those that all faces share.
-  wear(pictures, ofLook, own) {
+  /// \param skin, relief  {pictures, ofLook}: colours and normals
+  /// \param own           the face's colours at vertices; none: those that all faces share.
+  wear(skin, relief, own) {
     for (const picture of this.pictures ?? []) picture.dispose();
-    this.pictures = pictures;
+    this.pictures = [...skin.pictures, ...relief.pictures];
+    const textureOf = ({ pictures, ofLook }, look) => pictures[ofLook[look]] ?? null;
     const colours = own ? linearColours(bytesOf(own)) : this.colours.slice();
     const { groups, index } = this.object.geometry;
     groups.forEach(({ start, count, materialIndex }) => {
       const material = this.materials[materialIndex];
-      material.map = pictures[ofLook[materialIndex]] ?? null;
+      material.map = textureOf(skin, materialIndex);
+      material.normalMap = textureOf(relief, materialIndex);
       material.needsUpdate = true;
       this.draft?.setPicture(materialIndex, material.map);
       if (!material.map) return;
       for (const v of index.array.subarray(start, start + count)) colours.fill(1, 3 * v, 3 * v + 3);
     });
-    this.skinLightness.value = pictures.length > 0 ? skinLightness(pictures[0].image) : 0;
+    this.skinLightness.value = skin.pictures.length > 0 ? skinLightness(skin.pictures[0].image) : 0;
     this.face.colours = colours;
   }
 

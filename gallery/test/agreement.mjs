@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far faces in the gallery's 3D view, and in the editor if there is an address, differ in colour from the same
-// faces in the sheet's renders: the mean colours of the middle of the face, as CIE76 ΔE.
+// faces in the sheet's renders: the mean colours of the middle of the face, as CIE76 ΔE; and how well
+// wrinkles of the forehead are seen.
 //   node agreement.mjs GALLERY_FOLDER COUNT MOST [PICTURES_FOLDER] [EDITOR_ADDRESS]
 // Prints each face's difference and fails if one is above MOST. Writes both pictures of each face side by side. The
 // last line says "all right".
@@ -94,6 +95,18 @@ const provideCompare = () => page.evaluate(() => {
       [wanted, shown].forEach((data, k) => labOf(data, at).forEach((value, c) => { sums[k][c] += value; }));
       places += 1;
     }
+    /// How much neighbours above each other differ on the forehead, where wrinkles run across.
+    const wrinkles = [wanted, shown].map((data) => {
+      let [sum, count] = [0, 0];
+      for (let y = Math.round(box.top + 0.36 * wide); y < box.top + 0.56 * wide; y += 1) {
+        for (let x = Math.round(middle - 0.14 * wide); x < middle + 0.14 * wide; x += 1) {
+          const [above, here, below] = [y - 1, y, y + 1].map((row) => labOf(data, 4 * (row * size + x))[0]);
+          sum += Math.abs(2 * here - above - below);
+          count += 1;
+        }
+      }
+      return sum / count;
+    });
     const means = sums.map((sum) => sum.map((value) => value / places));
     const both = document.createElement('canvas');
     [both.width, both.height] = [2 * size, size];
@@ -101,7 +114,7 @@ const provideCompare = () => page.evaluate(() => {
     context.drawImage(sheet, 0, 0);
     context.clearRect(size, 0, size, size);
     context.drawImage(turntable.node, size, 0);
-    return { means, difference: Math.hypot(...means[0].map((value, c) => value - means[1][c])), both: both.toDataURL() };
+    return { means, wrinkles, difference: Math.hypot(...means[0].map((value, c) => value - means[1][c])), both: both.toDataURL() };
   };
 });
 const ids = await page.evaluate((n) => window.crowdface.page.crowd.faces.slice(0, n).map(({ id }) => id), Number(count));
@@ -109,12 +122,14 @@ const ids = await page.evaluate((n) => window.crowdface.page.crowd.faces.slice(0
 async function compareAll(where, show) {
   await provideCompare();
   const differences = [];
+  const seen = [0, 0];
   for (const id of ids) {
     await show(id);
     const render = readFileSync(join(folder, '..', 'renders', `${id}.png`)).toString('base64');
-    const { means, difference, both } = await page.evaluate((url) => window.compare(url), `data:image/png;base64,${render}`);
+    const { means, wrinkles, difference, both } = await page.evaluate((url) => window.compare(url), `data:image/png;base64,${render}`);
     differences.push(difference);
-    console.log(`${id}: ΔE ${difference.toFixed(2)}; sheet ${means[0].map((v) => v.toFixed(1))}, page ${means[1].map((v) => v.toFixed(1))}`);
+    wrinkles.forEach((value, k) => { seen[k] += value; });
+    console.log(`${id}: ΔE ${difference.toFixed(2)}; sheet ${means[0].map((v) => v.toFixed(1))}, page ${means[1].map((v) => v.toFixed(1))}; wrinkles ${wrinkles.map((v) => v.toFixed(2))}`);
     if (!pictures) continue;
     mkdirSync(pictures, { recursive: true });
     writeFileSync(join(pictures, `${where}_${id}.png`), Buffer.from(both.split(',')[1], 'base64'));
@@ -122,6 +137,7 @@ async function compareAll(where, show) {
   const mean = differences.reduce((a, b) => a + b, 0) / ids.length;
   console.log(`ΔE of ${ids.length} faces in the ${where}: mean ${mean.toFixed(2)}, most ${Math.max(...differences).toFixed(2)}`);
   assert.ok(differences.every((difference) => difference <= Number(most)), `a face differs by more than ΔE ${most}`);
+  assert.ok(seen[1] > 0.65 * seen[0], `wrinkles have ${(seen[1] / seen[0]).toFixed(2)} of the sheet's contrast`);
 }
 await compareAll('gallery', async (id) => {
   await page.evaluate((name) => { location.hash = `#/face/${name}`; }, id);

@@ -6,14 +6,14 @@
 set -euo pipefail
 . "$(dirname "$0")/page.sh"
 
-"$program" synth -o "$folder/heads" --count 5 --vertices 12000 --seed 2 --textures 256 --hair --quiet
+"$program" synth -o "$folder/heads" --count 5 --vertices 12000 --seed 2 --textures 512 --hair --quiet
 cat >"$folder/config.yaml" <<YAML
 schema: 1
 crowd: {name: mob, count: 4}
 faces: {directory: heads, units: cm}
 attachments: {from: heads/attachments}
-output: {directory: out, meshes: [glb], contact_sheet: {cell: 256}}
+output: {directory: out, meshes: [glb], contact_sheet: {cell: 512}}
 YAML
 "$program" generate "$folder/config.yaml" --cache "$folder/cache" --quiet
 serve edit "$folder/config.yaml" --cache "$folder/cache" --no-browser
-browse agreement.mjs "$folder/out/gallery" 4 1.6 "${PICTURES-}" "$address"
+browse agreement.mjs "$folder/out/gallery" 4 2 "${PICTURES-}" "$address"

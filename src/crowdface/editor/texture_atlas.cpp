@@ -19,15 +19,6 @@ std::array<std::uint8_t, 3> colour_texel(const LinearRgb& light) {
   return {srgb_byte(light[0]), srgb_byte(light[1]), srgb_byte(light[2])};
 }
 
-std::array<std::uint8_t, 3> normal_texel(const LinearRgb& slopes) {
-  const Eigen::Vector3f normal = Eigen::Vector3f(slopes[0], slopes[1], 1).normalized();
-  std::array<std::uint8_t, 3> texel{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    texel[c] = static_cast<std::uint8_t>(std::lround(127.5F * (1 + normal[static_cast<Index>(c)])));
-  }
-  return texel;
-}
-
 }  // namespace
 
 TextureAtlas::TextureAtlas(const Inputs& inputs) : inputs_(inputs) {

@@ -245,14 +245,16 @@ std::string GalleryMeshes::pack_shapes(std::span<const Displacements> shape_move
   return bytes;
 }
 
-std::string GalleryMeshes::textures_as_json(const TextureSet& texture_set) const {
+std::string GalleryMeshes::textures_as_json(const TextureLayer& layer,
+                                            std::string (*picture_of)(const Texture&,
+                                                                      int max_px)) const {
   std::vector<std::uint32_t> placed;  // indices of textures, without duplicates
   Json pictures = Json::array(), of_look = Json::array();
   for (const std::uint32_t first : mesh_.material_starts) {
     const std::uint32_t face = mesh_.face_of_vertex[mesh_.triangles[3 * first]];
     const std::uint32_t texture =
-        texture_set.texture_of_face.empty() ? TextureSet::kNone : texture_set.texture_of_face[face];
-    if (texture == TextureSet::kNone) {
+        layer.texture_of_face.empty() ? TextureLayer::kNone : layer.texture_of_face[face];
+    if (texture == TextureLayer::kNone) {
       of_look.push_back(nullptr);
       continue;
     }
@@ -262,7 +264,7 @@ std::string GalleryMeshes::textures_as_json(const TextureSet& texture_set) const
   }
   const int max_px = placed.size() > 2 ? kMaxTexels / 2 : kMaxTexels;
   for (const std::uint32_t texture : placed) {
-    pictures.push_back(colour_picture(*texture_set.textures[texture], max_px));
+    pictures.push_back(picture_of(*layer.textures[texture], max_px));
   }
   return Json{{"pictures", std::move(pictures)}, {"of_look", std::move(of_look)}}.dump();
 }
@@ -333,15 +335,8 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   const Positions& positions = shown.positions();
   const TextureSet* const texture_set = shown.textures();
   const VertexColours* const colours = shown.colours();
-  std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)> lean;
-  if (texture_set != nullptr && !texture_places_.empty()) {
-    lean = [&](std::size_t v, const Eigen::Vector3d& normal) {
-      return tilted_normal(*texture_set, pictured_mesh_.topology(), pictured_mesh_.uvs(),
-                           texture_places_[v], positions, normal);
-    };
-  }
   std::string bytes = pack_face(pictured_mesh_.topology(), mesh_.vertices, vertex_faces_,
-                                packing_frame_, positions, lean);
+                                packing_frame_, positions);
   if (texture_set != nullptr) bytes += pack_roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
   if (!shown_shapes_.empty())
@@ -355,7 +350,12 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
     }
     parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }
-  if (texture_set != nullptr) parts.push_back(concat("\"skin\":", textures_as_json(*texture_set)));
+  if (texture_set != nullptr) {
+    parts.push_back(concat("\"skin\":", textures_as_json(*texture_set, colour_picture)));
+    if (!texture_set->slopes.textures.empty()) {
+      parts.push_back(concat("\"relief\":", textures_as_json(texture_set->slopes, normal_picture)));
+    }
+  }
   if (colours != nullptr) {
     parts.push_back(concat("\"colours\":\"",
                            base64(pack_vertex_colours((*colours)(mesh_.vertices, kAllColumns))),

@@ -50,9 +50,10 @@ class GalleryMeshes {
   /// The vertex colours as three sRGB bytes per vertex, darkened at vertices from which little of
   /// the sky is visible.
   std::string pack_vertex_colours(const VertexColours& colours) const;
-  /// Returns as JSON the textures of a set, and for each material of the reduced mesh the index of
+  /// Returns as JSON the textures of a layer, and for each material of the reduced mesh the index of
   /// its texture.
-  std::string textures_as_json(const TextureSet& texture_set) const;
+  std::string textures_as_json(const TextureLayer& layer,
+                               std::string (*picture_of)(const Texture&, int max_px)) const;
   /// The roughness of each vertex, one byte per vertex; empty if the set has no roughness maps.
   std::string pack_roughness(const TextureSet& texture_set) const;
   double min_displacement() const;

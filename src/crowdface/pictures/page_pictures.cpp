@@ -24,6 +24,21 @@ std::string address_of(std::string_view type, std::string_view bytes) {
   return concat("data:image/", type, ";base64,", base64(bytes));
 }
 
+/// \param texel_of  returns the three bytes of a texel
+template <class TexelOf>
+std::string jpeg_address(const Texture& texture, int max_px, const TexelOf& texel_of) {
+  const bool fits = std::max(texture.width, texture.height) <= max_px;
+  const Texture small = fits ? Texture() : small_texture(texture, max_px);
+  const Texture& shown = fits ? texture : small;
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(3 * shown.texels.size());
+  for (const LinearRgb& texel : shown.texels) {
+    const auto bytes = texel_of(texel);
+    pixels.insert(pixels.end(), bytes.begin(), bytes.end());
+  }
+  return address_of("jpeg", encode_jpeg(shown.width, shown.height, pixels));
+}
+
 }  // namespace
 
 std::uint8_t srgb_byte(float light) {
@@ -41,16 +56,23 @@ std::uint8_t srgb_byte(float light) {
   return bytes[std::min(static_cast<std::size_t>(kSteps * root), kSteps - 1)];
 }
 
-std::string colour_picture(const Texture& texture, int max_px) {
-  const bool fits = std::max(texture.width, texture.height) <= max_px;
-  const Texture small = fits ? Texture() : small_texture(texture, max_px);
-  const Texture& shown = fits ? texture : small;
-  std::vector<std::uint8_t> pixels(3 * shown.texels.size());
-  std::uint8_t* at = pixels.data();
-  for (const LinearRgb& light : shown.texels) {
-    for (int c = 0; c < 3; ++c) *at++ = srgb_byte(light[c]);
+std::array<std::uint8_t, 3> normal_texel(const LinearRgb& slopes) {
+  const Eigen::Vector3f normal = Eigen::Vector3f(slopes[0], slopes[1], 1).normalized();
+  std::array<std::uint8_t, 3> texel{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    texel[c] = static_cast<std::uint8_t>(std::lround(127.5F * (1 + normal[static_cast<Index>(c)])));
   }
-  return address_of("jpeg", encode_jpeg(shown.width, shown.height, pixels));
+  return texel;
+}
+
+std::string colour_picture(const Texture& texture, int max_px) {
+  return jpeg_address(texture, max_px, [](const LinearRgb& light) {
+    return std::array{srgb_byte(light[0]), srgb_byte(light[1]), srgb_byte(light[2])};
+  });
+}
+
+std::string normal_picture(const Texture& slopes, int max_px) {
+  return jpeg_address(slopes, max_px, normal_texel);
 }
 
 std::string opacity_picture(const Texture& texture, int max_px) {

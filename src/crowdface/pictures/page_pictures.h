@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -12,11 +13,16 @@ namespace crowdface {
 /// texels.
 std::uint8_t srgb_byte(float light);
 
+/// A texel of a tangent-space normal map with y upwards.
+std::array<std::uint8_t, 3> normal_texel(const LinearRgb& slopes);
+
 /// Images encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
 /// load textures from files. Larger images are reduced so that the longer side has `max_px` texels.
 
 /// The texture as JPEG in sRGB.
 std::string colour_picture(const Texture& texture, int max_px);
+/// The slopes of a normal map as JPEG: a tangent-space normal map with y upwards.
+std::string normal_picture(const Texture& slopes, int max_px);
 /// The first channel of the texture as a PNG with one channel.
 std::string opacity_picture(const Texture& texture, int max_px);
 

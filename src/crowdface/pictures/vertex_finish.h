@@ -16,14 +16,8 @@ struct TexturePlace {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 
-/// The vertex normal, tilted by the normal map of the texture set. The map is averaged around the
-/// vertex, because detail finer than the reduced mesh would appear as noise.
-/// \param positions  #V by 3 of the face
-Eigen::Vector3d tilted_normal(const TextureSet& texture_set, const Topology& topology,
-                              const TextureCoordinates& coordinates, const TexturePlace& place,
-                              const Positions& positions, const Eigen::Vector3d& normal);
-
-/// The roughness map's value at a vertex, 0 … 1; nothing if there is no roughness map.
+/// The roughness map's value at a vertex, 0 … 1; nothing if there is no roughness map. The map is
+/// averaged around the vertex, because detail finer than the reduced mesh would appear as noise.
 std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePlace& place);
 
 }  // namespace crowdface

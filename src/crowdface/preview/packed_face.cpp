@@ -62,17 +62,15 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
   return bytes;
 }
 
-std::string pack_face(
-    const Topology& topology, std::span<const std::uint32_t> vertices,
-    const VertexFaces& vertex_faces, const PackingFrame& frame, const Positions& positions,
-    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& adjust_normal) {
+std::string pack_face(const Topology& topology, std::span<const std::uint32_t> vertices,
+                      const VertexFaces& vertex_faces, const PackingFrame& frame,
+                      const Positions& positions) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
   std::string bytes = pack_points(vertices, frame, positions);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    Eigen::Vector3d normal = normal_at(topology, positions, vertex_faces.items_of(vertices[v]));
-    if (adjust_normal) normal = adjust_normal(v, normal);
-    const Eigen::Vector2d square = octahedral(normal);
+    const Eigen::Vector2d square =
+        octahedral(normal_at(topology, positions, vertex_faces.items_of(vertices[v])));
     for (int axis = 0; axis < 2; ++axis) append(bytes, (square[axis] + 1) / 2 * kSteps);
   }
   return bytes;

@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,15 +27,12 @@ struct PackingFrame {
 /// numbers per vertex, in grid steps from the low corner of the frame, clamped to the cube. The
 /// unit normals follow: two numbers per vertex, the octahedral encoding (Meyer et al. 2010, "On
 /// floating-point normal vectors") with −1 … 1 mapped to 0 … 65,535.
-/// \param vertices       the vertices to pack, as row indices of `positions`.
-/// \param vertex_faces   the polygons around each vertex of the whole mesh. The normals of the
-///                       whole mesh give a reduced preview the shading of the whole mesh.
-/// \param adjust_normal  adjust_normal(i, normal): replaces the normal of vertices[i]; may be
-///                       empty.
-std::string pack_face(
-    const Topology& topology, std::span<const std::uint32_t> vertices,
-    const VertexFaces& vertex_faces, const PackingFrame& frame, const Positions& positions,
-    const std::function<Eigen::Vector3d(std::size_t, const Eigen::Vector3d&)>& adjust_normal = {});
+/// \param vertices      the vertices to pack, as row indices of `positions`.
+/// \param vertex_faces  the polygons around each vertex of the whole mesh. The normals of the
+///                      whole mesh give a reduced preview the shading of the whole mesh.
+std::string pack_face(const Topology& topology, std::span<const std::uint32_t> vertices,
+                      const VertexFaces& vertex_faces, const PackingFrame& frame,
+                      const Positions& positions);
 
 /// Packs only positions, in the same format as the first part of the result of pack_face.
 /// \param vertices  the vertices to pack, as row indices of `positions`.
