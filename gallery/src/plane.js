@@ -14,7 +14,7 @@ export const side = 460;
 
 /// How a square of `side` shows the part of the plane that holds these points with some room around
 /// them, and the way back.
-export function planeFrame(points, room = 1.16) {
+export function planeFrame(points, room = 1.36) {
   const xs = points.map((p) => p[0]);
   const ys = points.map((p) => p[1]);
   const low = [Math.min(...xs), Math.min(...ys)];

@@ -6,8 +6,8 @@ import { isDeepStrictEqual } from 'node:util';
 import { chromium } from 'playwright-core';
 
 /// What is wrong with no page: text below 12 pixels, things to take below 28, controls that scrolling does not bring into
-/// the window, that have no tooltip or no name.
-export const fine = { sizes: [], narrow: [], lost: [], untold: [], nameless: [] };
+/// the window, that lie behind something, that have no tooltip or no name.
+export const fine = { sizes: [], narrow: [], lost: [], covered: [], untold: [], nameless: [] };
 
 function auditPage() {
   const isSeen = (node) => !node.closest('[hidden]') && node.getClientRects().length > 0;
@@ -22,11 +22,17 @@ function auditPage() {
     const box = node.getBoundingClientRect();
     return box.left < -1 || box.right > innerWidth + 1 || box.top < -1 || box.bottom > innerHeight + 1 || box.width < 8;
   });
+  const covered = controls.filter((node) => {
+    node.scrollIntoView({ block: 'center', inline: 'center' });
+    const box = node.getBoundingClientRect();
+    const seen = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
+    return !seen || !(node.closest('label') ?? node).contains(seen);
+  });
   const takes = '.handle .knob, .head .anchor > circle:not(.targetring), .card .portrait';
   const narrow = [...document.querySelectorAll(takes)].filter(isSeen).map((node) => node.getBoundingClientRect().width).filter((wide) => wide < 28);
   const told = (nodes) => nodes.map((node) => node.outerHTML.slice(0, 200));
   return {
-    sizes, narrow, lost: told(lost), untold: told(controls.filter((node) => !node.title && !node.closest('[title]'))),
+    sizes, narrow, lost: told(lost), covered: told(covered), untold: told(controls.filter((node) => !node.title && !node.closest('[title]'))),
     nameless: told(controls.filter((node) => !node.getAttribute('aria-label') && !node.textContent.trim() && !node.labels?.length)),
   };
 }

@@ -268,6 +268,10 @@ for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [1152, 720
   });
   await take(`at_${width}`);
   assert.deepEqual(await audit(), fine, `at ${width} pixels`);
+  const [bar, view] = await Promise.all(['.viewbar', '.stage:not(.other) canvas'].map((part) => page.locator(part).boundingBox()));
+  assert.ok(bar.y + bar.height <= view.y + 1, `at ${width} pixels no button lies over the head`);
+  const name = await page.getByLabel('Name of the face').evaluate((node) => [node.scrollWidth, node.clientWidth]);
+  assert.ok(name[0] <= name[1], `at ${width} pixels the name is seen in full: ${name}`);
 }
 
 // A question that the program asks back is no fault, although the browser notes it.

@@ -72,7 +72,7 @@ export class PlaneBoard {
     const points = [...anchorsOf(job, document.anchors),
       ...job.regions.map(({ name }) => editor.numbersOf(name).position).filter(Boolean)
         .map((place) => place.map((value, axis) => Math.min(Math.max(value, low[axis]), high[axis])))];
-    this.frame = planeFrame(points, 1.36);
+    this.frame = planeFrame(points);
   }
 
   /// [low, high] corners of where controllers may be put: farther away the weights hardly change.
