@@ -53,11 +53,12 @@ function textureOf({ data, width, height }, { flipY, wrapS, wrapT }, isSeenSmall
   return texture;
 }
 
-/// \param eyes  GLSL of painted eyes, or nothing
-function materialOf(side, eyes) {
+/// \param behind  {value}: how far it lies behind its place
+/// \param eyes    GLSL of painted eyes, or nothing
+function materialOf(side, behind, eyes) {
   return new ShaderMaterial({
     side,
-    uniforms: { picture: { value: null }, paintsEyes: { value: true }, least: { value: 0.5 }, behind: { value: 0 }, share: { value: 1 }, ...eyes?.uniforms },
+    uniforms: { picture: { value: null }, paintsEyes: { value: true }, least: { value: 0.5 }, behind, share: { value: 1 }, ...eyes?.uniforms },
     vertexShader: `
       attribute vec4 shade;
       varying vec4 vShade;
@@ -142,8 +143,9 @@ export class Draft {
     if (eyes) geometry.setAttribute('eye', new BufferAttribute(of(eyes.places, 3), 3));
     this.isEye = Uint8Array.from(this.vertices, (v) => (eyes && eyes.places[3 * v + 2] > -1.5 ? 1 : 0));
     this.white = eyes?.uniforms.eyeWhite.value.toArray();
+    this.behind = { value: 0 };
     this.materials = groups.map((_, look) => {
-      const material = materialOf(isDouble[look] ? DoubleSide : FrontSide, eyes);
+      const material = materialOf(isDouble[look] ? DoubleSide : FrontSide, this.behind, eyes);
       if (this.looks.some((own, i) => own === look && this.isEye[i])) material.defines.WITH_EYES = '';
       return material;
     });
@@ -163,12 +165,16 @@ export class Draft {
     this.geometry.setAttribute('away', this.away);
     const inside = new ShaderMaterial({
       side: BackSide,
+      uniforms: { behind: this.behind },
       vertexShader: `
         attribute float away;
         varying float vAway;
+        uniform float behind;
         void main() {
           vAway = away;
-          gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+          vec4 place = modelViewMatrix * vec4(position, 1.0);
+          place.z -= behind;
+          gl_Position = projectionMatrix * place;
         }`,
       fragmentShader: `
         varying float vAway;
@@ -182,7 +188,7 @@ export class Draft {
 
   /// While the whole stands there the draft lies a little behind it, where it closes cracks between triangles.
   setBehind(on) {
-    for (const { uniforms } of this.materials) uniforms.behind.value = on ? depth : 0;
+    this.behind.value = on ? depth : 0;
   }
 
   /// Its edges, over the surface.

@@ -117,6 +117,25 @@ const provideCompare = () => page.evaluate(() => {
     return { means, wrinkles, difference: Math.hypot(...means[0].map((value, c) => value - means[1][c])), both: both.toDataURL() };
   };
 });
+/// Pixels of the skin that what lies behind it to close its cracks makes much darker: pinholes.
+const countPinholes = () => page.evaluate(() => {
+  const { view } = window.crowdface.editor;
+  view.view('three_quarter');
+  view.nearer(0.6);
+  view.worn.node.visible = false;
+  const [bare, own] = [false, true].map((visible) => {
+    view.draft.node.visible = visible;
+    view.drawCheaply(false);
+    const context = new OffscreenCanvas(view.node.width, view.node.height).getContext('2d');
+    context.drawImage(view.node, 0, 0);
+    return context.getImageData(0, 0, view.node.width, view.node.height).data;
+  });
+  view.worn.node.visible = true;
+  const light = (data, i) => data[i] + data[i + 1] + data[i + 2];
+  let count = 0;
+  for (let i = 0; i < own.length; i += 4) if (bare[i + 3] === 255 && light(own, i) < light(bare, i) - 90) count += 1;
+  return count;
+});
 const ids = await page.evaluate((n) => window.crowdface.page.crowd.faces.slice(0, n).map(({ id }) => id), Number(count));
 /// \param show  shows a face of an id
 async function compareAll(where, show) {
@@ -156,6 +175,9 @@ if (address) {
     await page.waitForTimeout(500);
     await rested();
   });
+  const pinholes = await countPinholes();
+  console.log(`${pinholes} pixels of pinholes`);
+  assert.ok(pinholes < 5, `${pinholes} pixels of pinholes`);
 }
 assert.deepEqual(problems, []);
 await browser.close();
