@@ -115,7 +115,6 @@ const backdrop = ['#83868a', '#46484c']; // of a view, from top to bottom: progr
 const field = 20; // degrees from top to bottom
 const narrow = 0.8; // width by height of a view below which the field is wider
 const rest = 80; // ms without a move, after which all is drawn in full
-const calm = 400; // ms more, after which hair has its softest tips
 const slow = 18; // ms to draw a frame while something moves; as long again takes the page
 const fast = 12;
 const fewest = 0.35; // of the pixels across, and this many at least as the next move begins
@@ -169,20 +168,12 @@ export class Stage {
   drawCheaply(on) {
     this.moving = on;
     this.resting = null;
-    this.worn?.setForm(on ? 'draft' : 'solid');
-    if (!on && this.worn) this.resting = setTimeout(() => this.drawSoft(), calm);
+    this.worn?.setForm(on ? 'draft' : 'whole');
     this.showDraft(on);
     if (on) this.movingRatio = Math.max(this.movingRatio, atFirst * this.fullRatio);
     this.setRatio(on ? this.movingRatio : this.fullRatio);
     this.draw();
-    this.node.ariaBusy = String(on || this.resting !== null);
-  }
-
-  drawSoft() {
-    this.resting = null;
-    this.worn.setForm('whole');
-    this.draw();
-    this.node.ariaBusy = 'false';
+    this.node.ariaBusy = String(on);
   }
 
   /// \param on  whether the draft stands in place of the whole
@@ -301,13 +292,9 @@ export class Stage {
 
   /// What the view shows, in full, as a canvas.
   photograph() {
+    clearTimeout(this.resting);
     if (this.moving) this.drawCheaply(false);
-    if (this.resting) {
-      clearTimeout(this.resting);
-      this.drawSoft();
-    } else {
-      this.draw();
-    }
+    else this.draw();
     const picture = document.createElement('canvas');
     [picture.width, picture.height] = [this.node.width, this.node.height];
     const context = picture.getContext('2d');

@@ -10,11 +10,8 @@ import { normalsOf } from './normals.js';
 import { filtered } from './software.js';
 import { studioMaterial } from './studio.js';
 
-const smallest = 6000; // corners of triangles; what has more is drawn in two steps
 const mostPairs = 4e6; // of vertices that are looked at to find which skin is near
-// The opacity from which a texel is drawn as opaque: alone, and below a second pass that draws softer texels.
-const opaqueAlone = 0.5;
-const opaqueBelowSoft = 0.85;
+const opaqueBelowSoft = 0.85; // the opacity from which a texel is drawn as opaque below a second pass that draws softer texels
 
 export async function pictureAt(address, { colours, repeated }) {
   const texture = await new TextureLoader().loadAsync(address);
@@ -97,9 +94,8 @@ function formsOf({ object, geometry, triangles }, coarse, look) {
     Object.assign(soft, { transparent: true, depthWrite: false });
     soft.defines.SOFT = '';
     soft.uniforms = { ...solidly.uniforms, least: { value: 0.02 }, share: { value: look.share } };
-    const tips = new Mesh(whole.geometry, soft);
-    tips.name = geometry.index.count > smallest ? 'soft' : '';
-    object.add(tips);
+    solidly.uniforms.least.value = opaqueBelowSoft;
+    object.add(new Mesh(whole.geometry, soft));
   }
   return { whole, draft, colourAt: (_, colour) => plain.forEach((value, c) => { colour[c] = value; }) };
 }
@@ -145,12 +141,11 @@ export class Worn {
     return this.kept.get(name);
   }
 
-  /// \param form  draft, solid (without what is hardly there) or whole
+  /// \param form  draft or whole
   setForm(form) {
     this.form = form;
-    for (const { object, whole } of this.parts) {
-      for (const mesh of object.children) mesh.visible = (mesh.name === 'draft') === (form === 'draft') && !(mesh.name === 'soft' && form === 'solid');
-      if (whole) whole.materials[0].uniforms.least.value = object.children.at(-1).visible ? opaqueBelowSoft : opaqueAlone;
+    for (const { object } of this.parts) {
+      for (const mesh of object.children) mesh.visible = (mesh.name === 'draft') === (form === 'draft');
     }
   }
 

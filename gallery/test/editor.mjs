@@ -90,12 +90,38 @@ await page.mouse.move(view.x + view.width / 2, view.y + view.height / 2);
 await page.mouse.down();
 for (let i = 1; i <= 6; i += 1) await page.mouse.move(view.x + view.width / 2 + i, view.y + view.height / 2);
 const moving = await drawing();
+await page.evaluate(() => { // from when it is let go until it is drawn in full
+  const { node, renderer } = window.crowdface.editor.view;
+  const gl = renderer.getContext();
+  window.untilDrawn = () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  addEventListener('pointerup', () => {
+    const began = performance.now();
+    new MutationObserver((_, observer) => {
+      if (node.ariaBusy === 'true') return;
+      observer.disconnect();
+      window.untilDrawn();
+      window.restMs = performance.now() - began;
+    }).observe(node, { attributeFilter: ['aria-busy'] });
+  }, { once: true, capture: true });
+});
 const movingCard = await page.evaluate(`(${wornPixels})(window.crowdface.editor.view)`);
 await page.mouse.up();
 assert.ok(moving.triangles > 4000 && moving.triangles < 26000, `${moving.triangles} triangles move`);
 assert.ok(movingCard.left > 100 && movingCard.red > 0.9 * movingCard.left, `what moves is worn: ${JSON.stringify(movingCard)}`);
 await rested();
 assert.equal((await drawing()).width, still.width, 'at rest there are all pixels');
+const [restMs, wholeMs] = await page.evaluate(() => {
+  const { view } = window.crowdface.editor;
+  const times = [0, 1, 2].map(() => {
+    const began = performance.now();
+    view.draw();
+    window.untilDrawn();
+    return performance.now() - began;
+  });
+  return [window.restMs, Math.max(...times)];
+});
+console.log(`in full after ${restMs.toFixed(0)} ms; a whole frame takes ${wholeMs.toFixed(0)} ms`);
+assert.ok(restMs < 250 + 1.5 * wholeMs, `in full after ${restMs} ms, where a whole frame takes ${wholeMs} ms`);
 await page.keyboard.press('f');
 await rested();
 
