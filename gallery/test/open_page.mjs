@@ -10,7 +10,7 @@ import { chromium } from 'playwright-core';
 export const fine = { sizes: [], narrow: [], lost: [], covered: [], untold: [], nameless: [] };
 
 function auditPage() {
-  const isSeen = (node) => !node.closest('[hidden]') && node.getClientRects().length > 0;
+  const isSeen = (node) => !node.closest('[hidden]') && node.getClientRects().length > 0 && getComputedStyle(node).visibility !== 'hidden';
   const sizes = [...document.querySelectorAll('body *')].filter((node) => {
     const writes = [...node.childNodes].some((child) => child.nodeType === 3 && child.textContent.trim());
     const scale = node.ownerSVGElement ? node.ownerSVGElement.getScreenCTM().a : 1;
