@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the heads' measures are spread, against what has been measured on people.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
@@ -118,6 +120,37 @@ TEST(Proportions, FacesHaveHumanSizes) {
       EXPECT_LT(spread.deviation, 0.13 * spread.mean) << distance.name;
     }
   }
+}
+
+// The measure mouth_height moved the middle of the mouth more than the corners: sad mouths.
+TEST(Proportions, CornersOfTheMouthLieNearTheHeightOfItsMiddle) {
+  const Vector3d corner = Landmarks().cheilion;
+  const Vector3d middle = (mean_skin({SkinPatch::kMouth, 1, 1.5, 1}).position +
+                           mean_skin({SkinPatch::kMouth, 1, 3.5, 1}).position) /
+                          2;
+  std::vector<double> degrees;
+  for (std::uint64_t i = 0; i < kPeople; ++i) {
+    const Identity identity(kPeopleSeed, i);
+    const Vector3d left = identity.deform(corner), right = identity.deform(mirrored(corner));
+    const double rise = (left.y() + right.y()) / 2 - identity.deform(middle).y();
+    degrees.push_back(std::atan2(2 * rise, left.x() - right.x()) * 180 / std::numbers::pi);
+  }
+  const auto share_below = [&](double limit) {
+    return static_cast<double>(
+               std::ranges::count_if(degrees, [=](double d) { return d < limit; })) /
+           static_cast<double>(kPeople);
+  };
+  EXPECT_LT(share_below(-5), 0.02);
+  EXPECT_LT(share_below(-3), 0.2);
+  EXPECT_GT(share_below(5), 0.98) << "no smiles";
+}
+
+TEST(Proportions, ColumellaIsNotThin) {
+  // When columellas were 3 mm wide, blended columellas intersected themselves.
+  const double b = units_to_row(4) + 0.6, a = units_to_column(1);
+  const Spread width = spread_of({"columella", mean_skin({SkinPatch::kStrip, 1, -a, b}).position,
+                                  mean_skin({SkinPatch::kStrip, 1, a, b}).position})[0];
+  EXPECT_GT(width.mean, 3.8);
 }
 
 TEST(Measures, AreManyAndEachIsDrawnForItself) {

@@ -22,8 +22,8 @@ using Eigen::Vector3d;
 constexpr std::size_t kKnots = 9;
 constexpr double kAttached = 0.18;  // ring coordinates below this lie on the head
 constexpr std::array<double, kKnots> kRing = {0, kAttached, 0.32, 0.44, 0.54, 0.64, 0.76, 0.88, 1};
-constexpr std::array<double, kKnots> kReach = {1.3, 0.80, 0.84, 1.0, 0.97, 0.86, 0.74, 0.58, 0.46};
-constexpr std::array<double, kKnots> kHeight = {0, 0.0, 0.5, 0.92, 1.02, 0.70, 0.92, 0.62, 0.12};
+constexpr std::array<double, kKnots> kReach = {1.3, 0.80, 0.88, 1.0, 0.97, 0.86, 0.74, 0.58, 0.46};
+constexpr std::array<double, kKnots> kHeight = {0, 0.0, 0.44, 0.90, 1.02, 0.74, 0.92, 0.62, 0.12};
 
 /// Interpolates between knot values at ring coordinate b, by a cubic Hermite spline with
 /// finite-difference slopes.

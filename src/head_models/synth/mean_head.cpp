@@ -40,7 +40,7 @@ GuideRay mouth_edge(const Vector2d& c) {
 
 GuideRay nostril_edge(const Vector2d& c) {
   const Vector3d centre(0.80, -4.35, 10.35), inside(0.80, -3.45, 10.05);
-  const Vector3d lateral(0.33, 0.03, -0.14), forward(-0.13, 0.16, 0.48);
+  const Vector3d lateral(0.31, 0.03, -0.14), forward(-0.13, 0.16, 0.48);
   return {inside, centre + c.x() * lateral + c.y() * forward};
 }
 
