@@ -169,6 +169,16 @@ TEST(Camera, CutBelowGivesUpTheLowestPartOnly) {
   }
 }
 
+// Images cut the necks of long heads, although the heads had no shoulders that could be cut off.
+TEST(Camera, ShouldersAreWiderThanTheHead) {
+  Positions head(8, 3);  // the rim of a neck, ears, a skull
+  head << -5, 0, 0, 5, 0, 0, -6, 10, 0, 6, 10, 0, -7, 15, 0, 7, 15, 0, 0, 20, 0, 0, 10, 9;
+  EXPECT_FALSE(has_shoulders(head, {}, 0.22));
+  head.row(0).x() = -8;
+  head.row(1).x() = 8;
+  EXPECT_TRUE(has_shoulders(head, {}, 0.22));
+}
+
 TEST(Camera, OneSinglePointIsNoTrouble) {
   const Positions point = Positions::Constant(1, 3, 4);
   const Positions* heads[] = {&point};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/pictures/crowd_renders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -84,13 +85,17 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
     for (const Head& head : inputs.head_set.heads) acting.emplace_back(head.positions + moves);
   }
   for (const Positions& head : acting) heads.push_back(&head);
-  FramingOptions options{.bottom_cut_fraction = kCutBelow,
+  const HeadFrame frame{config.faces.up, config.faces.front};
+  const bool cuts = std::ranges::any_of(inputs.head_set.heads, [&](const Head& head) {
+    return has_shoulders(head.positions, frame, kCutBelow);
+  });
+  FramingOptions options{.bottom_cut_fraction = cuts ? kCutBelow : 0,
                          .extra_points = extent_of(inputs.attachments, inputs.head_set)};
   if (mesh.has_body()) {
     options.bottom_cut_fraction = -PicturedMesh::kShoulderHeight;
     options.extra_points.push_back(mesh.lowest_shown());
   }
-  return fit_cameras(heads, {config.faces.up, config.faces.front}, sheet.views, options);
+  return fit_cameras(heads, frame, sheet.views, options);
 }
 
 }  // namespace

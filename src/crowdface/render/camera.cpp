@@ -151,6 +151,20 @@ double lowest_shown(std::span<const Positions* const> heads, const HeadFrame& fr
 
 }  // namespace
 
+bool has_shoulders(const Positions& head, const HeadFrame& frame, double lowest_fraction) {
+  const Eigen::Vector3d up = unit_vector(frame.up), side = up.cross(unit_vector(frame.front));
+  const Eigen::VectorXd heights = head * up;
+  const double low = heights.minCoeff();
+  const double limit = low + lowest_fraction * (heights.maxCoeff() - low);
+  const double middle = (head * side).mean();
+  double above = 0, below = 0;
+  for (Index i = 0; i < head.rows(); ++i) {
+    double& width = heights[i] < limit ? below : above;
+    width = std::max(width, std::abs(head.row(i).dot(side) - middle));
+  }
+  return below > above;
+}
+
 Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& frame, View view,
                   const FramingOptions& options) {
   Camera camera = aim(frame, view, options);

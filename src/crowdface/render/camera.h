@@ -45,6 +45,11 @@ struct FramingOptions {
   std::vector<Eigen::Vector3d> extra_points = {};
 };
 
+/// Returns whether the lowest part of a head is wider than the rest of the head. Heads without
+/// shoulders end at the neck.
+/// \param lowest_fraction  the height of the lowest part, as a fraction of the head's height.
+bool has_shoulders(const Positions& head, const HeadFrame& frame, double lowest_fraction);
+
 /// Returns the camera at the smallest distance at which all vertices of all heads and
 /// `extra_points` are visible, except the part that `bottom_cut_fraction` allows to cut off. Use
 /// one camera for all faces of a set, so that their sizes are comparable.
