@@ -140,6 +140,8 @@ TEST_F(Signals, EndEveryCommandAndTheNextRunGoesOn) {
           << outcome.code << outcome.err;
       for (const auto& [file, bytes] : files()) {
         if (file.ends_with("ledger.jsonl") || file.ends_with("planned.json")) continue;
+        // A run that ends in the middle of a block of work leaves its lock; the next run takes it.
+        if (file.ends_with("/.crowdface.lock")) continue;
         const auto is_in = [](const Files& all, const std::string& path,
                               const std::string& content) {
           return all.contains(path) && all.at(path) == content;
