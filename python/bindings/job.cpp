@@ -68,7 +68,7 @@ class PythonJob {
 
   std::vector<std::string> cast() {
     FindMeshDefects defects;
-    if (candidates_are_built(job_.config)) {
+    if (casting_builds_candidate_meshes(job_.config)) {
       defects = mesh_defects(job_.config, job_.inputs, builder());
     }
     std::vector<std::string> lines;
@@ -154,7 +154,7 @@ WrapOptions wrap_options(const std::map<std::string, std::string>& texts) {
       {"front", &WrapOptions::front},
       {"scan_up", &WrapOptions::scan_up},
       {"scan_front", &WrapOptions::scan_front},
-      {"texture", &WrapOptions::texture},
+      {"texture", &WrapOptions::texture_size},
   };
   WrapOptions options;
   for (const auto& [name, text] : texts) options.*value_of(fields, "wrap", name) = text;

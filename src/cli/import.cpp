@@ -68,7 +68,7 @@ template <class Model>
 PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                       const std::vector<bool>& first = {}) {
   const Mesh& neutral = model.neutral();
-  const FaceHeights heights = model.heights();
+  const FeatureHeights heights = model.heights();
   try {
     return paint_masks(
         neutral.topology, neutral.uvs,

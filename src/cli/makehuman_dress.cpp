@@ -143,9 +143,9 @@ HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels
 /// Blends skin textures. Averages optical densities instead of colours, because the densities of
 /// mixed pigments add up.
 /// \param tone  factor on the densities.
-Picture blended_skin(const std::vector<SkinShare>& shares, double tone) {
+Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
   std::vector<Picture> pictures;
-  for (const SkinShare& share : shares) {
+  for (const WeightedSkin& share : shares) {
     pictures.push_back(read_picture(share.picture));
     if (pictures.back().width != pictures[0].width ||
         pictures.back().height != pictures[0].height) {
@@ -189,7 +189,7 @@ MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, i
       model_(model),
       parts_(read_makehuman_parts(package, model.base_positions(), model.skin_rows())),
       max_texels_(max_texels) {
-  model.add_parts(parts_.clothing);
+  model.add_parts(parts_.fitted_parts);
 }
 
 void MakeHumanDress::add_person(const fs::path& folder, const std::string& name, std::uint64_t seed,
@@ -220,10 +220,10 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
 
 void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& files) const {
   constexpr double kYears = 35;
-  std::vector<SkinShare> shares;
+  std::vector<WeightedSkin> shares;
   for (const bool male : {false, true}) {
     const MakeHumanPerson person{male, kYears, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
-    for (SkinShare& share : makehuman_skin_shares(package_, person, 0, 0)) {
+    for (WeightedSkin& share : makehuman_skin_shares(package_, person, 0, 0)) {
       shares.push_back({std::move(share.picture), share.share / 2});
     }
   }

@@ -33,9 +33,9 @@ std::filesystem::path landmarks_file(const WrapOptions& options) {
 /// Returns the scans with their landmark files. Without --batch: one scan and the file of
 /// --landmarks. With --batch: all scans of a folder; the landmark file of a scan is the YAML file
 /// with the same name in this folder.
-std::vector<PickScans::Entry> entries_of(const WrapOptions& options) {
+std::vector<PickableScans::Entry> entries_of(const WrapOptions& options) {
   if (options.batch.empty()) return {{options.scan, landmarks_file(options)}};
-  std::vector<PickScans::Entry> entries;
+  std::vector<PickableScans::Entry> entries;
   for (const std::filesystem::path& scan : list_scans(options.batch)) {
     std::filesystem::path landmarks = scan;
     entries.push_back({scan, landmarks.replace_extension(".yaml")});
@@ -49,10 +49,10 @@ void pick(const WrapCommand& options) {
   constexpr std::uint64_t kLargestPort = 65535;
   const auto port = static_cast<int>(parse_whole_number("--port", options.port, 0, kLargestPort));
   WrapOptions without_landmarks = options;
-  without_landmarks.landmarks.clear();  // PickScans reads them with the scan
-  const std::vector<PickScans::Entry> entries = entries_of(options);
+  without_landmarks.landmarks.clear();  // PickableScans reads them with the scan
+  const std::vector<PickableScans::Entry> entries = entries_of(options);
   const WrapInputs inputs = read_wrap_inputs(without_landmarks);
-  PickScans scans(entries, [&](const PickScans::Entry& entry) {
+  PickableScans scans(entries, [&](const PickableScans::Entry& entry) {
     FileMesh mesh = read_mesh(entry.scan_file);
     Scan scan = scan_of(mesh, entry.scan_file);
     ColourRows colours = colours_at_vertices(scan, ScanColours(std::move(mesh), entry.scan_file));

@@ -56,7 +56,7 @@ void declare_wrap(CLI::App& command, WrapCommand& options) {
   add_option(
       command, "--ignore", options.ignore, "MASK",
       "A mask over the template's texture; white areas, such as hair, are not fitted to the scan");
-  add_option(command, "--texture", options.texture, "SIZE",
+  add_option(command, "--texture", options.texture_size, "SIZE",
              "Bake the scan's colours into the template's texture layout, with this many texels "
              "per side");
   add_flag(command, "--delight", options.delight,

@@ -120,7 +120,8 @@ std::vector<double> everywhere(int base, double weight) {
 struct Nearest {
   Positions face;
   int base = 0;
-  std::vector<double> weights;  ///< of the lenders, by level from base + 1 on
+  /// the weight w of each level above `base`, in the order base + 1, base + 2, …
+  std::vector<double> lender_weight_of_level;
 };
 Nearest nearest_face(Heads& heads, int target, const std::vector<int>& lenders,
                      const std::vector<std::vector<double>>& regions, const Positions& ours) {
@@ -235,7 +236,7 @@ std::string level_text(const Nearest& nearest) {
   std::ostringstream text;
   text.precision(2);
   text << "base " << nearest.base << ", weights";
-  for (const double w : nearest.weights) text << ' ' << w;
+  for (const double w : nearest.lender_weight_of_level) text << ' ' << w;
   return text.str();
 }
 

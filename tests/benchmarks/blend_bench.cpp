@@ -72,7 +72,7 @@ struct Crowd {
   std::vector<std::uint32_t> first;
   std::vector<float> steps;
   std::vector<std::int16_t> numbers;
-  std::vector<HeadLevels> levels;
+  std::vector<HeadSmoothing> levels;
   FieldPatches patches;
   RegionWeights regions;
   std::vector<Recipe> recipes;

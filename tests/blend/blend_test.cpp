@@ -53,8 +53,8 @@ class Blend : public ::testing::Test {
   CrowdBlender blender(const std::vector<CubicFit>& fits, const RegionWeights& regions) const {
     return {faces_, levels_of(fits), patches_of(levels_of(fits)), regions};
   }
-  static std::vector<HeadLevels> levels_of(const std::vector<CubicFit>& fits) {
-    std::vector<HeadLevels> levels;
+  static std::vector<HeadSmoothing> levels_of(const std::vector<CubicFit>& fits) {
+    std::vector<HeadSmoothing> levels;
     for (const CubicFit& fit : fits) {
       levels.push_back({fit.fields, [&fit](std::uint64_t level) {
                           const auto basis = cubic_basis(level, fit.max_level);
@@ -65,7 +65,7 @@ class Blend : public ::testing::Test {
   }
   /// Each patch by all of its vertices, as fields are noise; the skeletons of faces that are alike
   /// have tests of their own.
-  FieldPatches patches_of(const std::vector<HeadLevels>& levels) const {
+  FieldPatches patches_of(const std::vector<HeadSmoothing>& levels) const {
     const std::vector<std::uint64_t> tested = {1, 3, 10, 30, 60};
     return interpolate_fields(levels, tested, hilbert_order(head(0)), 1e-4);
   }
@@ -468,7 +468,7 @@ class BlendPatches : public ::testing::Test {
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
       for (const LevelShares& at : level_shares(recipe, k)) {
         for (const SourceWeight& part : at.shares) {
-          const HeadLevels& head = levels_[static_cast<std::size_t>(part.head)];
+          const HeadSmoothing& head = levels_[static_cast<std::size_t>(part.head)];
           const std::vector<double> functions = head.functions(at.level);
           for (Index v = 0; v < sum.rows(); ++v) {
             for (std::size_t p = 0; p < functions.size(); ++p) {
@@ -487,7 +487,7 @@ class BlendPatches : public ::testing::Test {
   static constexpr Index kColumns = 40, kRows = 31;
   static constexpr double kTolerance = 0.01;
   HeadSet faces_;
-  std::vector<HeadLevels> levels_;
+  std::vector<HeadSmoothing> levels_;
   FieldPatches patches_;
   RegionWeights regions_;
   std::vector<Recipe> recipes_;

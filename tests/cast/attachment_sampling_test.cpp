@@ -559,7 +559,7 @@ TEST(AttachmentDraw, UsesAllThatFitBeforeItRepeatsOne) {
 
 TEST(AttachmentDraw, NeighboursDoNotShareCutAndColour) {
   AttachmentOptions draw = crowd_with_hair();
-  draw.items[0].share = 50;  // nearly everybody would wear it
+  draw.items[0].relative_frequency = 50;  // nearly everybody would wear it
   std::vector<FacePlan> crowd = hair_crowd(60);
   for (FacePlan& face : crowd) face.recipe.target = 0;
   choose_attachments(draw, {}, crowd);

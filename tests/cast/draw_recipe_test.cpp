@@ -62,7 +62,7 @@ TEST(DrawRecipe, AGroupDrawsByItsOwnNumbers) {
 
 TEST(Ageing, CanBeTakenBack) {
   CastingOptions casting = example();
-  casting.sampling.old_heads = {1, 4};
+  casting.sampling.heads_tagged_old = {1, 4};
   const FacePlan young = random_face(casting, 7, 0, distribution_of_group(casting));
   FacePlan face = young;
   apply_age(face, 0.4, {casting.anchors, casting.tags}, casting.sampling);
@@ -82,7 +82,7 @@ TEST(Ageing, CanBeTakenBack) {
 // those of men.
 TEST(Ageing, DetailComesFromTheNearestOldHead) {
   CastingOptions casting = example();
-  casting.sampling.old_heads = {1, 2, 3};  // 1 is nearest to 0 on the circle
+  casting.sampling.heads_tagged_old = {1, 2, 3};  // 1 is nearest to 0 on the circle
   const auto aged = [&](Index source, double age) {
     FacePlan face = draw_any_face(casting, 7);
     for (RegionRecipe& region : face.recipe.regions) region.weights = {{source, 1}};
@@ -178,7 +178,7 @@ TEST(Bands, BeginNoHigherThanTheBandBefore) {
 
 TEST(Bands, AgeActsOnThoseThatCarryIt) {
   CastingOptions casting = banded_example();
-  casting.sampling.old_heads = {1};
+  casting.sampling.heads_tagged_old = {1};
   const FacePlan young = draw_any_face(casting, 7);
   FacePlan old = young;
   apply_age(old, 0.8, {casting.anchors, casting.tags}, casting.sampling);

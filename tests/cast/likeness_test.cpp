@@ -24,12 +24,12 @@ std::vector<FaceSpace::Point> random_places(std::uint64_t count) {
 }
 
 TEST(Likeness, OfNobodyIsEmpty) {
-  EXPECT_TRUE(find_likeness({}, 4).order.empty());
+  EXPECT_TRUE(find_likeness({}, 4).face_order.empty());
 }
 
 TEST(Likeness, OfOneFaceIsThatFace) {
   const Likeness likeness = find_likeness({place_at(1, 2)}, 4);
-  EXPECT_EQ(likeness.order, std::vector<std::size_t>{0});
+  EXPECT_EQ(likeness.face_order, std::vector<std::size_t>{0});
   EXPECT_TRUE(likeness.neighbours[0].empty());
 }
 
@@ -68,7 +68,7 @@ TEST(Likeness, OrderIsThatOfASearchThroughAll) {
   const Likeness likeness = find_likeness(points, 6);
   std::vector<bool> met(points.size(), false);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const std::size_t at = likeness.order[i];
+    const std::size_t at = likeness.face_order[i];
     met[at] = true;
     std::size_t next = points.size();
     for (std::size_t other = 0; other < points.size(); ++other) {
@@ -78,7 +78,7 @@ TEST(Likeness, OrderIsThatOfASearchThroughAll) {
         next = other;
       }
     }
-    ASSERT_EQ(likeness.order[i + 1], next) << "after " << i;
+    ASSERT_EQ(likeness.face_order[i + 1], next) << "after " << i;
   }
   for (std::size_t face = 0; face < points.size(); ++face) {
     std::vector<std::pair<double, std::size_t>> all;
@@ -94,15 +94,15 @@ TEST(Likeness, OrderIsThatOfASearchThroughAll) {
 
 TEST(Likeness, OrderNamesEveryFaceOnce) {
   Likeness likeness = find_likeness(random_places(211), 1);
-  std::sort(likeness.order.begin(), likeness.order.end());
-  for (std::size_t i = 0; i < likeness.order.size(); ++i) EXPECT_EQ(likeness.order[i], i);
-  EXPECT_EQ(likeness.order.size(), 211U);
+  std::sort(likeness.face_order.begin(), likeness.face_order.end());
+  for (std::size_t i = 0; i < likeness.face_order.size(); ++i) EXPECT_EQ(likeness.face_order[i], i);
+  EXPECT_EQ(likeness.face_order.size(), 211U);
 }
 
 TEST(Likeness, FacesThatAreEachOthersNearestStandSideBySide) {
   const Likeness likeness = find_likeness(random_places(300), 1);
   std::vector<std::size_t> point(300);
-  for (std::size_t i = 0; i < 300; ++i) point[likeness.order[i]] = i;
+  for (std::size_t i = 0; i < 300; ++i) point[likeness.face_order[i]] = i;
   int pairs = 0;
   for (std::size_t face = 0; face < 300; ++face) {
     const std::size_t other = likeness.neighbours[face][0].face;

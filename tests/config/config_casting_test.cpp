@@ -28,7 +28,7 @@ TEST_F(ConfigTest, CastingIsRead) {
   ASSERT_TRUE(config) << told();
   EXPECT_EQ(config->diversity.mode, DiversityOptions::Mode::kSpread);
   EXPECT_EQ(config->diversity.min_distance_mm, 1.5);
-  EXPECT_EQ(config->diversity.min_distance_to_faces_mm, 1);
+  EXPECT_EQ(config->diversity.min_distance_to_heads_mm, 1);
   EXPECT_EQ(config->diversity.max_weight, 0.7);
   EXPECT_EQ(config->distance.area, FaceArea::kSkin);
   EXPECT_EQ(config->believability.max_stretch, 4);
@@ -125,10 +125,10 @@ TEST_F(ConfigTest, TagsOfAGroupBindItsAges) {
       "  - {name: others, without: [male, young]}\n"
       "  - {name: men, tags: [male]}\n");
   ASSERT_TRUE(config) << told();
-  EXPECT_THAT(config->groups[0].sampling.old_heads, ElementsAre(0));
-  EXPECT_THAT(config->groups[1].sampling.old_heads, ElementsAre(0));
-  EXPECT_THAT(config->groups[1].sampling.young_heads, ElementsAre(2)) << "an age is no bond";
-  EXPECT_THAT(config->groups[2].sampling.young_heads, ElementsAre(2)) << "no man is young";
+  EXPECT_THAT(config->groups[0].sampling.heads_tagged_old, ElementsAre(0));
+  EXPECT_THAT(config->groups[1].sampling.heads_tagged_old, ElementsAre(0));
+  EXPECT_THAT(config->groups[1].sampling.heads_tagged_young, ElementsAre(2)) << "an age is no bond";
+  EXPECT_THAT(config->groups[2].sampling.heads_tagged_young, ElementsAre(2)) << "no man is young";
 }
 
 // Eleven of thirty-three faces stood on heads of the other sex without a word.
@@ -477,7 +477,7 @@ TEST_F(ConfigTest, LimitsOnMeasurementsAreReadAndWritten) {
   const std::vector<TraitTarget> census = {{trait("nose_width"), 36, 2.5},
                                            {trait("facial_index"), 0.85, 0.04}};
   EXPECT_EQ(config->population.targets, census);
-  EXPECT_EQ(config->quantiles_of.targets, census);
+  EXPECT_EQ(config->quantile_distributions.targets, census);
   EXPECT_THAT(config->plan_names().traits,
               ElementsAre("face_height", "nose_width", "mouth_width", "intercanthal", "eye_slope",
                           "facial_index", "nasal_index"));

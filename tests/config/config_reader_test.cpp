@@ -274,7 +274,7 @@ TEST_F(ReadConfig, TagsLieBesideTheHeads) {
   ASSERT_TRUE(config) << told();
   using Tags = std::vector<std::vector<std::string>>;
   EXPECT_EQ(config->faces.tags, (Tags{{"old"}, {"young"}, {}}));
-  EXPECT_EQ(config->sampling.old_heads, (std::vector<Eigen::Index>{0}));
+  EXPECT_EQ(config->sampling.heads_tagged_old, (std::vector<Eigen::Index>{0}));
   const auto own = read(
       "schema: 1\ncrowd: {name: mob, count: 3}\n"
       "faces: {directory: heads, units: cm, tags: {cyd: [old]}}\n");
@@ -310,7 +310,8 @@ TEST_F(ReadConfig, AttachmentsComeFromAFolder) {
   EXPECT_EQ(attachments.items[1].file, folder_ / "wardrobe/crop.obj");
   EXPECT_TRUE(attachments.items[0].excludes.empty());
   EXPECT_EQ(attachments.file, folder_ / "wardrobe/base.obj");
-  EXPECT_EQ(attachments.none, (std::map<std::string, double>{{"hair", 0.1}}));
+  EXPECT_EQ(attachments.fraction_without_item_by_kind,
+            (std::map<std::string, double>{{"hair", 0.1}}));
 
   const auto more = read(kPlain +
                          "attachments:\n"
@@ -322,7 +323,8 @@ TEST_F(ReadConfig, AttachmentsComeFromAFolder) {
   EXPECT_EQ(more->attachments.items.size(), 3u);
   EXPECT_EQ(more->attachments.fitted_head, Eigen::Index{0});
   EXPECT_TRUE(more->attachments.file.empty());
-  EXPECT_TRUE(more->attachments.none.empty()) << "the config's quotas replace them";
+  EXPECT_TRUE(more->attachments.fraction_without_item_by_kind.empty())
+      << "the config's quotas replace them";
   EXPECT_EQ(more->attachments.quotas, (std::map<std::string, double>{{"hair", 0.9}}));
 
   EXPECT_FALSE(read(kPlain + "attachments: {from: heads}\n"));

@@ -79,7 +79,7 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.distance.mask, b.distance.mask);
   EXPECT_EQ(a.diversity.mode, b.diversity.mode);
   EXPECT_EQ(a.diversity.min_distance_mm, b.diversity.min_distance_mm);
-  EXPECT_EQ(a.diversity.min_distance_to_faces_mm, b.diversity.min_distance_to_faces_mm);
+  EXPECT_EQ(a.diversity.min_distance_to_heads_mm, b.diversity.min_distance_to_heads_mm);
   EXPECT_EQ(a.diversity.max_weight, b.diversity.max_weight);
   EXPECT_EQ(a.believability.check, b.believability.check);
   EXPECT_EQ(a.believability.max_deviation, b.believability.max_deviation);
@@ -122,7 +122,7 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.textures.size, b.textures.size);
   EXPECT_EQ(a.textures.formats, b.textures.formats);
   EXPECT_EQ(a.textures.colours, b.textures.colours);
-  EXPECT_EQ(a.textures.alike, b.textures.alike);
+  EXPECT_EQ(a.textures.matching_tags, b.textures.matching_tags);
   ASSERT_EQ(a.output.contact_sheet.has_value(), b.output.contact_sheet.has_value());
   if (a.output.contact_sheet) {
     EXPECT_EQ(a.output.contact_sheet->columns, b.output.contact_sheet->columns);

@@ -166,7 +166,7 @@ TEST(EditSession, AReducedPreviewConsistsOfTheMeshesOwnVertices) {
   const std::vector<float> normals = editor.session->preview_normals(face);
   const Positions expected = vertex_normals(editor.session->job().inputs.head_set.topology, face);
   for (std::size_t i = 0; i < preview.vertices.size(); ++i) {
-    EXPECT_EQ(preview.vertices[i], preview.vertices[preview.first_copies[i]]);
+    EXPECT_EQ(preview.vertices[i], preview.vertices[preview.first_copy_of_vertex[i]]);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(static_cast<double>(normals[3 * i + static_cast<std::size_t>(c)]),
                   expected(preview.vertices[i], c), 1e-6);
@@ -188,7 +188,7 @@ TEST(EditSession, TextureCoordinatesAreThoseOfTheMesh) {
   for (std::size_t i = 0; i < preview.vertices.size(); ++i) {
     const std::array<float, 2> uv = {preview.uvs[2 * i], preview.uvs[2 * i + 1]};
     EXPECT_THAT(known[preview.vertices[i]], ::testing::Contains(uv));
-    if (preview.first_copies[i] != i) ++split;
+    if (preview.first_copy_of_vertex[i] != i) ++split;
   }
   EXPECT_GT(split, 0U);  // the unwrapped head has a seam
 }

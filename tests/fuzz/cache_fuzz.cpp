@@ -27,7 +27,7 @@ void read_all(const PreparedHead& head, const HeadCacheSizes& shape) {
     for (Index v = 0; v < fields.vertex_count; ++v) all += fields.value(p, v, 0);
   }
   for (const std::int16_t number : fields.quantized_values) all += number;
-  all += head.levels.mixing.sum() + head.trajectory.sum();
+  all += head.levels.function_coefficients.sum() + head.smoothing_trajectory.sum();
   if (fields.rank > shape.level_node_count) std::abort();
   if (all == 1e300) std::abort();  // keeps the sum from being left out
 }
@@ -59,7 +59,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   write(key_of_read_head(key));
   ObjFile head;
-  find_head(folder, key, head);
+  fill_head_from_cache(folder, key, head);
   write({"mesh", key});
   if (const auto mesh = find_mesh(folder, key)) build_adjacency(mesh->topology);
   return 0;

@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const crowdface::fuzz::InputFile file(data, size);
   refuse_or([&] {
     const auto known = crowdface::read_likeness(file.path(), names, ids);
-    for (const std::size_t face : known.likeness.order) {
+    for (const std::size_t face : known.likeness.face_order) {
       if (face >= ids.size()) std::abort();
     }
     for (const auto& near : known.likeness.neighbours) {

@@ -47,7 +47,7 @@ class KeptPatchesTest : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
-  std::vector<HeadLevels> heads_;
+  std::vector<HeadSmoothing> heads_;
   std::vector<Index> ranks_;
   int made_ = 0;
 };

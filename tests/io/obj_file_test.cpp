@@ -62,18 +62,19 @@ std::string with(std::string text, const std::string& part, const std::string& o
   return text.replace(text.find(part), part.size(), other);
 }
 
-TEST(OutlineObj, IsOfTheMeshAndNotOfPlacesNamesOrComments) {
-  const ObjOutline outline = outline_obj(kMeshText);
-  EXPECT_EQ(outline.vertex_count, 5U);
-  EXPECT_EQ(outline.uv_count, 3U);
-  EXPECT_EQ(outline.normal_count, 1U);
-  EXPECT_EQ(outline.face_count, 2U);
+TEST(SummariseObj, IsOfTheMeshAndNotOfPlacesNamesOrComments) {
+  const ObjSummary summary = summarise_obj(kMeshText);
+  EXPECT_EQ(summary.vertex_count, 5U);
+  EXPECT_EQ(summary.uv_count, 3U);
+  EXPECT_EQ(summary.normal_count, 1U);
+  EXPECT_EQ(summary.face_count, 2U);
   const std::vector<std::pair<std::string, std::string>> same = {
       {"v 0 1 0", "v -3e2 1 7.5 1"},    {"vn 0 0 1", "vn 1 0 0"},
       {"# one\n", "# other\n# more\n"}, {"o one", "o two"},
       {"one.mtl", "another.mtl"},       {"usemtl skin", "usemtl lips"}};
   for (const auto& [part, other] : same) {
-    EXPECT_EQ(outline_obj(with(kMeshText, part, other)).mesh_digest, outline.mesh_digest) << other;
+    EXPECT_EQ(summarise_obj(with(kMeshText, part, other)).mesh_digest, summary.mesh_digest)
+        << other;
   }
   const std::vector<std::pair<std::string, std::string>> different = {
       {"vt 1 0", "vt 1 0.5"},
@@ -86,7 +87,8 @@ TEST(OutlineObj, IsOfTheMeshAndNotOfPlacesNamesOrComments) {
       {"f -1/1/1", "s 1\nf -1/1/1"},
       {"v 2 2 2\n", "x 2 2 2\n"}};
   for (const auto& [part, other] : different) {
-    EXPECT_NE(outline_obj(with(kMeshText, part, other)).mesh_digest, outline.mesh_digest) << other;
+    EXPECT_NE(summarise_obj(with(kMeshText, part, other)).mesh_digest, summary.mesh_digest)
+        << other;
   }
 }
 
@@ -94,7 +96,7 @@ TEST(ReadObjBeside, TellsAllButTheMesh) {
   const TemporaryFolder folder;
   const auto path = folder.write("head.obj", kMeshText);
   const ObjFile whole = read_obj(path);
-  const ObjFile beside = read_obj_of_same_mesh(path, MappedFile(path), outline_obj(kMeshText));
+  const ObjFile beside = read_obj_of_known_mesh(path, MappedFile(path), summarise_obj(kMeshText));
   EXPECT_EQ(beside.positions, whole.positions);
   EXPECT_EQ(beside.material_libraries, whole.material_libraries);
   ASSERT_EQ(beside.groups.size(), whole.groups.size());

@@ -25,7 +25,7 @@ TEST(JoinedBorders, KeepsInnerVerticesThatTouchApart) {
   Positions positions;
   add_fan(topology, positions, 1);
   add_fan(topology, positions, -1);
-  EXPECT_EQ(joined_borders(topology, positions).first_copies.size(), 10U);
+  EXPECT_EQ(joined_borders(topology, positions).first_copy_of_joined_vertex.size(), 10U);
 }
 
 TEST(JoinedBorders, JoinsCopiesAtSeamsOfOnePiece) {
@@ -37,8 +37,10 @@ TEST(JoinedBorders, JoinsCopiesAtSeamsOfOnePiece) {
   topology.add_face(std::array{3U, 4U, 5U});
   const JoinedBorders by = joined_borders(topology, positions);
   EXPECT_EQ(by.joined_vertex, (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2}));
-  EXPECT_EQ(by.first_copies, (std::vector<std::uint32_t>{0, 1, 2, 4}));
-  EXPECT_EQ(joined_borders(topology, positions, {0, 0, 0, 1, 1, 1}).first_copies.size(), 6U);
+  EXPECT_EQ(by.first_copy_of_joined_vertex, (std::vector<std::uint32_t>{0, 1, 2, 4}));
+  EXPECT_EQ(
+      joined_borders(topology, positions, {0, 0, 0, 1, 1, 1}).first_copy_of_joined_vertex.size(),
+      6U);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST_F(Wardrobe, DressedHeadsKeepTheirSkinToTheBit) {
   MakeHumanHeads naked(folder_.path()), dressed(folder_.path());
   const MakeHumanParts parts =
       read_makehuman_parts(folder_.path(), dressed.base_positions(), dressed.skin_rows());
-  dressed.add_parts(parts.clothing);
+  dressed.add_parts(parts.fitted_parts);
   const auto skin = static_cast<Index>(naked.skin_rows().size());
   const Positions expected = naked.positions(3, 2), found = dressed.positions(3, 2);
   // The tube's vertices come before those of the left eye in the file, and behind those of the right one.
@@ -113,7 +113,7 @@ TEST_F(Wardrobe, PartsWithoutFreeLicenceAreNotUsed) {
 TEST_F(Wardrobe, SkinsAreMixedByAgeAndAncestry) {
   MakeHumanPerson person{true, 37.5, {0.25, 0, 0.75}, 0.5, 0.5};
   double sum = 0, african = 0, young = 0;
-  for (const SkinShare& share : makehuman_skin_shares(folder_.path(), person, 1, 1)) {
+  for (const WeightedSkin& share : makehuman_skin_shares(folder_.path(), person, 1, 1)) {
     const std::string name = share.picture.filename().string();
     sum += share.share;
     EXPECT_EQ(name.find("female"), std::string::npos);

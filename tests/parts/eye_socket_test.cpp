@@ -45,7 +45,7 @@ struct LidsAroundBall {
   }
   EyeSocket socket() const {
     return {lids,
-            {BallMap(mesh.topology, faces, mesh.positions, surface(), {0, 0, 0}, kRadius, {})},
+            {BallRadii(mesh.topology, faces, mesh.positions, surface(), {0, 0, 0}, kRadius, {})},
             {{"ann", mesh.positions}}};
   }
   Positions lids_moved(const Eigen::RowVector3d& by) const {
@@ -75,11 +75,11 @@ struct LidsAroundBall {
 
 TEST(BallMap, KnowsGapsAndWhichWayTheyOpen) {
   const LidsAroundBall scene;
-  const BallMap map(scene.mesh.topology, scene.faces, scene.mesh.positions, scene.surface(),
-                    {0, 0, 0}, kRadius, {});
+  const BallRadii map(scene.mesh.topology, scene.faces, scene.mesh.positions, scene.surface(),
+                      {0, 0, 0}, kRadius, {});
   for (int i = 0; i < kLids; ++i) {
     const Eigen::Vector3d point = scene.mesh.positions.row(scene.ball + i).transpose();
-    const BallMap::Gap gap = map.gap_at(point);
+    const BallRadii::Gap gap = map.gap_at(point);
     // The mesh of the ball lies up to 0.01 inside the ball.
     EXPECT_NEAR(gap.gap, LidsAroundBall::gap(i), 0.011);
     EXPECT_GT(gap.normal.dot(point.normalized()), 0.98);
@@ -92,8 +92,8 @@ TEST(BallMap, FollowsACornea) {
     const double off = std::max(0.0, scene.mesh.positions(v, 2) - 1);
     scene.mesh.positions(v, 2) += 0.5 * off;
   }
-  const BallMap map(scene.mesh.topology, scene.faces, scene.mesh.positions, scene.surface(),
-                    {0, 0, 0}, kRadius, {});
+  const BallRadii map(scene.mesh.topology, scene.faces, scene.mesh.positions, scene.surface(),
+                      {0, 0, 0}, kRadius, {});
   const std::vector<double> expected = scene.gaps_after({}, scene.mesh.positions);
   for (int i = 0; i < kLids; ++i) {
     const Eigen::Vector3d point = scene.mesh.positions.row(scene.ball + i).transpose();

@@ -42,7 +42,7 @@ TEST(FindMirror, OfASymmetricHeadIsItself) {
   const Topology topology = testing::grid_topology(kSide, kSide);
   const Positions mean = even_bowl();
   const FoundMirror found = found_on(topology, mean);
-  EXPECT_EQ(found.mutual_vertex_count, mean.rows());
+  EXPECT_EQ(found.paired_vertex_count, mean.rows());
   EXPECT_EQ(found.rms_distance, 0);
   EXPECT_EQ(found.map.plane.normal, kAcross);
   EXPECT_EQ(found.map.plane.offset, 0);
@@ -70,7 +70,7 @@ TEST(FindMirror, FacesTellPartnersHoweverUnlikeTheSidesAre) {
   const Topology topology = testing::grid_topology(kSide, kSide);
   const Positions mean = bowl(swelling);
   const FoundMirror found = found_on(topology, mean);
-  EXPECT_EQ(found.mutual_vertex_count, mean.rows());
+  EXPECT_EQ(found.paired_vertex_count, mean.rows());
   EXPECT_GT(found.max_distance, 0.1);
   for (std::uint32_t v = 0; v < mean.rows(); ++v) {
     const std::uint32_t row = v / (kSide + 1), column = v % (kSide + 1);
@@ -85,7 +85,7 @@ TEST(FindMirror, ThePlaneGoesWithAHeadThatStandsElsewhere) {
   const Eigen::RowVector3d moved(0.4, -2, 7);
   const Positions mean = (even_bowl() * turn.transpose()).rowwise() + moved;
   const FoundMirror found = found_on(topology, mean);
-  EXPECT_EQ(found.mutual_vertex_count, mean.rows());
+  EXPECT_EQ(found.paired_vertex_count, mean.rows());
   EXPECT_LT(found.max_distance, 1e-9);
   EXPECT_LT((found.map.plane.normal - turn * kAcross).norm(), 1e-9);
   const Positions face = mean + 0.1 * testing::random_positions(mean.rows(), 3);
@@ -109,7 +109,7 @@ TEST(FindMirror, VerticesWithoutPartnersGetPlacesOnTheSurface) {
         6 - 3 * (u * u + t * t) + std::exp(-9 * (u * u + (t - 0.2) * (t - 0.2)));
   }
   const FoundMirror found = found_on(topology, mean);
-  EXPECT_GT(found.surface_partner_count, mean.rows() / 2);
+  EXPECT_GT(found.surface_mirrored_vertex_count, mean.rows() / 2);
   EXPECT_GT(found.partner_fraction(), 0.99);
   EXPECT_LT(found.rms_distance, 0.03);
   EXPECT_LT((mirrored(found.map, mean) - mean).rowwise().norm().maxCoeff(),
@@ -140,7 +140,7 @@ struct BowlWithCubes {
 TEST(FindMirror, EyesChangePlaces) {
   const BowlWithCubes head({{-3, 2, 8}, {3, 2, 8}});
   const FoundMirror found = found_on(head.topology, head.mean);
-  EXPECT_EQ(found.mutual_vertex_count, head.mean.rows());
+  EXPECT_EQ(found.paired_vertex_count, head.mean.rows());
   const auto left = static_cast<std::uint32_t>(head.mean.rows() - 16);
   for (std::uint32_t v = left; v < left + 8; ++v) EXPECT_GE(found.map.corners[v][0], left + 8);
   EXPECT_EQ(mirrored(found.map, head.mean), head.mean);
@@ -150,7 +150,7 @@ TEST(FindMirror, WhatIsOnOneSideOnlyKeepsItsForm) {
   const BowlWithCubes head({{-3, 2, 8}});
   const FoundMirror found = found_on(head.topology, head.mean);
   EXPECT_EQ(found.map.unpaired_vertices.size(), 8U);
-  EXPECT_EQ(found.mutual_vertex_count, head.mean.rows() - 8);
+  EXPECT_EQ(found.paired_vertex_count, head.mean.rows() - 8);
   const Positions moved = mirrored(found.map, head.mean) - head.mean;
   // But for the reach within which nothing is kept.
   EXPECT_LT(moved.rowwise().norm().maxCoeff(), 0.17);

@@ -24,7 +24,7 @@ TEST(PartWeights, CarryWhatIsAtAPartAndLeaveWhatIsFar) {
   const TwoTeeth scene;
   Positions result = scene.positions;
   const std::vector<RigidMotion> motions = {shift(1), shift(-1)};
-  scene.part_weights().pull(scene.positions, motions, result);
+  scene.part_weights().move_with_parts(scene.positions, motions, result);
   EXPECT_NEAR(result(2, 1), 1, 1e-12) << "at the first tooth";
   EXPECT_NEAR(result(4, 1), -1, 1e-12) << "at the second";
   EXPECT_NEAR(result(3, 1), 0, 1e-12) << "half way between both";
@@ -38,7 +38,7 @@ TEST(PartWeights, LeaveEverythingToTheBitWhereNothingMoved) {
   Positions head = scene.positions;
   head.array() += 0.1;
   Positions result = head;
-  scene.part_weights().pull(head, std::vector<RigidMotion>(2), result);
+  scene.part_weights().move_with_parts(head, std::vector<RigidMotion>(2), result);
   EXPECT_TRUE(result == head);
 }
 

@@ -28,10 +28,10 @@ class CheckedWrap : public ::testing::Test {
 
   /// Moves the landmarks of the mouth down to the chin, all alike, as a detection does that takes
   /// the crease of the chin for the mouth.
-  void move_mouth(bool is_found_by_shape) {
+  void move_mouth(bool is_found_by_program) {
     for (WrapLandmark& landmark : landmarks_) {
       const bool is_mouth = landmark.name.starts_with("mouth") || landmark.name.starts_with("lip");
-      landmark.is_found_by_shape = is_found_by_shape;
+      landmark.is_found_by_program = is_found_by_program;
       if (is_mouth) landmark.scan_position.y() -= 17;
     }
     std::erase_if(landmarks_,

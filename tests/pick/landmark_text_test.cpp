@@ -50,13 +50,13 @@ TEST(LandmarkText, OfNothingReadsBackAsNothing) {
 }
 
 TEST(LandmarkText, FirstCommentsAreTold) {
-  EXPECT_EQ(opening_comments("# a\n\n  # b\ntemplate: {} # c\n"), "# a\n\n  # b\n");
-  EXPECT_EQ(opening_comments("template: {}\n# c\n"), "");
-  EXPECT_EQ(opening_comments(""), "");
-  EXPECT_EQ(opening_comments("# without an end"), "");
-  EXPECT_FALSE(has_comments_after_opening("# a\ntemplate: {a: 1}\n"));
-  EXPECT_TRUE(has_comments_after_opening("# a\ntemplate: {a: 1} # b\n"));
-  EXPECT_TRUE(has_comments_after_opening("template: {a: 1}\n# b\n"));
+  EXPECT_EQ(header_comments("# a\n\n  # b\ntemplate: {} # c\n"), "# a\n\n  # b\n");
+  EXPECT_EQ(header_comments("template: {}\n# c\n"), "");
+  EXPECT_EQ(header_comments(""), "");
+  EXPECT_EQ(header_comments("# without an end"), "");
+  EXPECT_FALSE(has_comments_after_header("# a\ntemplate: {a: 1}\n"));
+  EXPECT_TRUE(has_comments_after_header("# a\ntemplate: {a: 1} # b\n"));
+  EXPECT_TRUE(has_comments_after_header("template: {a: 1}\n# b\n"));
 }
 
 TEST(LandmarkNames, SidesAreMirrored) {

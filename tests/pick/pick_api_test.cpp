@@ -55,7 +55,8 @@ class PickApiTest : public ::testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "landmarks.yaml";
   WrapTemplate shape_ = some_template();
-  PickScans scans_{{{"s.obj", file_}}, [this](const PickScans::Entry&) { return inputs(); }};
+  PickableScans scans_{{{"s.obj", file_}},
+                       [this](const PickableScans::Entry&) { return inputs(); }};
   PickSession& session_ = scans_.current()->session;
   PickApi api_{scans_, std::nullopt, 2000};
 };
@@ -89,7 +90,7 @@ TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
   }
 
   // A page that is opened later gets them, and gives the same file.
-  PickScans later({{"s.obj", file_}}, [this](const PickScans::Entry&) { return inputs(); });
+  PickableScans later({{"s.obj", file_}}, [this](const PickableScans::Entry&) { return inputs(); });
   const Json job = Json::parse(PickApi(later, {}, 100).answer({"GET", "api/job", ""}).bytes);
   EXPECT_EQ(job["landmarks"].size(), 3U);
   EXPECT_EQ(job["landmarks"][0]["name"], "nose_tip");
@@ -102,12 +103,13 @@ TEST_F(PickApiTest, WhatIsPickedAndSavedIsReadBackByTheWrap) {
 
 TEST_F(PickApiTest, TheNextScanOfAFolderTakesOverWhatWasPickedOnTheTemplate) {
   const std::filesystem::path first = folder_ / "a.yaml", second = folder_ / "b.yaml";
-  PickScans scans({{"a.obj", first}, {"b.obj", second}}, [&](const PickScans::Entry& entry) {
+  const auto read_inputs = [&](const PickableScans::Entry& entry) {
     PickInputs of_one = inputs();
     of_one.scan_file = entry.scan_file;
     of_one.landmark_file = entry.landmark_file;
     return of_one;
-  });
+  };
+  PickableScans scans({{"a.obj", first}, {"b.obj", second}}, read_inputs);
   PickApi api(scans, std::nullopt, 100);
   const Json landmarks = {{{"name", "chin"}, {"template", 5}, {"scan", 12}}};
   EXPECT_EQ(api.answer({"PUT", "api/landmarks", Json{{"landmarks", landmarks}}.dump()}).status,
@@ -124,9 +126,7 @@ TEST_F(PickApiTest, TheNextScanOfAFolderTakesOverWhatWasPickedOnTheTemplate) {
   EXPECT_TRUE(job["landmarks"][0]["scan"].is_null());
   EXPECT_FALSE(std::filesystem::exists(second));
   // Opened again, it begins with the first that is not done.
-  EXPECT_EQ(
-      PickScans(scans.entries(), [&](const PickScans::Entry&) { return inputs(); }).current_index(),
-      1U);
+  EXPECT_EQ(PickableScans(scans.entries(), read_inputs).current_index(), 1U);
 }
 
 TEST_F(PickApiTest, FewerTrianglesAreShownThanArePicked) {

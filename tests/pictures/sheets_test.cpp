@@ -109,7 +109,7 @@ TEST(LikenessFile, ReadsBackWhatWasWritten) {
       folder.write("likeness.json", whole_text(likeness_text(likeness, names, ids)));
   const CrowdLikeness read = read_likeness(path, names, ids);
   EXPECT_EQ(read.anchors[1], likeness.anchors[1]);
-  EXPECT_EQ(read.likeness.order, likeness.likeness.order);
+  EXPECT_EQ(read.likeness.face_order, likeness.likeness.face_order);
   EXPECT_EQ(read.likeness.neighbours[2][1].face, 1U);
   EXPECT_EQ(read.likeness.neighbours[2][1].distance_mm, 4);
   testing::expect_error(ExitCode::kBadData, {"likeness.json"}, [&] {

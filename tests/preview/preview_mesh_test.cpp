@@ -77,9 +77,9 @@ TEST(PreviewMesh, TwinsAreOneRowAndOnlyTheyAre) {
   std::size_t twins = 0;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     const bool is_new = rows.insert(mesh.vertices[v]).second;
-    EXPECT_EQ(mesh.first_copies[v] == v, is_new);
-    EXPECT_LE(mesh.first_copies[v], v);
-    EXPECT_EQ(mesh.vertices[mesh.first_copies[v]], mesh.vertices[v]);
+    EXPECT_EQ(mesh.first_copy_of_vertex[v] == v, is_new);
+    EXPECT_LE(mesh.first_copy_of_vertex[v], v);
+    EXPECT_EQ(mesh.vertices[mesh.first_copy_of_vertex[v]], mesh.vertices[v]);
     if (is_new) continue;
     ++twins;
     EXPECT_EQ(sheet.positions(mesh.vertices[v], 0), kTear);

@@ -74,7 +74,7 @@ struct LidFigures {
   /// \param moves  of the face
   void add(MeasuredLids& eye, const Positions& neutral, const Positions& face,
            const Displacements& of_template_moves, const Displacements& moves) {
-    const BallMap ball = eye.map_in(face), there = eye.map_in(neutral);
+    const BallRadii ball = eye.map_in(face), there = eye.map_in(neutral);
     const Positions closed_there = in_shape(neutral, of_template_moves),
                     here = in_shape(face, moves);
     eye.find_points(neutral, closed_there);

@@ -37,7 +37,7 @@ class MeasuredLids {
         ones_(part.vertices.size(), 1.0),
         mean_(mean_head(head_set)),
         around_(head_set.topology) {
-    const BallMap ball = map_in(neutral);
+    const BallRadii ball = map_in(neutral);
     TemplateEye eye{ball,
                     find_lids(neutral, PointGrid(neutral, part.vertices), ball.centre(),
                               ball.radius(), axes, skin),
@@ -60,7 +60,7 @@ class MeasuredLids {
     }
     const Positions normals = vertex_normals_or_zero(triangles, neutral);
     for (const std::uint32_t v : eye.skin_vertices) {
-      const BallMap::Gap gap = ball.gap_at(row3(neutral, v) - ball.centre());
+      const BallRadii::Gap gap = ball.gap_at(row3(neutral, v) - ball.centre());
       if (gap.normal.dot(row3(normals, v)) > 0) outer_.push_back(v);
     }
   }
@@ -95,7 +95,7 @@ class MeasuredLids {
   }
 
   /// How deep the lids' outer skin, that which looks away from the eyeball at rest, is in the eyeball.
-  std::vector<double> depths(const BallMap& ball, const Positions& mesh) const {
+  std::vector<double> depths(const BallRadii& ball, const Positions& mesh) const {
     std::vector<double> depths;
     for (const std::uint32_t v : outer_) {
       depths.push_back(std::max(0.0, -ball.gap_at(row3(mesh, v) - ball.centre()).gap));
@@ -103,11 +103,11 @@ class MeasuredLids {
     return depths;
   }
 
-  BallMap map_in(const Positions& mesh) const {
+  BallRadii map_in(const Positions& mesh) const {
     const ComponentShape& ball = parts_.shapes[part_.ball_component];
     const RigidMotion motion = fit_rigid_motion(mean_, mesh, part_.vertices, ones_);
-    return BallMap(faces_.topology, around_, mesh, part_.surface, motion.apply(ball.centre),
-                   motion.scale * ball.radius, axes_);
+    return BallRadii(faces_.topology, around_, mesh, part_.surface, motion.apply(ball.centre),
+                     motion.scale * ball.radius, axes_);
   }
 
   /// How far the rim goes at most.

@@ -23,8 +23,8 @@ constexpr Index kColumns = 50, kRows = 41;
 constexpr Index kVertices = kColumns * kRows;
 const std::vector<std::uint64_t> kLevels = {0, 1, 2, 5, 20, 100};
 
-std::vector<HeadLevels> smooth_heads(std::size_t count) {
-  std::vector<HeadLevels> heads;
+std::vector<HeadSmoothing> smooth_heads(std::size_t count) {
+  std::vector<HeadSmoothing> heads;
   for (std::size_t h = 0; h < count; ++h)
     heads.push_back(testing::smooth_levels(kColumns, kRows, h));
   return heads;
@@ -52,7 +52,7 @@ double interpolated(const FieldPatch& patch, std::size_t row, std::size_t vertex
 }
 
 /// The largest distance that any vertex misses of any level of any head.
-double missed(const std::vector<HeadLevels>& heads, const FieldPatches& patches) {
+double missed(const std::vector<HeadSmoothing>& heads, const FieldPatches& patches) {
   double most = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const FieldPatch patch = patches[i];
@@ -148,7 +148,7 @@ TEST(FieldPatches, KeepAllVerticesWhereNoneIsLikeAnother) {
     noise.push_back(
         static_cast<float>(random_between({1, static_cast<std::uint64_t>(i), "noise", 0}, -1, 1)));
   }
-  const std::vector<HeadLevels> heads = {{quantize(noise, kVertices), [](std::uint64_t level) {
+  const std::vector<HeadSmoothing> heads = {{quantize(noise, kVertices), [](std::uint64_t level) {
                                             return std::vector<double>(8, level == 0 ? 0.0 : 1.0);
                                           }}};
   const FieldPatches patches = interpolate_fields(heads, kLevels, rows_of_grid(), 0.001);
@@ -175,7 +175,7 @@ TEST(FieldPatches, AVertexThatNothingMovesIsMovedByNothing) {
 }
 
 TEST(FieldPatches, OfHeadsThatStandStillAreEmpty) {
-  const std::vector<HeadLevels> heads = {
+  const std::vector<HeadSmoothing> heads = {
       {quantize(std::vector<float>(2 * 3 * kVertices, 0.0F), kVertices),
        [](std::uint64_t) { return std::vector<double>(2, 1.0); }}};
   const FieldPatches patches = interpolate_fields(heads, kLevels, rows_of_grid(), 0.01);

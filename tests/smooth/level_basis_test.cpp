@@ -129,7 +129,8 @@ TEST(LevelBasis, StaysWithinItsToleranceAtEveryLevelOfALongRun) {
   Columns level = fitted.positions;  // by plain iteration
   for (std::uint64_t l = 1; l <= kMaxLevel; ++l) {
     level = iterate(fitted.smoothing, level, 1);
-    const std::vector<double> phi = level_function_values(fitted.nodes, basis.mixing, l);
+    const std::vector<double> phi =
+        level_function_values(fitted.nodes, basis.function_coefficients, l);
     for (Index v = static_cast<Index>(l % 7); v < level.rows(); v += 7) {
       Eigen::RowVector3d found = fitted.positions.row(v);
       for (Index p = 0; p < basis.rank(); ++p) {
@@ -206,7 +207,7 @@ TEST(LevelBasis, HasTheSameBitsOnAnyMachine) {
   const auto expect_same = [&] {
     const NodeFields fields = filter_nodes(fitted.filter, fitted.nodes, fitted.positions);
     const LevelBasis basis = fit_level_basis(fitted.filter, fitted.nodes, fields, 0.01);
-    EXPECT_EQ(basis.mixing, expected.mixing);
+    EXPECT_EQ(basis.function_coefficients, expected.function_coefficients);
     EXPECT_TRUE(
         std::ranges::equal(basis.fields.first_field_of_tile, expected.fields.first_field_of_tile));
     EXPECT_TRUE(

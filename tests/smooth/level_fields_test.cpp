@@ -88,7 +88,7 @@ TEST(LevelFields, AreZeroPastTheLastVertex) {
 TEST(LevelFields, OfATileAreTheFirstFew) {
   std::vector<float> values(2 * kTileValues, 3.0F);
   std::fill_n(values.begin(), kTileValues, 5.0F);
-  std::vector<FieldTiles> parts(2);
+  std::vector<QuantizedTiles> parts(2);
   parts[0].add(values, 1);
   parts[0].add(values, 0);
   parts[1].add(values, 2);

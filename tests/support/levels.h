@@ -26,7 +26,8 @@ inline Positions evaluate(const CubicFit& fit, const Positions& positions, std::
 
 inline Positions evaluate(const LevelBasis& basis, const LevelNodes& nodes,
                           const Positions& positions, std::uint64_t level) {
-  return sum_of_fields(positions, level_function_values(nodes, basis.mixing, level), basis.fields);
+  return sum_of_fields(positions, level_function_values(nodes, basis.function_coefficients, level),
+                       basis.fields);
 }
 
 }  // namespace crowdface::testing

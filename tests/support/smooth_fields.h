@@ -11,7 +11,7 @@ namespace crowdface::testing {
 
 /// Five fields of a head on a grid, waves from ten long to a tenth high that die out with the level; the first column
 /// of vertices stands still.
-inline HeadLevels smooth_levels(Index columns, Index rows, std::size_t head) {
+inline HeadSmoothing smooth_levels(Index columns, Index rows, std::size_t head) {
   constexpr int kFields = 5;
   std::vector<float> fields;
   for (int p = 0; p < kFields; ++p) {

@@ -142,7 +142,7 @@ TEST(HairCap, IsClosedInsideAndFraysAtItsEdge) {
     add_hair_cap(cut, below);
     const Mesh cap = std::move(below).to_mesh();
     ASSERT_GT(cap.topology.face_count(), 100) << cut.name;
-    EXPECT_GT(cap.uvs.col(0).minCoeff(), static_cast<double>(kCardStrips) / kHairStrips);
+    EXPECT_GT(cap.uvs.col(0).minCoeff(), static_cast<double>(kCardStripCount) / kTextureStripCount);
     EXPECT_LT(cap.uvs.col(0).maxCoeff(), 1);
     for (Index v = 0; v < cap.positions.rows(); ++v) {
       const Vector3d p = cap.positions.row(v);
@@ -159,7 +159,7 @@ TEST(HairCap, IsClosedInsideAndFraysAtItsEdge) {
     double red = 0;
     const auto mean_cover = [&](int y) {
       double sum = 0;
-      const int first = kSize * kCardStrips / kHairStrips;
+      const int first = kSize * kCardStripCount / kTextureStripCount;
       for (int x = first; x < kSize; ++x)
         sum += picture[4 * static_cast<std::size_t>(y * kSize + x) + 3];
       return sum / (kSize - first) / 255;
@@ -169,7 +169,7 @@ TEST(HairCap, IsClosedInsideAndFraysAtItsEdge) {
     }
     EXPECT_LT(mean_cover(kSize - 2), 0.1);
     for (int y = 0; y < kClosed; ++y) {
-      for (int x = kSize * kCardStrips / kHairStrips; x < kSize; ++x) {
+      for (int x = kSize * kCardStripCount / kTextureStripCount; x < kSize; ++x) {
         const std::uint8_t* texel = &picture[4 * static_cast<std::size_t>(y * kSize + x)];
         ASSERT_EQ(texel[3], 255) << x << ' ' << y;
         red += texel[0];
@@ -177,7 +177,7 @@ TEST(HairCap, IsClosedInsideAndFraysAtItsEdge) {
     }
     // Below curls it lies in their shade: on white hair it looked like a bandage.
     if (curly) {
-      EXPECT_LT(red / (kClosed * kSize / kHairStrips), 0.75 * 0.3 * 255);
+      EXPECT_LT(red / (kClosed * kSize / kTextureStripCount), 0.75 * 0.3 * 255);
     }
   }
 }

@@ -161,7 +161,7 @@ TEST(Layout, CutsOnlyAlongTheSeams) {
     ++split;
     const Address& a = layout.addresses[vertex];
     EXPECT_EQ(a.patch, SkinPatch::kStrip);
-    EXPECT_TRUE(a.b == 0 || std::abs(a.a) == units_to_column(kColumns - 1));
+    EXPECT_TRUE(a.b == 0 || std::abs(a.a) == column_distance(kColumns - 1));
   }
   EXPECT_GT(split, 0);
 }

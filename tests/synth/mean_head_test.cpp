@@ -43,9 +43,9 @@ TEST(MeanHead, RingsBeginWhereTheStripEnds) {
        {SkinPatch::kEye, SkinPatch::kNostril, SkinPatch::kMouth, SkinPatch::kEar}) {
     const Opening& opening = opening_of(patch);
     // The middle of the opening's upper side: the strip at the same place.
-    const double middle = (units_to_column(opening.column0) + units_to_column(opening.column1)) / 2;
+    const double middle = (column_distance(opening.column0) + column_distance(opening.column1)) / 2;
     const Vector3d strip =
-        mean_skin({SkinPatch::kStrip, 1, middle, units_to_row(opening.row0)}).position;
+        mean_skin({SkinPatch::kStrip, 1, middle, row_distance(opening.row0)}).position;
     const Vector3d ring = mean_skin({patch, 1, 3.5, 1e-9}).position;
     EXPECT_LT((strip - ring).norm(), 1e-5);
   }

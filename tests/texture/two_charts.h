@@ -57,7 +57,7 @@ class TwoCharts {
   TextureBlender blender() const {
     TextureBlendOptions options;
     options.vertex_areas.assign(static_cast<std::size_t>(faces.topology.vertex_count), 1.0);
-    options.is_target_only = of_target;
+    options.uses_target_colours_only = of_target;
     const ChebyshevFilter filter(SmoothingOperator(adjacency, Boundary::kFree, OperatorKind::kLazy),
                                  Positions::Zero(faces.topology.vertex_count, 3));
     return {faces.topology, faces.uvs, filter, alpha, textures, options};

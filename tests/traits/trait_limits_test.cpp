@@ -60,8 +60,8 @@ TEST(TraitLimits, OwnLimitsReplaceThoseOfTheSameTrait) {
 
 TEST(TraitTarget, DifferencesAreThoseOfKolmogorovAndSmirnov) {
   const TraitTarget target{0, 10, 2};
-  EXPECT_NEAR(normal_fraction_below(target, 10), 0.5, 1e-9);
-  EXPECT_NEAR(normal_fraction_below(target, 12), 0.841344746, 1e-9);
+  EXPECT_NEAR(normal_cdf(target, 10), 0.5, 1e-9);
+  EXPECT_NEAR(normal_cdf(target, 12), 0.841344746, 1e-9);
   EXPECT_NEAR(kolmogorov_smirnov_distance(target, {10}), 0.5, 1e-9);
   EXPECT_NEAR(kolmogorov_smirnov_distance(target, {100, 101}), 1, 1e-9)
       << "far above the asked values";

@@ -112,9 +112,9 @@ TEST(Wrap, AFaceIsFoundInAnyTurnAndBelowAHighCrown) {
       if (is_face) errors.push_back((row3(found, v) - place).norm());
     }
     EXPECT_LT(percentile(errors, 0.5), 4) << "where each place of the face ends";
-    ASSERT_TRUE(result.face_distance_mm);
-    EXPECT_LT(*result.face_distance_mm, 10);
-    result.face_distance_mm = 150;
+    ASSERT_TRUE(result.eye_midpoint_difference_mm);
+    EXPECT_LT(*result.eye_midpoint_difference_mm, 10);
+    result.eye_midpoint_difference_mm = 150;
     expect_error(ExitCode::kBadData, {""}, [&] { refuse_bad_wrap(shape, result, {}); });
   }
 }

@@ -25,9 +25,9 @@ constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
 /// vertex of the skin.
 constexpr std::size_t kMinVertices = 12;
 constexpr double kReachFactor = 1.4;
-/// If the reach of a patch is at most kSpacings vertex spacings of a level, the patch uses only
-/// this level. Between kSpacings and 2 · kSpacings, the patch mixes this level with the next
-/// coarser level.
+/// The reach of a patch, divided by the vertex spacing of a level of detail, decides which levels
+/// the patch uses. Ratio up to kSpacings: only this level. Ratio between kSpacings and
+/// 2 · kSpacings: a mixture of this level and the next coarser level.
 constexpr double kSpacings = 3;
 constexpr std::size_t kCoarsest = 150;
 

@@ -64,8 +64,8 @@ class Roots {
 
  private:
   struct QueueEntry {
-    /// whether two areas of skin are about equally near (see kAmbiguousMm), so that the skin vertex
-    /// of a neighbour is more reliable
+    /// Whether two areas of skin are about equally near to the point (see kAmbiguousMm). Such
+    /// points come last, so that their search starts at the skin vertex of an adjacent point.
     bool is_ambiguous;
     double distance;
     std::uint32_t point, vertex;

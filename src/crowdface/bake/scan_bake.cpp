@@ -84,7 +84,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
       normals_(vertex_normals_or_zero(bake_template.wrap_template().skin.triangles, positions_)),
       scan_spacing_mm_(spacing_of(surface.scan())) {
   Positions densities = Positions::Zero(positions_.rows(), 3);
-  const std::vector<double> confidence = measure_scan_densities(densities);
+  const std::vector<double> confidence = measure_scan_optical_densities(densities);
   compute_edge_weights(confidence);
   if (options.remove_shading) {
     estimate_shading(confidence, densities);
@@ -151,7 +151,7 @@ Eigen::Vector3d ScanBake::template_optical_density(std::size_t picture, const Ei
   return density_of(texture->mean_at(uv, right_step, lower_step));
 }
 
-std::vector<double> ScanBake::measure_scan_densities(Positions& scan_densities) const {
+std::vector<double> ScanBake::measure_scan_optical_densities(Positions& optical_densities) const {
   const SkinMesh& skin = template_.wrap_template().skin;
   std::vector<double> confidence(skin.vertices.size(), 0.0);
   parallel_blocks(positions_.rows(), kVertexBlock, [&](Index begin, Index end) {
@@ -169,7 +169,7 @@ std::vector<double> ScanBake::measure_scan_densities(Positions& scan_densities) 
       seen.area.lower_step = mean_edge_length(v) * other;
       const auto density = mean_optical_density(seen.area);
       if (!density) continue;
-      scan_densities.row(v) = density->transpose();
+      optical_densities.row(v) = density->transpose();
       confidence[row] = seen.confidence;
     }
   });
@@ -194,9 +194,9 @@ void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   }
 }
 
-/// Fits spherical harmonics of the normals to the mean density of the channels (Ramamoorthi &
-/// Hanrahan 2001: distant light on a convex surface). Iteratively reweighted least squares gives
-/// lips, brows and hair small weights.
+/// Fits spherical harmonics of the normals to the optical densities, averaged over red, green and
+/// blue (Ramamoorthi & Hanrahan 2001: distant light on a convex surface). Iteratively reweighted
+/// least squares gives lips, brows and hair small weights.
 void ScanBake::estimate_shading(const std::vector<double>& confidence, const Positions& densities) {
   constexpr int kRounds = 10;
   const SkinMesh& skin = template_.wrap_template().skin;

@@ -71,9 +71,9 @@ class ScanBake {
                                            const Eigen::Vector2d& right_step,
                                            const Eigen::Vector2d& lower_step) const;
   /// Measures the scan's optical density at each skin vertex.
-  /// \param scan_densities  receives one row for each skin vertex, one column for each channel.
+  /// \param optical_densities  receives one row for each skin vertex, one column for each channel.
   /// \return  #skin: confidence of each row, 0 to 1.
-  std::vector<double> measure_scan_densities(Positions& scan_densities) const;
+  std::vector<double> measure_scan_optical_densities(Positions& optical_densities) const;
   void compute_edge_weights(const std::vector<double>& confidence);
   void estimate_shading(const std::vector<double>& confidence, const Positions& densities);
   /// Computes tone_differences_ from the differences at the vertices.
@@ -85,7 +85,8 @@ class ScanBake {
   struct Texel {
     const SurfaceTexels::Triangle* triangle = nullptr;
     std::array<std::uint32_t, 3> rows = {};  ///< rows of the triangle's corners in the skin
-    Eigen::Vector3d right_step, lower_step;  ///< vectors to the texels on the right and below
+    Eigen::Vector3d right_step;              ///< vector to the next texel on the right
+    Eigen::Vector3d lower_step;              ///< vector to the next texel below
   };
   /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
   /// the template instead of the scan.
@@ -103,8 +104,9 @@ class ScanBake {
   double scan_spacing_mm_;            ///< mean distance between neighbouring vertices of the scan
   std::vector<double> edge_weights_;  ///< #skin: 0 at the edge of the scan, 1 away from it
   Positions tone_differences_;   ///< #skin by 3: density of the scan minus that of the template
-  Positions shading_densities_;  ///< #skin by 3: optical density of the scan's baked-in shading;
-                                 ///< no rows if the shading is kept
+  /// #skin by 3 (red, green, blue): optical density that the scan's baked-in shading adds; no rows
+  /// if the shading is kept
+  Positions shading_densities_;
 };
 
 }  // namespace crowdface

@@ -142,7 +142,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
 }
 
 std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanArea& area) const {
-  const TriangleCorners& source = triangle_corners_[scan.file_triangles[area.triangle]];
+  const TriangleCorners& source = triangle_corners_[scan.file_triangle_indices[area.triangle]];
   const std::uint32_t file =
       colours_.texture_of_face.empty() ? kNoIndex : colours_.texture_of_face[source.face];
   if (file != kNoIndex) {

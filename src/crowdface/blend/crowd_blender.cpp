@@ -55,7 +55,7 @@ class AlignedFloats {
 
 }  // namespace
 
-CrowdBlender::CrowdBlender(const HeadSet& heads, std::vector<HeadLevels> levels,
+CrowdBlender::CrowdBlender(const HeadSet& heads, std::vector<HeadSmoothing> levels,
                            FieldPatches patches, const RegionWeights& regions)
     : heads_(heads), levels_(std::move(levels)), patches_(std::move(patches)), regions_(regions) {
   const Index vertices = heads.topology.vertex_count;
@@ -66,7 +66,7 @@ CrowdBlender::CrowdBlender(const HeadSet& heads, std::vector<HeadLevels> levels,
           "blend: patches of ", patches_.vertex_count(), " vertices and masks of ",
           regions.alpha.rows(), " for ", vertices);
   first_field_.push_back(0);
-  for (const HeadLevels& head : levels_) {
+  for (const HeadSmoothing& head : levels_) {
     first_field_.push_back(first_field_.back() + static_cast<std::size_t>(head.fields.rank));
   }
   find_regions();
@@ -163,7 +163,8 @@ class CrowdBlender::Crowd {
   std::set<Index> targets_;
 };
 
-/// Computes all faces of the batch in one patch at a time. Each thread needs its own instance.
+/// Computes one patch at a time: the vertices of this patch in all faces of the batch. Each thread
+/// needs its own instance.
 class CrowdBlender::PatchBlender {
  public:
   /// \param blender, crowd  must outlive this object.
@@ -382,7 +383,7 @@ void CrowdBlender::blend_patches(const Wanted& wanted, std::span<const Recipe* c
     for (std::size_t patch = begin; patch < end; ++patch) {
       if (wanted(patch)) blender.blend(patch);
     }
-    finish_writing();
+    wait_for_streaming_stores();
   });
 }
 

@@ -34,7 +34,7 @@ class CrowdBlender {
   /// \param patches         the compressed fields of all heads.
   /// \param regions         α, #V by #regions, where rows sum to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
-  CrowdBlender(const HeadSet& heads, std::vector<HeadLevels> levels, FieldPatches patches,
+  CrowdBlender(const HeadSet& heads, std::vector<HeadSmoothing> levels, FieldPatches patches,
                const RegionWeights& regions);
 
   /// Blends the face of each recipe, #V by 3, in the unit of the heads.
@@ -72,7 +72,7 @@ class CrowdBlender {
   std::size_t field_count() const { return first_field_.back(); }
 
   const HeadSet& heads_;
-  std::vector<HeadLevels> levels_;
+  std::vector<HeadSmoothing> levels_;
   FieldPatches patches_;
   const RegionWeights& regions_;
   /// #heads + 1: for each head, the index of its first field among the fields of all heads

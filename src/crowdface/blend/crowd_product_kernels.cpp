@@ -156,7 +156,7 @@ void write_sums(std::span<const VertexRun> runs, const double* base, const float
   }
 }
 
-void finish_writing() {
+void wait_for_streaming_stores() {
   hwy::FlushStream();
 }
 
@@ -170,7 +170,7 @@ HWY_EXPORT(unpack);
 HWY_EXPORT(multiply_floats);
 HWY_EXPORT(multiply_numbers);
 HWY_EXPORT(write_sums);
-HWY_EXPORT(finish_writing);
+HWY_EXPORT(wait_for_streaming_stores);
 
 void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values) {
   HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, values);
@@ -198,8 +198,8 @@ void write_sums(std::span<const VertexRun> runs, const double* base, const float
   HWY_DYNAMIC_DISPATCH(write_sums)(runs, base, added, results);
 }
 
-void finish_writing() {
-  HWY_DYNAMIC_DISPATCH(finish_writing)();
+void wait_for_streaming_stores() {
+  HWY_DYNAMIC_DISPATCH(wait_for_streaming_stores)();
 }
 
 }  // namespace crowdface

@@ -49,13 +49,13 @@ struct VertexRun {
 /// Writes results = base + added at the vertices of the runs. Uses streaming stores, which bypass
 /// the caches: a crowd's faces are far larger than the caches, and an ordinary store would first
 /// read the cache line that it overwrites. Before another thread may read the results, the writing
-/// thread must call finish_writing().
+/// thread must call wait_for_streaming_stores().
 ///
 /// \param base, results  #V by 3; may be the same array.
 /// \param added          3 by kPatchVertices: x of all vertices of the runs, then y, then z.
 void write_sums(std::span<const VertexRun> runs, const double* base, const float* added,
                 double* results);
 /// Waits until the streaming stores of the calling thread are complete.
-void finish_writing();
+void wait_for_streaming_stores();
 
 }  // namespace crowdface

@@ -28,7 +28,7 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
 class AgedHeads {
  public:
   AgedHeads(double age, const HeadAnchorsAndTags& all, const SamplingOptions& sampling)
-      : heads_(age > 0 ? sampling.old_heads : sampling.young_heads), all_(all) {
+      : heads_(age > 0 ? sampling.heads_tagged_old : sampling.heads_tagged_young), all_(all) {
     require(!heads_.empty(), "an age of ", age, " without heads of that age");
   }
 

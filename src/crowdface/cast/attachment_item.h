@@ -13,7 +13,8 @@ struct AttachmentItem {
   std::string name, kind;
   /// the typical head of the face (see typical_head) must have all of these tags
   std::vector<std::string> tags;
-  double share = 1;  ///< relative frequency of this item among the items of the same kind
+  /// frequency relative to the other items of the same kind (key `share`)
+  double relative_frequency = 1;
   /// names and kinds of items that cannot be worn together with this item
   std::vector<std::string> excludes;
   /// Colour of the item. The face's other items get the same colour, and families inherit the

@@ -55,11 +55,11 @@ void keep_underused(const WearerCounts& counts, Items& items) {
   };
   double shares = 0, faces = 1;
   for (const AttachmentItem* item : items) {
-    shares += item->share;
+    shares += item->relative_frequency;
     faces += given(item);
   }
   std::erase_if(items, [&](const AttachmentItem* item) {
-    return faces * item->share / shares - given(item) < kRounding;
+    return faces * item->relative_frequency / shares - given(item) < kRounding;
   });
 }
 
@@ -67,7 +67,7 @@ void keep_underused(const WearerCounts& counts, Items& items) {
 void keep_least_worn(const WearerCounts& counts, Items& items) {
   const auto level = [&](const AttachmentItem* item) {
     const auto found = counts.find(item->name);
-    return found == counts.end() ? 0.0 : found->second / item->share;
+    return found == counts.end() ? 0.0 : found->second / item->relative_frequency;
   };
   double least = HUGE_VAL;
   for (const AttachmentItem* item : items) least = std::min(least, level(item));
@@ -173,7 +173,8 @@ class AttachmentChooser {
       });
       const bool must_not = std::ranges::any_of(
           item.excluded_tags, [&](const std::string& tag) { return contains(tags, tag); });
-      if (item.kind == kind && item.share > 0 && may && !must_not) items.push_back(&item);
+      if (item.kind == kind && item.relative_frequency > 0 && may && !must_not)
+        items.push_back(&item);
     }
     return items;
   }
@@ -195,12 +196,12 @@ class AttachmentChooser {
                own != wearer_counts_.end()) {
       keep_least_worn(own->second, items);
     }
-    return weighted_choice(items, drawn[1], &AttachmentItem::share);
+    return weighted_choice(items, drawn[1], &AttachmentItem::relative_frequency);
   }
 
-  /// Returns whether the second of two successive faces must not look like the first. Sampled faces
-  /// are compared only with sampled faces: if the crowd grows, new sampled faces can separate a
-  /// sampled face from an adjacent face that is not sampled.
+  /// Returns whether the second of two successive faces must not look like the first. A sampled
+  /// face is compared only with sampled faces, because it may have another neighbour in a larger
+  /// crowd: more sampled faces can come between it and a face that is not sampled.
   static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
@@ -235,7 +236,7 @@ class AttachmentChooser {
     if (const auto own = wearer_counts_.find(similar_faces_key(face)); own != wearer_counts_.end())
       keep_underused(own->second, next);
     if (face.index) keep_underused(all_wearer_counts_, next);
-    return weighted_choice(next, drawn, &AttachmentItem::share);
+    return weighted_choice(next, drawn, &AttachmentItem::relative_frequency);
   }
 
   /// Removes from `items` the items that the quotas do not allow for a face.

@@ -34,7 +34,7 @@ class CapacityForecast {
     double mean_too_near_fraction() const {
       return sum_of_too_near_fractions / static_cast<double>(face_count);
     }
-    /// Returns the middle of the range: the mean of n and 2·n, with n = `face_count`.
+    /// Returns the middle of the range from n to 2·n, with n = `face_count`: 1.5·n.
     double middle_face_number() const { return 1.5 * static_cast<double>(face_count); }
   };
   std::uint64_t placed_count_ = 0;

@@ -47,7 +47,7 @@ struct ChangedFace {
   FaceSpace::Point point;
   /// in the order of application: first the config's changes
   std::vector<AppliedChange> changes = {};
-  TraitLimits traits = {};  ///< limits on measurements that all changes together set
+  TraitLimits traits = {};  ///< the changes' limits on the measurements, combined
   /// whether the face was redrawn, and so shows another person than before
   bool is_other_person = false;
   /// the other face, if this face is a variant of another face

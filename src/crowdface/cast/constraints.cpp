@@ -28,7 +28,7 @@ constexpr std::array<Constraint, kReasonCount> kConstraints = {{
     {Reason::kMinDistance, "diversity", "min_distance", &Diversity::min_distance_mm, nullptr, " mm",
      "nearer to another face than", kRoom},
     {Reason::kMinDistanceToFaces, "diversity", "min_distance_to_faces",
-     &Diversity::min_distance_to_faces_mm, nullptr, " mm", "nearer to a head than", kMixture},
+     &Diversity::min_distance_to_heads_mm, nullptr, " mm", "nearer to a head than", kMixture},
     {Reason::kMaxWeight, "diversity", "max_weight", &Diversity::max_weight, nullptr, "",
      "one head has more weight in a region than", kMixture},
     {Reason::kImplausible, "believability", "max_deviation", nullptr, &Believability::max_deviation,

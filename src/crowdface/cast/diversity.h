@@ -23,7 +23,8 @@ struct DiversityOptions {
   /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and
   /// families have 1.2 mm, faces 25 … 40 have 1 mm, and later faces have `min_distance_mm`.
   std::map<std::uint64_t, double> min_distance_of_first_mm = {};
-  double min_distance_to_faces_mm = 0;  ///< smallest distance from every input head
+  /// smallest distance of a face from every input head (key `min_distance_to_faces`)
+  double min_distance_to_heads_mm = 0;
   /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
   /// median distance between the faces of the crowd.
   std::optional<double> min_distance_to_rejected_mm;

@@ -18,8 +18,8 @@ namespace {
 /// Number of random numbers (lanes) that are reserved for one try to choose a position.
 constexpr std::uint32_t kRandomLanesPerPosition = 64;
 /// If a position gives one head too much weight, casting tries another position, at most
-/// kPositionRetries times. Each retry adds kFartherEachTime to PositionDistribution::pull, so the
-/// position may be farther from the anchor.
+/// kPositionRetries times. PositionDistribution::pull limits how far a position is from the anchor.
+/// Each retry raises this limit by kFartherEachTime.
 constexpr std::uint32_t kPositionRetries = 20;
 constexpr double kFartherEachTime = 0.1;
 

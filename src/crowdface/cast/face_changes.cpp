@@ -196,8 +196,8 @@ class Changing {
         face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.level_scale);
         return face;
       };
-      // Go beyond the smallest fraction by a margin, so that the whole mesh meets the limits too.
-      // (The limits are checked without building the mesh.)
+      // Mix in more of the drawn face than the smallest fraction that meets the limits. This margin
+      // is needed because `meets_limits` does not build the whole mesh.
       constexpr double kMargin = 0.05;
       const double share = least_share([&](double part) { return meets_limits(at(part)); });
       return at(share + kMargin * (1 - share));
@@ -281,7 +281,8 @@ class Changing {
 void apply(const CastingOptions& casting, const FaceJudge& judge,
            const std::vector<FaceChange>& changes, const std::string& origin, bool first,
            CastingResult& cast) {
-  // Before any of these changes is applied, copy the original face of each variant.
+  // A change can make a face a variant of another face. Before any change is applied, copy these
+  // other faces, because a change may also apply to them.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
     const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;

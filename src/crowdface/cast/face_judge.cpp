@@ -57,7 +57,7 @@ std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
       }
     }
   }
-  const double limit = diversity_.min_distance_to_faces_mm;
+  const double limit = diversity_.min_distance_to_heads_mm;
   if (limit > 0 && head_search_.nearest(point, limit).face >= 0) return Reason::kMinDistanceToFaces;
   if (believability_.check && plausibility_.score(point) > believability_.max_deviation) {
     return Reason::kImplausible;

@@ -40,7 +40,8 @@ std::vector<std::uint64_t> stored_smoothing_levels(std::uint64_t max_level);
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Computes the trajectory of a head (the samples' displacements at all stored smoothing levels)
-/// from the smoothing filter's displacements at the nodes.
+/// from the displacements at a few smoothing levels, which are the nodes of the interpolation.
+/// \param fields  result of filter_nodes for the head
 Trajectory sample_smoothing_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                                        const NodeFields& fields, const FaceSamples& samples);
 

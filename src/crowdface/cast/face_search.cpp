@@ -16,7 +16,7 @@ FaceSearch::FaceSearch(GenerateCandidate generate_candidate, const FaceJudge& ju
       first_attempt_(first_attempt),
       next_attempt_(first_attempt),
       attempts_end_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
-      attempts_end_without_limits_(attempts_end_) {}
+      initial_attempts_end_(attempts_end_) {}
 
 /// Returns whether a candidate is far enough from all faces of the crowd. Also stores the
 /// candidate's distance from the crowd. If another candidate is farther, stores only an upper bound
@@ -42,7 +42,7 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
 /// enough.
 bool FaceSearch::needs_candidates() const {
   if (candidates_.size() >= wanted_candidate_count_ || next_attempt_ >= attempts_end_) return false;
-  return candidates_.empty() || next_attempt_ < attempts_end_without_limits_;
+  return candidates_.empty() || next_attempt_ < initial_attempts_end_;
 }
 
 /// If measurements are limited, measures a candidate and checks the limits. Each candidate that
@@ -56,7 +56,7 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
   if (!reason) return true;
   rejections_.add(*reason);
   const auto usual = static_cast<std::uint32_t>(diversity_.max_attempts);
-  if (attempts_end_ - attempts_end_without_limits_ < (kAttemptFactorWithTraits - 1) * usual)
+  if (attempts_end_ - initial_attempts_end_ < (kAttemptFactorWithTraits - 1) * usual)
     ++attempts_end_;
   return false;
 }

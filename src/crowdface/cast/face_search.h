@@ -84,7 +84,7 @@ class FaceSearch {
   /// The attempt after the last allowed attempt. Each candidate that violates limits on
   /// measurements raises `attempts_end_` by one.
   std::uint32_t attempts_end_;
-  std::uint32_t attempts_end_without_limits_;  ///< initial value of `attempts_end_`
+  std::uint32_t initial_attempts_end_;  ///< initial value of `attempts_end_`
   /// number of faces of the crowd with which the candidates have been compared
   Index compared_count_ = 0;
   std::vector<Candidate> candidates_;

@@ -101,7 +101,7 @@ SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
   parallel_for_each(heads, [&](Index h) {
-    const Trajectory& trajectory = heads_with_same_mirroring(h).trajectories[unmirrored_index(h)];
+    const Trajectory& trajectory = heads_mirrored_like(h).trajectories[unmirrored_index(h)];
     for (Index l = 0; l < level_count; ++l) {
       for (Index i = 0; i < size; ++i) {
         for (Index c = 0; c < 3; ++c) {
@@ -144,7 +144,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
     write_centred_values([&](Index i) { return heads_.mean(sample_at(i), c); },
                          functions.row(c).data());
     for (Index h = 0; h < rows.heads; ++h) {
-      const Positions& head = heads_with_same_mirroring(h).heads[unmirrored_index(h)];
+      const Positions& head = heads_mirrored_like(h).heads[unmirrored_index(h)];
       write_centred_values(
           [&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
           functions.row(rows.of_head(h) + c).data());
@@ -152,7 +152,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
   }
   parallel_for_each(regions * rows.heads, [&](Index kh) {
     const Index k = kh / rows.heads, h = kh % rows.heads;
-    const Columns& alpha = heads_with_same_mirroring(h).region_weights;
+    const Columns& alpha = heads_mirrored_like(h).region_weights;
     for (Index r = 0; r < rows.modes; ++r) {
       float* const first = functions.row(rows.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {

@@ -11,8 +11,8 @@ namespace crowdface {
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
   FloatRows levels;  ///< #levels by #modes: coefficient of each mode at each level
-  /// #functions by #P: a basis of scalar functions. Each coordinate of a face (x, y or z) is a
-  /// linear combination of these functions.
+  /// #functions by #P: each row holds the coefficients of one scalar function of the skin in an
+  /// orthonormal basis. Each coordinate of a face (x, y or z) is a linear combination of the rows.
   FloatRows functions;
   FloatRows directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
@@ -62,7 +62,7 @@ class FaceSpace {
   /// Returns the root mean square distance between two faces in mm: the smaller of the distances
   /// with and without extrapolation.
   static double distance(const Point& a, const Point& b);
-  /// A point, and the products of the region's metric with both variants of this point.
+  /// A point, and the products of the region's metric with the point's two vectors.
   struct RegionPoint {
     const Point* point = nullptr;
     /// metric of the region, times `point->with_extrapolation` and `point->without_extrapolation`
@@ -92,7 +92,7 @@ class FaceSpace {
   /// number head_count() on), otherwise 1.
   Index orientation_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
   /// Returns the unmirrored heads if `head` is unmirrored, otherwise the heads' mirror images.
-  const SampledHeads& heads_with_same_mirroring(Index head) const {
+  const SampledHeads& heads_mirrored_like(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
   }
   std::size_t unmirrored_index(Index head) const {
@@ -104,6 +104,9 @@ class FaceSpace {
   SpanBasis smoothing_displacement_modes() const;
   template <class Value>
   void write_centred_values(const Value& value, float* row) const;
+  /// Returns scalar functions on the samples, one per row. Each coordinate (x, y or z) of a face is
+  /// a linear combination of these functions.
+  /// \param modes  orthonormal basis of the detail that smoothing removes from the heads
   FloatRows coordinate_functions(const SpanBasis& modes, const std::vector<float>& max_coefficients,
                                  const BasisRowOrder& rows) const;
   FloatRows compute_basis_functions();

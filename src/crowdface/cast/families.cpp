@@ -23,7 +23,7 @@ constexpr int kFounderCandidates = 24;
 /// no minimum distances.
 DiversityOptions without_distance_limits(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
-  diversity.min_distance_to_faces_mm = 0;
+  diversity.min_distance_to_heads_mm = 0;
   diversity.max_weight = 1;
   diversity.max_attempts = kFounderAttempts;
   return diversity;
@@ -78,7 +78,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     auto found = founder.choose_face(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    const double to_half = sampler.stranger_fraction_nearer_than_parent(found->point);
+    const double to_half = sampler.nearer_stranger_fraction(found->point);
     // The limit grows with the number of tries. If both parents are new, a pair that matches well
     // is soon found; if one parent is given, there may be no good match.
     const double enough =
@@ -93,7 +93,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
       auto child = model.choose_face(crowd, [&](const FaceSpace::Point& point) {
         const bool too_far =
             to_half <= kMaxStrangerFractionForFounder &&
-            sampler.stranger_fraction_nearer_than_parent(point) > kMaxStrangerFractionForFounder;
+            sampler.nearer_stranger_fraction(point) > kMaxStrangerFractionForFounder;
         return too_far ? std::optional(Reason::kFamily)
                        : sampler.rejection_reason(cast, point, {}, family_separation);
       });
@@ -118,9 +118,8 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     }
     family_separation.add(family.name, points);
     for (const FaceSpace::Point& child : points) {
-      cast.stranger_fraction_nearer_than_parent =
-          std::max(cast.stranger_fraction_nearer_than_parent,
-                   sampler.stranger_fraction_nearer_than_parent(child));
+      cast.nearer_stranger_fraction =
+          std::max(cast.nearer_stranger_fraction, sampler.nearer_stranger_fraction(child));
     }
     return cast;
   }

@@ -19,13 +19,13 @@ namespace {
 
 /// smallest distance of a member from the founder, as a fraction of max_distance
 constexpr double kNearestShare = 0.4;
-/// In the random face that is mixed with the founder to make a member: weight of the detail that
-/// the member inherits from a parent. The rest is random detail.
+/// A member is a mixture of the founder and a random face. The detail of this random face is a
+/// mixture too: a parent's detail has this weight, and random detail has the remaining weight.
 constexpr double kParentShare = 0.75;
-/// A child is a mixture of the founder and a random face. The coarse shape of this random face has
-/// the weight kLargeFormsShare for one parent, kForeignShare for a third contributor, and the
-/// remaining weight for the other parent. Without the third contributor, the children of a couple
-/// would hardly differ.
+/// A child is a mixture of the founder and a random face. The coarse shape of the random face is a
+/// weighted mean of the coarse shapes of three contributors. One parent has the weight
+/// kLargeFormsShare, a third contributor has the weight kForeignShare, and the second parent has
+/// the rest. Without the third contributor, the children of a couple would hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
@@ -263,7 +263,7 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {
       BandRecipe& band = band_of(region, b);
-      const int from = inherited_parent(k, b);
+      const int from = parent_to_inherit_from(k, b);
       band = from >= 0 ? parent_band(static_cast<std::size_t>(from), k, b, band)
                        : mixed(parent_band(0, k, b, band), parent_band(1, k, b, band), 0.5,
                                casting_.level_scale);
@@ -282,8 +282,9 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draf
   return face;
 }
 
-/// Returns 0 for the mother, 1 for the father, −1 for a random parent.
-int FamilySampler::inherited_parent(std::size_t region, std::size_t band) const {
+/// Returns the parent from whom all members inherit this band of this region: 0 for the mother, 1
+/// for the father, −1 for a parent drawn at random for each member.
+int FamilySampler::parent_to_inherit_from(std::size_t region, std::size_t band) const {
   return family_.inherited_parents[region * band_count(casting_.sampling) + band];
 }
 
@@ -305,7 +306,7 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     RegionRecipe& region = face.recipe.regions[k];
     for (std::size_t b = 0; b < band_count(region); ++b) {
-      const int from = inherited_parent(k, b);
+      const int from = parent_to_inherit_from(k, b);
       const std::string& name = casting_.region_names[k];
       const std::size_t parent =
           from >= 0 ? static_cast<std::size_t>(from)
@@ -412,9 +413,8 @@ std::optional<Reason> FamilySampler::rejection_reason(
 /// parent is not much larger than the founder's distance from this parent.
 bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
                                       const FaceSpace::Point& point) const {
-  if (stranger_fraction_nearer_than_parent(point) <= kMaxStrangerFractionForChild) return true;
-  if (stranger_fraction_nearer_than_parent(family_plan.founder_point) <=
-      kMaxStrangerFractionForFounder)
+  if (nearer_stranger_fraction(point) <= kMaxStrangerFractionForChild) return true;
+  if (nearer_stranger_fraction(family_plan.founder_point) <= kMaxStrangerFractionForFounder)
     return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
     return FaceSpace::distance(point, parent.point) <=
@@ -423,7 +423,7 @@ bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
   });
 }
 
-double FamilySampler::stranger_fraction_nearer_than_parent(const FaceSpace::Point& point) const {
+double FamilySampler::nearer_stranger_fraction(const FaceSpace::Point& point) const {
   double share = 0;
   for (const KnownParent& parent : parents_) {
     if (!target_substitutes_.contains_all(target_head_weights(parent.face.recipe))) continue;

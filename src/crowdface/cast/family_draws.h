@@ -25,11 +25,12 @@ struct FamilyPlan {
   Index members_begin = 0, members_end = 0;  ///< indices of the members in the crowd: [begin, end)
   /// largest value, over all pairs of parent and child, of the fraction of strangers that are
   /// nearer to the child than the parent is
-  double stranger_fraction_nearer_than_parent = 0;
+  double nearer_stranger_fraction = 0;
 };
 
-/// Largest FamilySampler::stranger_fraction_nearer_than_parent of a founder (the mean of both
-/// parents). The limit for children is larger, so that children can differ from the founder.
+/// Largest allowed FamilySampler::nearer_stranger_fraction of a family's founder. The founder is
+/// the mean of both parents. The limit for children is larger, so that children can differ from the
+/// founder.
 inline constexpr double kMaxStrangerFractionForFounder = 0.06;
 
 /// Makes random faces of one family. Each member lies between the founder and a random face. The
@@ -74,12 +75,14 @@ class FamilySampler {
   /// For each parent, computes the fraction of strangers that are nearer to the point than the
   /// parent is. Returns the larger fraction. For a family in a group, the strangers are faces of
   /// this group, and a parent is considered only if all heads of the parent are in the group.
-  double stranger_fraction_nearer_than_parent(const FaceSpace::Point& point) const;
+  double nearer_stranger_fraction(const FaceSpace::Point& point) const;
 
  private:
   struct KnownParent {
     std::string name;  ///< name of the parent's head, or id of the parent's face
-    FacePlan face;  ///< the parent as it looks without its age; for a head, only the target is set
+    /// The parent's plan without the effects of the parent's age. If the parent is an input head,
+    /// only the plan's target is set.
+    FacePlan face;
     FaceSpace::Point point;
   };
   /// The random face of one member, the member's age, and the member's distance from the founder.
@@ -95,7 +98,7 @@ class FamilySampler {
   const SamplingOptions& sampling_of(const FacePlan& face) const;
   BandRecipe parent_band(std::size_t parent, std::size_t region, std::size_t band,
                          const BandRecipe& random_band) const;
-  int inherited_parent(std::size_t region, std::size_t band) const;
+  int parent_to_inherit_from(std::size_t region, std::size_t band) const;
   void inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const;
   MemberDraft member_draft(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
   FacePlan mixed_face(const FacePlan& from, const MemberDraft& draft, double t) const;

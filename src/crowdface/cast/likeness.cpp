@@ -96,7 +96,8 @@ class LikenessTree {
 
   const std::vector<FaceSpace::Point>& points_;
   const std::vector<bool>& gone_;
-  /// contains one tree if no face is extrapolated, otherwise two
+  /// One tree over the points with extrapolation. If a face is extrapolated, also a second tree,
+  /// over the points without extrapolation.
   std::vector<std::pair<Variant, PointTree>> variants_;
 };
 
@@ -147,7 +148,7 @@ Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t 
     const std::size_t face = tree.face(place);
     likeness.neighbours[face] = tree.nearest(face, neighbour_count);
   });
-  likeness.order = walk(points, likeness.neighbours);
+  likeness.face_order = walk(points, likeness.neighbours);
   return likeness;
 }
 

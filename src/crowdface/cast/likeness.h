@@ -17,8 +17,8 @@ struct Neighbour {
 /// Similar faces in a whole crowd. The result does not depend on the order in which the faces were
 /// cast.
 struct Likeness {
-  /// the faces in an order in which neighbours look alike
-  std::vector<std::size_t> order;
+  /// indices of all faces, in an order in which consecutive faces look alike
+  std::vector<std::size_t> face_order;
   std::vector<std::vector<Neighbour>>
       neighbours;  ///< for each face: the nearest other faces, beginning with the nearest
 };

@@ -10,19 +10,18 @@ PopulationBalance::PopulationBalance(const std::vector<TraitTarget>& targets) {
   for (const TraitTarget& target : targets) {
     Trait& trait = traits_.emplace_back(Trait{target, {}, {}});
     trait.cumulative_excess.assign(kBins, 0);
-    trait.squared_excess_by_next_bin.assign(kBins, 0);
+    trait.squared_excess_after_adding.assign(kBins, 0);
     update_squared_excess(trait);
   }
 }
 
 std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions& landmarks) {
-  const double share =
-      normal_fraction_below(target, measure(measurements()[target.trait], landmarks));
+  const double share = normal_cdf(target, measure(measurements()[target.trait], landmarks));
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
 }
 
-/// Updates Trait::squared_excess_by_next_bin. If a face joins the crowd, `cumulative_excess` of bin
-/// b falls by (b + 1)/kBins. In the face's bin and in all higher bins, it also rises by 1.
+/// Updates Trait::squared_excess_after_adding. If a face joins the crowd, `cumulative_excess` of
+/// bin b falls by (b + 1)/kBins. In the face's bin and in all higher bins, it also rises by 1.
 void PopulationBalance::update_squared_excess(Trait& trait) {
   const auto lacks = [&](std::size_t b) {
     return trait.cumulative_excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);
@@ -31,15 +30,15 @@ void PopulationBalance::update_squared_excess(Trait& trait) {
   for (std::size_t b = 0; b < kBins; ++b) sum += lacks(b) * lacks(b);
   for (std::size_t b = kBins; b-- > 0;) {
     sum += 2 * lacks(b) + 1;
-    trait.squared_excess_by_next_bin[b] = sum;
+    trait.squared_excess_after_adding[b] = sum;
   }
 }
 
 double PopulationBalance::cost(const Positions& landmarks) const {
   double sum = 0;
   for (const Trait& trait : traits_) {
-    sum +=
-        std::sqrt(std::max(trait.squared_excess_by_next_bin[bin_of(trait.target, landmarks)], 0.0));
+    const std::size_t bin = bin_of(trait.target, landmarks);
+    sum += std::sqrt(std::max(trait.squared_excess_after_adding[bin], 0.0));
   }
   return sum;
 }

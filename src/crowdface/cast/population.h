@@ -34,9 +34,9 @@ class PopulationBalance {
     /// for each bin: the number of faces in this bin and all lower bins, minus the number requested
     /// for these bins
     std::vector<double> cumulative_excess;
-    /// For each bin: the value that the sum of `cumulative_excess`² over all bins would have after
-    /// one more face, if this face were in the bin.
-    std::vector<double> squared_excess_by_next_bin;
+    /// Entry b: the sum of the squares of `cumulative_excess` over all bins, as it would be after
+    /// adding one face to bin b.
+    std::vector<double> squared_excess_after_adding;
   };
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);
   static void update_squared_excess(Trait& trait);

@@ -48,7 +48,8 @@ struct SmoothnessDistribution {
   enum class Unit {
     kFraction,    ///< a fraction of L_max, like the slider in the paper
     kIterations,  ///< a number of smoothing iterations
-    /// the wavelength in mm of the relief whose amplitude smoothing halves (docs/method.md)
+    /// a wavelength in mm: smoothing halves the amplitude of relief that has this wavelength
+    /// (docs/method.md)
     kSize,
   };
   Unit unit = Unit::kFraction;
@@ -120,8 +121,8 @@ struct SamplingOptions {
   Range age = {0, 0};        ///< range of the ages of sampled faces, see apply_age
   Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
-  std::vector<Eigen::Index> old_heads;  ///< heads with the tag `old`, ascending
-  std::vector<Eigen::Index> young_heads;
+  std::vector<Eigen::Index> heads_tagged_old;  ///< heads with the tag `old`, ascending
+  std::vector<Eigen::Index> heads_tagged_young;
   TraitLimits traits = {};  ///< limits on the measurements of the faces
 };
 

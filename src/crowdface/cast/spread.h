@@ -31,10 +31,11 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
                           std::uint64_t pool_size_factor = 1);
 
 /// Picks candidates from a pool, one after the other. Each pick is the candidate farthest from the
-/// initial crowd and from the candidates picked before (greedy farthest point). The closest pair of
-/// any other set of as many candidates is at most twice as far apart as the closest pair of this
-/// set (Gonzalez 1985; Ravi, Rosenkrantz & Tayi 1994). This holds if the distance is a metric (all
-/// extrapolation factors are 1), there are no groups, and the initial crowd is empty.
+/// initial crowd and from the candidates picked before (greedy farthest point). The smallest
+/// distance between two picks is at least half of the largest possible smallest distance in a set
+/// of as many candidates (Gonzalez 1985; Ravi, Rosenkrantz & Tayi 1994). This holds if the distance
+/// is a metric (all extrapolation factors are 1), there are no groups, and the initial crowd is
+/// empty.
 class FarthestPoints {
  public:
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);

@@ -80,7 +80,7 @@ const Keys<Attachment>& item_keys() {
       of_item("without", &AttachmentItem::excluded_tags, list(name(), "a list of tags, [old]"))
           .written_if(has_without),
       word_key("moves", &Attachment::moves).not_affecting_recipes(),
-      of_item("share", &AttachmentItem::share, number(0, kMaxShare)),
+      of_item("share", &AttachmentItem::relative_frequency, number(0, kMaxShare)),
       of_item("colour", &AttachmentItem::colour, name()).written_if(has_colour),
       of_item("tint", &AttachmentItem::tint, word<Tint>()).written_if(has_tint),
       of_item("excludes", &AttachmentItem::excludes,
@@ -145,7 +145,7 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
       draft.complaints.add_at(entry.value, concat("no attachment is of the kind ",
                                                   quoted(entry.key), suggestion(entry.key, kinds)));
     } else if (share) {
-      attachments.none[entry.key] = *share;
+      attachments.fraction_without_item_by_kind[entry.key] = *share;
     }
   }
 }
@@ -184,10 +184,11 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
     }
-    // Check three things: `none` has no entry for the same kind; the kind has either one quota or
-    // quotas for its items and colours; the kind's quotas add up to at most 1.
+    // Check three things. First, if the entry is a quota of a kind, `none` has no entry for this
+    // kind. Second, a kind has either one quota, or quotas for its items and colours. Third, the
+    // quotas of a kind add up to at most 1.
     const bool is_first = !totals.contains(item->kind);
-    if (attachments.none.contains(item->kind) && entry.key == item->kind) {
+    if (attachments.fraction_without_item_by_kind.contains(item->kind) && entry.key == item->kind) {
       draft.complaints.add_at(entry.value, concat("attachments.none also sets ", entry.key,
                                                   "; keep only one of the two"));
     } else if (!is_first && (entry.key == item->kind || alone.contains(item->kind))) {
@@ -226,8 +227,8 @@ const Keys<Attachments>& attachments_file_keys() {
       Key<Attachments>{"items", read_items, write_items}
           .with_accepted_values("list of mappings with the keys below")
           .with_nested_keys(item_keys()),
-      Key<Attachments>{"none", read_none, write_shares(&Attachments::none)}.with_accepted_values(
-          "`{kind: share}`, shares 0 … 1"),
+      Key<Attachments>{"none", read_none, write_shares(&Attachments::fraction_without_item_by_kind)}
+          .with_accepted_values("`{kind: share}`, shares 0 … 1"),
       Key<Attachments>{"quotas", read_item_quotas, write_shares(&Attachments::quotas)}
           .with_accepted_values("`{kind, name or colour: share}`, shares 0 … 1"),
       hair_colours_key(&Attachments::hair_colours)};
@@ -266,7 +267,7 @@ void remove_unwearable(Attachments& attachments, const Config::Faces& faces) {
     return first_item_matching(attachments, word) == nullptr;
   };
   const auto is_of_unknown = [&](const auto& share) { return is_unknown(share.first); };
-  std::erase_if(attachments.none, is_of_unknown);
+  std::erase_if(attachments.fraction_without_item_by_kind, is_of_unknown);
   std::erase_if(attachments.quotas, is_of_unknown);
   for (Attachment& item : attachments.items) std::erase_if(item.excludes, is_unknown);
 }
@@ -332,9 +333,9 @@ void warn_of_lost_shares(const YamlNode& node, const Attachments& from, ConfigDr
       if (const Attachment* item = first_item_matching(own, share.first)) to.insert(item->kind);
     }
   };
-  add_kinds(own.none, kinds);
+  add_kinds(own.fraction_without_item_by_kind, kinds);
   add_kinds(own.quotas, kinds);
-  add_kinds(from.none, lost);
+  add_kinds(from.fraction_without_item_by_kind, lost);
   add_kinds(from.quotas, lost);
   std::erase_if(lost, [&](const std::string& kind) { return kinds.contains(kind); });
   if (lost.empty()) return;
@@ -361,7 +362,7 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
     read_attachments_of_folder(from->value, config.attachments, draft);
     of_folder = config.attachments;
     if (node.find("none") != nullptr || node.find("quotas") != nullptr) {
-      config.attachments.none.clear();
+      config.attachments.fraction_without_item_by_kind.clear();
       config.attachments.quotas.clear();
     }
   }

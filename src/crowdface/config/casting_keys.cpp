@@ -140,13 +140,13 @@ const Keys<BelievabilityOptions>& believability_keys() {
       key("max_intersecting", &Believability::max_intersecting, number(0, 1)),
       key("max_gap", &Believability::max_gap_mm, length(kMaxDistanceMm)),
       key("max_exposed", &Believability::max_exposed_mm2, number(0, 1e6))
-          .with_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
+          .with_starter_lines([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertex_count > kMaxJudged) return std::nullopt;
             return StarterLines{"0.5",
                                 "skin that shows its back, in mm²: specks at nostrils and lips"};
           }),
       word_key("meshes", &Believability::meshes)
-          .with_starter([](const StarterFacts& facts) -> std::optional<StarterLines> {
+          .with_starter_lines([](const StarterFacts& facts) -> std::optional<StarterLines> {
             if (facts.vertex_count > kMaxJudged) return std::nullopt;
             return StarterLines{std::string(word_of(Believability::MeshChecks::kJudge)), "",
                                 "Casting builds each face and drops it if too much skin passes "
@@ -206,7 +206,7 @@ namespace {
 /// Proposes a minimum distance that all faces of the starter config can keep without exceeding the
 /// config's believability limits.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
-  const std::size_t in_group = heads_of_smaller_group(facts);
+  const std::size_t in_group = head_count_of_smaller_sex(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.head_names.size();
   struct Proposal {
     std::size_t heads;  ///< smallest number of heads for which this distance is proposed
@@ -236,11 +236,11 @@ const Keys<DiversityOptions>& diversity_keys() {
   static const Keys<Diversity> keys = {
       word_key("mode", &Diversity::mode),
       key("min_distance", &Diversity::min_distance_mm, length(kMaxDistanceMm))
-          .with_starter(min_distance_starter),
+          .with_starter_lines(min_distance_starter),
       Key<Diversity>{"min_distance_of_first", read_first_distances, write_first_distances}
           .with_accepted_values("`{number of faces: length}`"),
-      key("min_distance_to_faces", &Diversity::min_distance_to_faces_mm, length(kMaxDistanceMm))
-          .with_starter(
+      key("min_distance_to_faces", &Diversity::min_distance_to_heads_mm, length(kMaxDistanceMm))
+          .with_starter_lines(
               {"0.8 mm", "",
                "No face comes nearer than this to a head: below half a millimetre it looks "
                "like that person."}),

@@ -19,8 +19,8 @@ void read_change_of_age(const YamlNode& node, FaceChange& change, ConfigDraft& d
     change.age_step = word.value;
     const bool is_older = word.value == AgeStep::kOlder;
     const SamplingOptions& sampling = draft.config.sampling;
-    if ((is_older ? sampling.old_heads : sampling.young_heads).empty() && draft.tags_known &&
-        draft.heads_known) {
+    if ((is_older ? sampling.heads_tagged_old : sampling.heads_tagged_young).empty() &&
+        draft.tags_known && draft.heads_known) {
       draft.complaints.add_at(
           node, concat("no head is tagged ", is_older ? "old" : "young", " under faces.tags"));
     }

@@ -243,8 +243,8 @@ Codec<Range> age() {
       draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
       return false;
     };
-    const bool has_old = age.high <= 0 || has(draft.config.sampling.old_heads, "old");
-    return (age.low >= 0 || has(draft.config.sampling.young_heads, "young")) && has_old;
+    const bool has_old = age.high <= 0 || has(draft.config.sampling.heads_tagged_old, "old");
+    return (age.low >= 0 || has(draft.config.sampling.heads_tagged_young, "young")) && has_old;
   });
 }
 

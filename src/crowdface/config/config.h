@@ -33,7 +33,7 @@ struct CellSize;  // render/contact_sheet.h
 
 /// What to do if the heads are not aligned with each other.
 enum class Align {
-  kCheck,  ///< warn
+  kCheck,  ///< warn about heads that are not aligned, and do not move them
   kRigid,  ///< align every head rigidly with the first head, by the best rotation and translation
   kNone,   ///< do not check
 };
@@ -180,9 +180,10 @@ struct Config {
   /// The ring of vertices at the neck where the meshes of all faces end.
   struct Neck {
     std::filesystem::path body;  ///< mesh of the body to which the faces are attached; empty: none
-    std::optional<Eigen::Index> like;  ///< head whose neck all faces get
-    bool uses_mean_neck = false;       ///< whether all faces get the mean of the heads' necks
-    /// file that lists the ring's vertices; empty: the ring is the open border of the heads' meshes
+    std::optional<Eigen::Index> neck_head;  ///< head whose neck all faces get (key `like`)
+    bool uses_mean_neck = false;            ///< whether all faces get the mean of the heads' necks
+    /// file that lists the vertices of this ring on the heads; empty: the ring is the open border
+    /// of the heads' meshes
     std::filesystem::path rim;
     /// file that lists the body's vertices at the ring; empty: the vertices are an open border of
     /// the body
@@ -210,8 +211,8 @@ struct Config {
     std::optional<Eigen::Index> fitted_head;
     std::filesystem::path file;
     std::vector<Attachment> items;
-    /// by kind: fraction of the faces that wear no item of the kind
-    std::map<std::string, double> none;
+    /// by kind: fraction of the faces that wear no item of the kind (key `none`)
+    std::map<std::string, double> fraction_without_item_by_kind;
     /// by kind, name or colour of items: fraction of the sampled faces that wear such an item
     std::map<std::string, double> quotas;
     /// by name of a hair colour: fraction of the faces that have this colour
@@ -225,9 +226,9 @@ struct Config {
     std::optional<std::uint64_t> size;
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// For ColourWeights::kSampled: the tags that must be equal on the head that lends textures and
-    /// on the face's target. None: all tags must be equal.
-    std::optional<std::vector<std::string>> alike;
+    /// For ColourWeights::kSampled, from the key `alike`: the tags that must be equal on the head
+    /// that lends textures and on the face's target. None: all tags must be equal.
+    std::optional<std::vector<std::string>> matching_tags;
   } textures;
 
   struct Plane {
@@ -259,16 +260,16 @@ struct Config {
     std::vector<TraitTarget> targets;  ///< the file's content, sorted by measurement
   };
   TraitTable population;  ///< distributions that the measurements of the sampled faces should have
-  /// a percentage in `traits` is a quantile of these distributions; empty: of the heads'
-  /// measurements
-  TraitTable quantiles_of;
+  /// The table of the key `quantiles_of`: distributions that turn a percentage in `traits` into a
+  /// measured value (a quantile). Measurements without an entry use the heads' measurements.
+  TraitTable quantile_distributions;
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
     /// #files, the text of each file, with the key `count` added where it was missing
     std::vector<std::string> texts;
     std::vector<std::string> original_texts;  ///< #files, the text of each file as it was read
-    std::vector<Review> reviews;              ///< #files, the review that each text contains
+    std::vector<Review> reviews;              ///< #files, the review read from each file
     /// whether the reviews stored in the crowd's folder are ignored
     bool ignores_kept_reviews = false;
   } review;
@@ -293,7 +294,7 @@ struct Config {
     MeshComparison compare;
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
     /// number of faces whose expressions (blend shapes) are shown on separate pages
-    int shapes = 0;
+    int shape_faces = 0;
     SheetTexture texture = SheetTexture::kAuto;
 
     /// Returns the size of a cell without a distance map and with two lines of text. Sheets of

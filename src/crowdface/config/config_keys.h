@@ -61,13 +61,13 @@ struct Key {
   /// false: no recipe depends on the value or on the files that the value names
   bool affects_recipes = true;
 
-  Key with_starter(const Starter& lines) const {
+  Key with_starter_lines(const Starter& make_lines) const {
     Key key = *this;
-    key.make_starter_lines = lines;
+    key.make_starter_lines = make_lines;
     return key;
   }
-  Key with_starter(const StarterLines& lines) const {
-    return with_starter([=](const StarterFacts&) { return lines; });
+  Key with_starter_lines(const StarterLines& lines) const {
+    return with_starter_lines([=](const StarterFacts&) { return lines; });
   }
   Key with_accepted_values(const std::string& values) const {
     Key key = *this;
@@ -293,8 +293,8 @@ Key<Config> believability_key();
 Key<Config> recipes_key();
 Key<Config> groups_key();
 /// A starter config may divide the crowd into two groups, women and men. Returns the number of
-/// heads in the smaller group; 0 if the starter config has no groups.
-std::size_t heads_of_smaller_group(const StarterFacts& facts);
+/// heads of the sex with fewer heads; 0 if the starter config has no groups.
+std::size_t head_count_of_smaller_sex(const StarterFacts& facts);
 Key<Config> families_key();
 Key<Config> changes_key();
 /// Reads the changes of single faces that a config or a review requests.

@@ -35,7 +35,7 @@ struct ConfigOverrides {
   /// The `diversity.min_distance` with which the crowd in the output folder was made. Empty if the
   /// config has the same value. Stored reviews that do not state a distance get this distance.
   std::optional<double> former_min_distance_mm = {};
-  /// Reviews that are files in this folder are not read. Empty: all reviews are read.
+  /// Folder of reviews that are ignored even if the config lists them. Empty: no review is ignored.
   std::filesystem::path ignored_reviews_folder = {};
 };
 

@@ -190,7 +190,7 @@ const Keys<Faces>& faces_keys() {
   static const Keys<Faces> keys = {
       Key<Faces>{"directory", read_head_directory, [](const auto&...) { return ""; }}
           .with_accepted_values("folder")
-          .with_starter([](const StarterFacts& facts) {
+          .with_starter_lines([](const StarterFacts& facts) {
             return StarterLines{write_scalar(facts.heads_folder.string())};
           }),
       Key<Faces>{"files", read_files, write_files}.with_accepted_values(
@@ -199,14 +199,14 @@ const Keys<Faces>& faces_keys() {
           "list of meshes"),
       key("units", &Faces::units, length_unit(),
           "write the unit of the files: mm, cm, m, in, ft, or a length")
-          .with_starter(starter_units),
-      key("up", &Faces::up, axis()).with_starter([](const StarterFacts& facts) {
+          .with_starter_lines(starter_units),
+      key("up", &Faces::up, axis()).with_starter_lines([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.up), "the axis that points to the top of the head"};
       }),
-      key("front", &Faces::front, axis()).with_starter([](const StarterFacts& facts) {
+      key("front", &Faces::front, axis()).with_starter_lines([](const StarterFacts& facts) {
         return StarterLines{name_of(facts.front), "the axis along which the faces look"};
       }),
-      word_key("align", &Faces::align).with_starter([](const StarterFacts& facts) {
+      word_key("align", &Faces::align).with_starter_lines([](const StarterFacts& facts) {
         if (!facts.align_rigidly)
           return StarterLines{
               std::string(word_of(Align::kCheck)),
@@ -270,8 +270,8 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
     config.sampling.targets.push_back({static_cast<Eigen::Index>(h), 1});
     config.sampling.sources.push_back(static_cast<Eigen::Index>(h));
   }
-  config.sampling.old_heads = heads_with_tags({"old"}, faces);
-  config.sampling.young_heads = heads_with_tags({"young"}, faces);
+  config.sampling.heads_tagged_old = heads_with_tags({"old"}, faces);
+  config.sampling.heads_tagged_young = heads_with_tags({"young"}, faces);
 }
 
 std::optional<StarterLines> faces_starter(const StarterFacts& facts) {

@@ -20,7 +20,7 @@ constexpr double kUnsetShare = -1;
 /// remain, keeps all old heads; the same holds for young heads.
 template <class Wanted>
 void bind_ages(SamplingOptions& sampling, const Wanted& wanted) {
-  for (auto* heads : {&sampling.old_heads, &sampling.young_heads}) {
+  for (auto* heads : {&sampling.heads_tagged_old, &sampling.heads_tagged_young}) {
     std::vector<Eigen::Index> left = *heads;
     std::erase_if(left, [&](Eigen::Index head) { return !wanted(head); });
     if (!left.empty()) *heads = left;
@@ -207,7 +207,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
-  if (heads_of_smaller_group(facts) == 0) return std::nullopt;
+  if (head_count_of_smaller_sex(facts) == 0) return std::nullopt;
   return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
                                   "{name: men, share: 0.5, tags: [male]}"}),
                       "",
@@ -221,7 +221,7 @@ std::string write_groups(const Config& config, const WriteContext& context) {
 
 }  // namespace
 
-std::size_t heads_of_smaller_group(const StarterFacts& facts) {
+std::size_t head_count_of_smaller_sex(const StarterFacts& facts) {
   const auto heads = [&](const std::string& tag) {
     return std::ranges::count_if(facts.tags,
                                  [&](const auto& tags) { return has_tags(tags, {tag}); });

@@ -17,12 +17,12 @@ Codec<std::filesystem::path> existing_file(const std::string& expected) {
 
 void read_like(const YamlNode& node, Neck& neck, ConfigDraft& draft) {
   neck.uses_mean_neck = is_word(node, "mean");
-  if (!neck.uses_mean_neck) neck.like = head().read(node, draft);
+  if (!neck.uses_mean_neck) neck.neck_head = head().read(node, draft);
 }
 
 std::string write_like(const Neck& neck, const WriteContext& context) {
   if (neck.uses_mean_neck) return "mean";
-  return neck.like ? context.head(*neck.like) : "";
+  return neck.neck_head ? context.head(*neck.neck_head) : "";
 }
 
 const Keys<Neck>& neck_keys() {

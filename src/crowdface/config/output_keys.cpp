@@ -160,7 +160,7 @@ const Keys<Sheet>& contact_sheet_keys() {
           .not_affecting_face_files(),
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
           .not_affecting_face_files(),
-      key("shapes", &Sheet::shapes, restricted(whole_number(0, 64), can_be_shown))
+      key("shapes", &Sheet::shape_faces, restricted(whole_number(0, 64), can_be_shown))
           .not_affecting_face_files(),
       word_key("texture", &Sheet::texture)};
   return keys;
@@ -219,13 +219,14 @@ std::vector<std::string> other_formats() {
 const Keys<Output>& output_keys() {
   static const Keys<Output> keys = {
       key("directory", &Output::directory, path("a folder"))
-          .with_starter([](const StarterFacts& facts) {
+          .with_starter_lines([](const StarterFacts& facts) {
             return StarterLines{write_scalar(concat("out/", facts.crowd_name))};
           })
           .not_affecting_face_files(),
       key("meshes", &Output::meshes,
           words<MeshFormat>("a list, such as [obj], or [] for no meshes", 0))
-          .with_starter({"[obj]", concat("and ", join(other_formats()), "; [] for pictures only")}),
+          .with_starter_lines(
+              {"[obj]", concat("and ", join(other_formats()), "; [] for pictures only")}),
       Key<Output>{"lods", read_lods, write_lods}.with_accepted_values(
           "decreasing list of up to 8 percentages"),
       word_key("subdivision", &Output::subdivision),

@@ -125,9 +125,9 @@ class OverriddenKeys {
         take(concat(node.path, ".bands.", band.name), *band.sources, "sources", tags);
     }
     if (own.age.high > 0)
-      take(node.path + ".age", own.old_heads, "heads tagged old", remove_age_tags(tags));
+      take(node.path + ".age", own.heads_tagged_old, "heads tagged old", remove_age_tags(tags));
     if (own.age.low < 0)
-      take(node.path + ".age", own.young_heads, "heads tagged young", remove_age_tags(tags));
+      take(node.path + ".age", own.heads_tagged_young, "heads tagged young", remove_age_tags(tags));
     const auto replaced = [&](const char* key) {
       tell("sampling.", key, ": does not apply to the group ", config_.groups[g].name,
            ", whose tags select its heads (", counted_faces(faces_of_[g]), ")");

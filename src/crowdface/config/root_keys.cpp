@@ -17,14 +17,14 @@ const Keys<Config::Crowd>& crowd_keys() {
   constexpr std::uint64_t kMaxCount = 1'000'000;
   static const Keys<Crowd> keys = {
       key("name", &Crowd::name, name(), "write the prefix of the faces' ids")
-          .with_starter([](const StarterFacts& facts) {
+          .with_starter_lines([](const StarterFacts& facts) {
             return StarterLines{write_scalar(facts.crowd_name),
                                 concat("ids start with it: ", facts.crowd_name, "_0001, …")};
           }),
       key("count", &Crowd::count, whole_number(0, kMaxCount), "write the number of faces to sample")
-          .with_starter({"24", "how many faces; a larger crowd starts with the same ones"}),
+          .with_starter_lines({"24", "how many faces; a larger crowd starts with the same ones"}),
       key("seed", &Crowd::seed, whole_number(0, UINT64_MAX))
-          .with_starter({"1", "another number, another crowd"})};
+          .with_starter_lines({"1", "another number, another crowd"})};
   return keys;
 }
 
@@ -71,7 +71,7 @@ const Keys<Config::Textures>& textures_keys() {
           words<TextureFormat>("a list of formats, [png, jpeg, exr]"))
           .not_affecting_recipes(),
       word_key("colours", &Textures::colours).written_if(are_sampled),
-      key("alike", &Textures::alike, list(name(), "a list of tags, [female, male]"))
+      key("alike", &Textures::matching_tags, list(name(), "a list of tags, [female, male]"))
           .written_if(are_sampled)};
   return keys;
 }
@@ -85,11 +85,11 @@ void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
   if (textures.colours == ColourWeights::kSampled && textures.blend != TextureBlend::kAuto) {
     complain("colours", "drawn requires textures.blend: auto");
   }
-  if (textures.alike && textures.colours != ColourWeights::kSampled) {
+  if (textures.matching_tags && textures.colours != ColourWeights::kSampled) {
     complain("alike", "requires colours: drawn");
   }
-  if (!textures.alike || !draft.heads_known) return;
-  for (const std::string& tag : *textures.alike) {
+  if (!textures.matching_tags || !draft.heads_known) return;
+  for (const std::string& tag : *textures.matching_tags) {
     const bool known = std::ranges::any_of(draft.config.faces.tags,
                                            [&](const auto& tags) { return contains(tags, tag); });
     if (!known) complain("alike", concat("no head has the tag ", quoted(tag)));
@@ -247,7 +247,7 @@ SamplingOptions with_a_region() {
 const Keys<Config>& root_keys() {
   static const Keys<Config> keys = {
       Key<Config>{"schema", read_schema, [](const auto&...) { return "1"; }, "write \"schema: 1\""}
-          .with_starter({"1"}),
+          .with_starter_lines({"1"}),
       section_key("crowd", &Config::crowd, crowd_keys(),
                   "such as \"crowd: {name: market, count: 24}\"")
           .not_affecting_face_files(),
@@ -277,10 +277,11 @@ const Keys<Config>& root_keys() {
       believability_key().not_affecting_face_files(),
       traits_key().not_affecting_face_files(),
       trait_table_key("population", &Config::population).not_affecting_face_files(),
-      trait_table_key("quantiles_of", &Config::quantiles_of)
+      trait_table_key("quantiles_of", &Config::quantile_distributions)
           .not_affecting_face_files()
-          .written_if(
-              [](const Config& config, const auto&) { return !config.quantiles_of.file.empty(); }),
+          .written_if([](const Config& config, const auto&) {
+            return !config.quantile_distributions.file.empty();
+          }),
       groups_key().not_affecting_face_files(),
       recipes_key().not_affecting_face_files(),
       families_key().not_affecting_face_files(),

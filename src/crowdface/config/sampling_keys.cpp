@@ -27,9 +27,9 @@ struct PerRegion {
 /// `{default: …, top: …}`; or a mapping whose keys are parameters of the value and also names of
 /// regions.
 ///
-/// \param parameters  the keys of a value that is itself a mapping. A region may have the name of a
-///                    parameter whose value is never a mapping: an entry with this name is the
-///                    region's if its value is a mapping, and otherwise the parameter's.
+/// \param parameters  the keys of a value that is itself a mapping. If a region and a parameter
+///                    have the same name, an entry with this name belongs to the region if the
+///                    entry's value is a mapping, and otherwise to the parameter.
 PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
   PerRegion split;
   if (node.kind != YamlNode::Kind::kMap) {
@@ -283,11 +283,12 @@ const Keys<SamplingOptions>& sampling_keys() {
                                names_of(position_keys())),
       per_region_key<Sampling>("smoothness", &RegionSampling::smoothness, sampled_smoothness(),
                                {"iterations"})
-          .with_starter({"[0.15, 0.7]", "",
-                         "How much of the target's relief is replaced by that of the sources: 0 "
-                         "nothing, 1 all of it\nup to 240 mm. Or a size: [4 mm, 30 mm]."}),
+          .with_starter_lines(
+              {"[0.15, 0.7]", "",
+               "How much of the target's relief is replaced by that of the sources: 0 "
+               "nothing, 1 all of it\nup to 240 mm. Or a size: [4 mm, 30 mm]."}),
       per_region_key<Sampling>("extrapolation", &RegionSampling::extrapolation, extrapolation())
-          .with_starter(
+          .with_starter_lines(
               {"[0.9, 1.2]", "", "Above 1 features are stronger than scanned, below 1 weaker."}),
       Key<Sampling>{"max_sources",
                     [](const YamlNode& node, Sampling& sampling, ConfigDraft& draft) {
@@ -300,7 +301,8 @@ const Keys<SamplingOptions>& sampling_keys() {
                       return sampling.max_sources ? concat(*sampling.max_sources) : "all";
                     }}
           .with_accepted_values(concat("`all`, or ", whole_number(1, kMaxSources).accepted_values))
-          .with_starter({"3", "", "How many heads lend their features to each region of a face."}),
+          .with_starter_lines(
+              {"3", "", "How many heads lend their features to each region of a face."}),
       Key<Sampling>{"bands", read_bands, write_bands}
           .with_accepted_values("mapping from names to the keys of a band")
           .with_nested_keys(band_keys()),

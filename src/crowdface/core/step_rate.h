@@ -14,7 +14,7 @@ namespace crowdface {
 class StepRate {
  public:
   /// \param burst  number of steps that may end at almost the same time, such as the number of
-  ///     threads. Samples are at least this many steps apart.
+  ///     threads. Measured times are at least this many steps apart.
   explicit StepRate(std::size_t burst = 1) : burst_(burst) {}
 
   /// Records the number of finished steps.

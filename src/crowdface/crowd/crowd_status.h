@@ -33,7 +33,7 @@ struct ShardStatus {
 
 struct CrowdStatus {
   bool is_planned = false;                ///< whether the plan exists
-  bool is_report_written = false;         ///< whether the report exists, so that all work is done
+  bool is_report_written = false;         ///< whether the report exists; it is written last
   std::uint64_t face_count = 0;           ///< number of faces in the plan
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun

@@ -134,8 +134,9 @@ class Ledger {
   std::filesystem::path root_, own_ledger_;
   std::vector<std::filesystem::path> other_ledgers_;
   std::map<std::string, Item> items_;
-  std::vector<LedgerEntry::File> replaced_files_;  ///< files of lines that newer lines replaced
-  bool has_appended_ = false;                      ///< whether this run has appended lines
+  /// files listed by lines of the ledger that newer lines replaced
+  std::vector<LedgerEntry::File> replaced_files_;
+  bool has_appended_ = false;  ///< whether this run has appended lines
   std::mutex mutex_;
   std::unique_ptr<AppendFile> file_;
 };

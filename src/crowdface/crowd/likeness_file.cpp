@@ -29,7 +29,7 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
 
   std::map<std::string, std::vector<double>> anchors;
   Likeness likeness;
-  std::size_t named = 0;  ///< number of faces whose neighbours are in the file
+  std::size_t face_count_with_neighbours = 0;  ///< number of faces whose neighbours are in the file
 
   bool start_object(std::size_t) override { return ++depth_ <= kDeepest; }
   bool start_array(std::size_t) override { return ++depth_ <= kDeepest; }
@@ -39,13 +39,13 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
     if (depth_ < 1) return false;
     keys_[depth_ - 1] = key;
     if (depth_ != 2 || keys_[0] != "nearest") return true;
-    ++named;
+    ++face_count_with_neighbours;
     return rows_.contains(key);
   }
   bool string(std::string& value) override {
     const auto row = rows_.find(value);
     if (depth_ != 2 || keys_[0] != "order" || row == rows_.end()) return false;
-    likeness.order.push_back(row->second);
+    likeness.face_order.push_back(row->second);
     return true;
   }
   bool number_float(double value, const std::string&) override {
@@ -103,7 +103,7 @@ TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
     std::string text = heads.dump(1);
     text.resize(text.size() - std::string_view("\n}").size());
     take(text + ",\n \"order\": [");
-    const std::vector<std::size_t>& order = likeness.likeness.order;
+    const std::vector<std::size_t>& order = likeness.likeness.face_order;
     text_of_items(order.size(), [&](std::size_t i) {
       return concat(start(i), Json(ids[order[i]]).dump());
     })(take);
@@ -133,8 +133,9 @@ CrowdLikeness read_likeness(const std::filesystem::path& path, const PlanNames& 
       result.anchors.emplace_back(anchor->second[0], anchor->second[1]);
     }
     result.likeness = std::move(reader.likeness);
-    if (result.anchors.size() == names.heads.size() && reader.named == ids.size() &&
-        result.likeness.order.size() == ids.size()) {
+    if (result.anchors.size() == names.heads.size() &&
+        reader.face_count_with_neighbours == ids.size() &&
+        result.likeness.face_order.size() == ids.size()) {
       return result;
     }
   }

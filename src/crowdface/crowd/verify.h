@@ -11,11 +11,12 @@ namespace crowdface {
 /// Result of comparing a crowd's folder with its ledger. All lists are empty if no file has changed
 /// since the crowd was written.
 struct CrowdCheck {
-  std::size_t file_count = 0;                 ///< number of files in the ledger
-  std::vector<std::string> missing_files;     ///< missing files, relative to the folder
-  std::vector<std::string> altered_files;     ///< files with other content
-  std::vector<std::string> unfinished_items;  ///< items of the plan that no ledger line proves
-  std::vector<std::string> remarks;           ///< problems of the ledger itself, and leftovers
+  std::size_t file_count = 0;              ///< number of files in the ledger
+  std::vector<std::string> missing_files;  ///< missing files, relative to the folder
+  std::vector<std::string> altered_files;  ///< files with other content
+  /// ids of the faces in the plan, and files of plan and report, that no ledger lists as finished
+  std::vector<std::string> unfinished_items;
+  std::vector<std::string> remarks;  ///< problems of the ledger itself, and leftovers
 
   bool is_intact() const {
     return missing_files.empty() && altered_files.empty() && unfinished_items.empty() &&

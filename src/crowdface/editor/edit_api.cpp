@@ -279,19 +279,19 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   const Json chosen = body.contains("wears") ? body["wears"] : Json::object();
   if (!chosen.is_object()) throw UsageError("wears: expected a mapping from kinds");
   const std::string opened = opened_id(body);
-  answer.head["worn"] = Json::array();
+  answer.json["worn"] = Json::array();
   const auto worn = attachments_.attachments_of(face, opened, chosen, positions, moves);
-  answer.head["bare"] = !worn;  // attachments are still being bound; the page asks again
+  answer.json["bare"] = !worn;  // attachments are still being bound; the page asks again
   for (const PlacedAttachment& one : worn.value_or(std::vector<PlacedAttachment>())) {
     const std::vector<float> places = attachments_.vertex_positions(one);
     const std::string name = one.look().name();
-    answer.head["worn"].push_back(name);
+    answer.json["worn"].push_back(name);
     answer.add(concat("worn ", name), std::span(places));
   }
-  answer.head["ms"] =
+  answer.json["ms"] =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (body.contains("measure") && body["measure"] == true) {
-    answer.head.update(measures_json(session_.measure(face, positions, opened)));
+    answer.json.update(measures_json(session_.measure(face, positions, opened)));
   }
   return binary_answer(answer.bytes());
 }

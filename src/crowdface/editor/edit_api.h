@@ -86,7 +86,7 @@ class EditApi {
   EditPictures pictures_;
   EditAttachments attachments_;
   EditExpressions expressions_;
-  DroppedFiles dropped_;
+  DroppedFiles dropped_;     ///< files that the user drags from the desktop and drops on the page
   RegionPainting painting_;  ///< guarded by `build_mutex_`
   std::mutex build_mutex_;   ///< builds one face at a time, because each build uses all cores
   /// Number of sampling attempts so far, so that each request samples different faces.

@@ -172,7 +172,7 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
 HttpAnswer EditApi::painted_masks() const {
   const std::vector<float> masks = painting_.masks();
   BinaryAnswer answer;
-  answer.head["painted"] = painting_.differs_from_config();
+  answer.json["painted"] = painting_.differs_from_config();
   answer.add("alpha", std::span(masks));
   return binary_answer(answer.bytes());
 }

@@ -147,7 +147,7 @@ EditSession::JudgingData EditSession::judging() const {
           std::move(rules)};
 }
 
-std::vector<HeadLevels> EditSession::preview_levels() const {
+std::vector<HeadSmoothing> EditSession::preview_levels() const {
   if (!preview_prepared_) return head_levels(job_.config, prepared_);
   return head_levels(with_fitted_levels(job_.config), *preview_prepared_);
 }

@@ -37,7 +37,7 @@ struct FaceMeasures {
   /// The smaller of two distances to `nearest_head`: `nearest_head_as_built_mm`, and the distance
   /// without extrapolation (all extrapolation factors 1).
   double nearest_head_mm = 0;
-  /// distance to `nearest_head` with the face's own extrapolation factors
+  /// distance from the face, as built with its own extrapolation factors, to `nearest_head`
   double nearest_head_as_built_mm = 0;
   /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
   /// which the user began the edit.
@@ -81,7 +81,7 @@ class EditSession {
   /// computation is finished.
   std::string ambient_light_answer() const;
   /// A BinaryAnswer with a head's positions at the preview's vertices, the head's vector fields,
-  /// and the values of the level functions of these fields (see HeadLevels).
+  /// and the values of the level functions of these fields (see HeadSmoothing).
   std::string head_answer(Index head) const;
 
   /// The region masks for blending; zero at vertices of components that are not skin.
@@ -145,7 +145,7 @@ class EditSession {
                                                     const std::string& opened_id) const;
   nlohmann::ordered_json regions_json() const;
   FacePlan first_face() const;
-  std::vector<HeadLevels> preview_levels() const;
+  std::vector<HeadSmoothing> preview_levels() const;
 
   Job job_;
   TextureAtlas textures_;

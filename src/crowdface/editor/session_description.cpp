@@ -147,7 +147,7 @@ Json EditSession::description() const {
   json["max_sources"] =
       config.sampling.max_sources ? Json(*config.sampling.max_sources) : Json(nullptr);
   json["formats"] = EditedFolder::formats();
-  json["limits"] = {{"head_mm", config.diversity.min_distance_to_faces_mm},
+  json["limits"] = {{"head_mm", config.diversity.min_distance_to_heads_mm},
                     {"face_mm", config.diversity.min_distance_mm}};
   for (int step = 0; step <= kLevels; ++step) {
     const std::uint64_t level = iterations_of(smoothness_at(step), casting_.level_scale);
@@ -160,7 +160,7 @@ Json EditSession::description() const {
   json["crowd"] = nullptr;
   if (crowd_) {
     json["crowd"] = {{"directory", config.output.directory.string()}, {"faces", Json::array()}};
-    add_change_choices(config, job_.inputs.textures.has_textures(), json["crowd"]);
+    add_possible_changes(config, job_.inputs.textures.has_textures(), json["crowd"]);
     for (const FacePlan& face : *crowd_) {
       Json entry = recipe_to_json(face, casting_, config);
       entry["index"] = face.index ? Json(*face.index) : Json(nullptr);
@@ -204,9 +204,9 @@ std::string EditSession::mesh_answer() const {
     high = high.max(head.positions.colwise().maxCoeff().transpose().array());
   }
   BinaryAnswer answer;
-  answer.head["vertices"] = preview_.vertices.size();
-  answer.head["low"] = {low[0], low[1], low[2]};
-  answer.head["high"] = {high[0], high[1], high[2]};
+  answer.json["vertices"] = preview_.vertices.size();
+  answer.json["low"] = {low[0], low[1], low[2]};
+  answer.json["high"] = {high[0], high[1], high[2]};
   const auto add = [&](std::string_view name, const auto& values) {
     answer.add(name, std::span(values));
   };
@@ -215,12 +215,12 @@ std::string EditSession::mesh_answer() const {
   add("colours", colours);
   add("alpha", masks);
   if (!preview_.uvs.empty()) add("uv", preview_.uvs);
-  add("twin", preview_.first_copies);
+  add("twin", preview_.first_copy_of_vertex);
   add("part", parts);
   add("textured", textured);
   if (const auto eyes =
           eye_coordinates(head_set.topology, surfaces, mean, job_.config.faces.front)) {
-    answer.head["eyes"] = {{"pupil", kPupilRadius},
+    answer.json["eyes"] = {{"pupil", kPupilRadius},
                            {"iris", kIrisRadius},
                            {"softness", kIrisSoftness},
                            {"white", colour_to_json(albedo_of(SurfaceKind::kEye))},
@@ -245,7 +245,7 @@ std::string EditSession::ambient_light_answer() const {
 }
 
 std::string EditSession::head_answer(Index head) const {
-  const HeadLevels levels = preview_levels()[static_cast<std::size_t>(head)];
+  const HeadSmoothing levels = preview_levels()[static_cast<std::size_t>(head)];
   // Quantise all numbers of a field with the same step size, because the page stores a field in one
   // texture.
   std::vector<float> values;
@@ -273,8 +273,8 @@ std::string EditSession::head_answer(Index head) const {
   const std::vector<float> positions =
       preview_points(job_.inputs.head_set.heads[static_cast<std::size_t>(head)].positions);
   BinaryAnswer answer;
-  answer.head["rank"] = levels.fields.rank;
-  answer.head["scale"] = steps;
+  answer.json["rank"] = levels.fields.rank;
+  answer.json["scale"] = steps;
   answer.add("positions", std::span(positions));
   answer.add("fields", std::span(std::as_const(fields)));
   answer.add("functions", std::span(std::as_const(functions)));

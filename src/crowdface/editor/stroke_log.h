@@ -33,7 +33,7 @@ class StrokeLog {
 
  private:
   std::filesystem::path file_;
-  Digest painted_on_;
+  Digest painted_on_;  ///< hash of the masks and of the preview on which the strokes are painted
   std::vector<nlohmann::ordered_json> strokes_;
   std::unique_ptr<AppendFile> append_file_;  ///< open since the first call of `add`
 };

@@ -17,7 +17,7 @@ namespace {
 
 /// Texture coordinates that give each polygon its own square of the image; the squares form rows.
 struct SquareLayout {
-  static constexpr int kTexels = 4;  ///< side of a square
+  static constexpr int kTexels = 4;  ///< side of each polygon's square, in texels
   int per_row;
 
   explicit SquareLayout(Index polygons)

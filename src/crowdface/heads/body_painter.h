@@ -36,7 +36,9 @@ class BodyPainter {
   std::shared_ptr<const TextureMap> map_;
   std::unique_ptr<const SurfaceTexels> texels_;
   Positions body_optical_densities_;  ///< the body's colours at the ring of the neck, #rim by 3
-  NeckBend fade_;                     ///< fades colour differences away from the ring
+  /// spreads colour differences at the ring over the body as NeckBend spreads displacements: the
+  /// differences fade with the distance from the ring
+  NeckBend fade_;
 };
 
 }  // namespace crowdface

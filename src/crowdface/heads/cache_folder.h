@@ -33,8 +33,8 @@ inline constexpr std::string_view kPreparedKind = "prepared", kReadKind = "read"
 /// The entries of a cache, their number and their total size.
 struct CacheContents {
   std::vector<std::filesystem::path> entries;
-  std::size_t prepared_head_count = 0;  ///< number of prepared heads
-  std::size_t loaded_head_count = 0;    ///< number of heads as read from their files
+  std::size_t prepared_head_count = 0;  ///< number of entries with a prepared head
+  std::size_t loaded_head_count = 0;    ///< number of entries with the parsed file of a head
   std::uintmax_t bytes = 0;
 };
 CacheContents list_cache(const std::filesystem::path& cache);

@@ -49,7 +49,8 @@ std::optional<Value> find_cached(const CacheFolder& cache, const CacheKey& key, 
   }
 }
 
-/// The arrays of a value. The value must live until the arrays are written.
+/// Returns the arrays of a cached object, which refer to the object's memory. The object must live
+/// until the arrays are written.
 template <class Value, class Visit>
 std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
   ArrayWriter arrays;
@@ -61,7 +62,7 @@ std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
 /// \param what  replaces WHAT in the warning "WHAT cannot be kept".
 /// \return whether the entry was written.
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,
-           std::string_view what = "what was found of the heads");
+           std::string_view what = "data computed from the heads");
 
 /// Returns the value from the cache; if it is not there, calls `make()` and stores the result.
 template <class Make, class Visit, class IsSound>

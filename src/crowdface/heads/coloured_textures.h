@@ -11,7 +11,8 @@ namespace crowdface {
 /// A material file or a texture of an attachment, and whether it gets the attachment's colour.
 struct AttachmentFile {
   MaterialFile file;
-  bool is_coloured = false;  ///< a colour texture, whose content is coloured_texture
+  /// whether the file is a neutral colour texture, which `coloured_texture` tints
+  bool is_coloured = false;
 };
 /// Lists the material files and textures of an attachment. A coloured texture has the same file
 /// name as the neutral texture.

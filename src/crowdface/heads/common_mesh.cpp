@@ -82,10 +82,10 @@ bool has_same_corner_uvs(const HeadMesh& first, const HeadMesh& found) {
   return true;
 }
 
-/// For each vertex of another head's mesh, the matching vertex of a head.
+/// The vertices of a head that match the vertices of the first head.
 struct VertexMatch {
-  Vertices vertices;
-  bool has_own_uvs = false;  ///< whether the head has other texture coordinates
+  Vertices vertices;         ///< for each vertex of the first head: the matching vertex
+  bool has_own_uvs = false;  ///< whether the two heads have different texture coordinates
 };
 
 /// Matches the vertices by the graph of the edges, after vertices at seams are joined. The polygons
@@ -97,7 +97,7 @@ std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& h
   Vertices copies;  // first copy of each joined vertex
   if (found.vertex_count > expected.vertex_count) {
     JoinedBorders by = joined_borders(found, positions);
-    copies = std::move(by.first_copies);
+    copies = std::move(by.first_copy_of_joined_vertex);
     if (std::ssize(copies) != expected.vertex_count) return std::nullopt;
     for (std::uint32_t& vertex : found.corner_vertices) vertex = by.joined_vertex[vertex];
     found.vertex_count = expected.vertex_count;
@@ -229,8 +229,8 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
 /// Finds a common mesh for heads from formats whose reader joins all vertices at the same position.
 /// In the common mesh, corners share a vertex if they have the same position in every head.
 /// \param heads  heads with the same polygons
-/// \param made   receives the common mesh if no head has this mesh, because each head joins some
-///               vertices that have different positions in another head
+/// \param made   receives the common mesh if no head has this mesh. This happens if each head joins
+///               some vertices that are separate in another head.
 /// \return a head with the common mesh
 const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
   constexpr double kMaxTouching = 0.02;  // fraction of vertices; different meshes exceed it

@@ -182,8 +182,10 @@ Differences vertex_distances(const AlignedPart& part, double mm) {
 
 /// Limits beyond which a head counts as different from the other heads.
 struct OutlierLimits {
-  double quantile;               ///< over the items of a head
-  double min_difference;         ///< added to what is usual, in the unit of the differences
+  double quantile;  ///< over the items of a head
+  /// added to the denominator of each relative difference, so that a tiny difference is no outlier
+  /// where all heads agree; in the unit of the differences
+  double min_difference;
   double min_score;              ///< smallest score of an outlier
   double min_score_over_median;  ///< smallest ratio of an outlier's score to the median score
 };
@@ -200,7 +202,8 @@ double quantile(const Eigen::VectorXd& values, double share) {
 /// A head that differs from the others.
 struct Outlier {
   std::size_t head;
-  double difference, usual;  ///< quantile of the head's differences, and median over all heads
+  double difference;  ///< quantile of the head's differences
+  double usual;       ///< median of `difference` over all heads
 };
 
 /// Finds the heads whose differences are large compared with those of the other heads at the same

@@ -36,9 +36,9 @@ double power(double base, std::uint64_t exponent) {
 }
 
 /// Returns the weights of the heads' shape sets in a region, normalised to the sum 1. Before the
-/// normalisation, a head's weight is its weight in the target minus a term for each band: the
-/// head's weight in the band (see level_shares) times the fraction of the shape that smoothing up
-/// to the band's level removes.
+/// normalisation, the weight of head h is t(h) − Σ_b w_b(h) r_b. t(h) is the weight of h in the
+/// target. w_b(h) is the weight of h in band b (see level_shares). r_b is the fraction of the shape
+/// that smoothing to the level of band b removes.
 /// \param kept  result of kept_by_smoothing
 ShapeSetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);

@@ -63,12 +63,13 @@ void FaceTextures::blend_textures(const Config& config) {
   options.vertex_areas =
       face_vertex_areas(topology, inputs.skin_components, mean_head(inputs.head_set),
                         FaceArea::kFront, config.faces.front);
-  options.is_target_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
+  options.uses_target_colours_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
   for (const Part& part : inputs.parts.parts) {
-    for (const std::uint32_t vertex : part.vertices) options.is_target_only[vertex] = true;
+    for (const std::uint32_t vertex : part.vertices)
+      options.uses_target_colours_only[vertex] = true;
   }
   region_area_fractions_ = region_shares(inputs.regions, options.vertex_areas);
-  if (!inputs.colours.empty()) uses_target_colours_only_ = options.is_target_only;
+  if (!inputs.colours.empty()) uses_target_colours_only_ = options.uses_target_colours_only;
   if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),

@@ -32,9 +32,10 @@ class FacePoses {
   bool uses_rotated_head(const Recipe& recipe) const;
 
   const HeadsOnBody& neck_;
-  SampledHeads placed_heads_,
-      turned_heads_;         ///< above the bend, in file units: as placed, in the common pose
-  RigidMotion mean_motion_;  ///< the mean head's motion from its placed to the common pose
+  /// the heads above the bend of the neck, in file units, as placed on the body
+  SampledHeads placed_heads_;
+  SampledHeads turned_heads_;  ///< `placed_heads_`, rotated to the common pose
+  RigidMotion mean_motion_;    ///< the mean head's motion from its placed to the common pose
 };
 
 }  // namespace crowdface

@@ -20,8 +20,8 @@ class FileFingerprint {
   /// \param cache  the cache that stores the fingerprints of files that were read before
   FileFingerprint(const CacheFolder& cache, const std::filesystem::path& file);
 
-  /// Hash of the file's bytes; empty unless files that were read before are trusted and this file
-  /// has not changed since.
+  /// The stored hash of the file's bytes. Empty if the cache does not trust seen files, has no hash
+  /// of this file, or if the file has changed since it was last read.
   const std::optional<Digest>& digest() const { return digest_; }
   /// Stores the hash of the file's bytes in the cache. The caller must construct this object before
   /// reading the file, and must call this function only if the bytes are valid. Stores nothing if

@@ -29,12 +29,12 @@ bool are_fields(const LevelFields& fields) {
 }
 
 constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
-  auto& [fields, mapped, mixing, error] = head.levels;
-  arrays("mixing", mixing);
+  auto& [fields, mapped, coefficients, error] = head.levels;
+  arrays("mixing", coefficients);
   arrays("error max", error.max);
   arrays("error rms", error.rms);
   arrays("error level", error.level);
-  arrays("trajectory", head.trajectory);
+  arrays("trajectory", head.smoothing_trajectory);
   arrays("first fields", fields.first_field_of_tile);
   arrays("steps", fields.quantization_steps);
   arrays("numbers", fields.quantized_values);
@@ -43,19 +43,20 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
 /// Whether an entry has these sizes and consistent fields. Also fills in the members that follow
 /// from the sizes.
 bool is_head(PreparedHead& head, const HeadCacheSizes& sizes) {
-  const Eigen::MatrixXd& mixing = head.levels.mixing;
+  const Eigen::MatrixXd& coefficients = head.levels.function_coefficients;
   LevelFields& fields = head.levels.fields;
   std::size_t firsts = 0;
   if (sizes.levels != LevelRepresentation::kExact) {
     fields.vertex_count = sizes.vertex_count;
-    fields.rank = sizes.levels == LevelRepresentation::kCubic ? CubicFit::kRank : mixing.cols();
+    fields.rank =
+        sizes.levels == LevelRepresentation::kCubic ? CubicFit::kRank : coefficients.cols();
     firsts = LevelFields::tile_count(static_cast<std::size_t>(sizes.vertex_count)) + 1;
   }
   const Index nodes = sizes.levels == LevelRepresentation::kBasis ? sizes.level_node_count : 0;
-  return head.trajectory.rows() == sizes.trajectory_level_count &&
-         head.trajectory.cols() == 3 * sizes.sample_count && mixing.rows() == nodes &&
-         mixing.cols() <= nodes && fields.first_field_of_tile.size() == firsts &&
-         are_fields(fields) &&
+  return head.smoothing_trajectory.rows() == sizes.trajectory_level_count &&
+         head.smoothing_trajectory.cols() == 3 * sizes.sample_count &&
+         coefficients.rows() == nodes && coefficients.cols() <= nodes &&
+         fields.first_field_of_tile.size() == firsts && are_fields(fields) &&
          fields.quantized_values.size() == fields.quantization_steps.size() * kTileValues;
 }
 

@@ -22,16 +22,16 @@ struct StoredLevels {
   LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
   std::shared_ptr<const MappedFile> mapped_file;
-  /// `levels: basis`: the functions φ_p(L), which weight the fields of a level, as combinations of
-  /// the nodes' functions; #nodes by rank, see LevelBasis
-  Eigen::MatrixXd mixing;
+  /// For `levels: basis`, #nodes by rank: coefficients of the level functions φ_p(L), see
+  /// LevelBasis::mixing
+  Eigen::MatrixXd function_coefficients;
   BasisError error;  ///< `levels: basis`
 };
 
 /// The cached data of a head: the trajectories of the sample points during smoothing and, unless
 /// `levels: exact`, the fitted levels.
 struct PreparedHead {
-  Trajectory trajectory;
+  Trajectory smoothing_trajectory;  ///< of the sample points
   StoredLevels levels;
 };
 

@@ -55,10 +55,11 @@ std::shared_ptr<const MirrorMap> required_mirror_map(const Config& config, const
 std::string describe_mirror(const Config& config, const FoundMirror& mirror) {
   const double mm = mm_per(config.faces.units);
   const auto all = static_cast<Index>(mirror.map.corners.size());
-  std::string text = concat(mirror.mutual_vertex_count + mirror.surface_partner_count, " of ", all,
-                            " vertices with a mirror image");
-  if (mirror.surface_partner_count > 0) {
-    text += concat(", ", mirror.surface_partner_count, " of them on the surface between vertices");
+  const Index with_partner = mirror.paired_vertex_count + mirror.surface_mirrored_vertex_count;
+  std::string text = concat(with_partner, " of ", all, " vertices with a mirror image");
+  if (mirror.surface_mirrored_vertex_count > 0) {
+    text += concat(", ", mirror.surface_mirrored_vertex_count,
+                   " of them on the surface between vertices");
   }
   return concat(text, "; the mean head is ", format_fixed(mm * mirror.rms_distance, 2),
                 " mm from its mirror image (rms), ", format_fixed(mm * mirror.max_distance, 2),

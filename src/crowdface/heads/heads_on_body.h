@@ -24,7 +24,9 @@ struct HeadsOnBody {
     Eigen::Vector3d pose_rotation = Eigen::Vector3d::Zero();
     double shift_mm = 0;  ///< rms distance by which placement and turn together move the ring
     double rotation_degrees = 0;  ///< angle of placement and turn together
-    double max_bend_mm = 0;  ///< largest distance of the placed and turned ring from the body's
+    /// after placement and turn: largest distance between a vertex of the head's ring and the
+    /// matching vertex of the body's ring
+    double max_bend_mm = 0;
   };
   Seam seam;
   std::vector<Head> heads;

@@ -85,8 +85,9 @@ struct Rig {
 /// A level of detail, and its error relative to the full mesh.
 struct MeasuredLevel {
   DetailLevel level;
-  LevelError heads_error;   ///< over all heads, mm
-  LevelError shapes_error;  ///< over all shapes of the template, mm; 0 if there are none
+  LevelError heads_error;  ///< distance of the full mesh from the level, over all heads, mm
+  /// like heads_error, but over all blend shapes of the template; 0 if there are none
+  LevelError shapes_error;
 };
 
 /// All inputs of a job, checked: heads, their topology, masks, and data computed from these.

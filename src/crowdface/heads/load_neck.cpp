@@ -131,16 +131,17 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
     const Positions ring = poses.mean(head_set, rim, rim);
     goal.body = read_neck_body(config, inputs, rim, ring);
     goal.rotation = goal.body.is_head_mesh
-                        ? poses.rotation_to(head_set, rim, goal.body.skin_positions)
+                        ? poses.rotation_to(head_set, rim, goal.body.head_positions)
                         : rotation_of_rim(ring, goal.body.rim_positions);
     return goal;
   }
   goal.body.area_vectors = Positions::Zero(static_cast<Index>(rim.size()), 3);
-  if (!config.neck.like) {
+  if (!config.neck.neck_head) {
     goal.body.rim_positions = poses.mean(head_set, rim, rim);
     return goal;
   }
-  const Positions& head = head_set.heads[static_cast<std::size_t>(*config.neck.like)].positions;
+  const auto neck_head = static_cast<std::size_t>(*config.neck.neck_head);
+  const Positions& head = head_set.heads[neck_head].positions;
   goal.body.rim_positions = head(rim, kAllColumns);
   goal.rotation = poses.rotation_to(head_set, rim, head);
   return goal;

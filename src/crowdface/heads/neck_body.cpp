@@ -151,7 +151,7 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
       mesh = with_polygons(below, std::move(mesh), found);
     }
     body.area_vectors = area_vectors_around(mesh.topology, mesh.positions, found);
-    if (body.is_head_mesh) body.skin_positions = mesh.positions;
+    if (body.is_head_mesh) body.head_positions = mesh.positions;
     if (neck.needs_body_mesh()) keep_body(std::move(mesh), found, body);
   } catch (const InvalidInput& error) {
     refuse_file(neck.body, error.what());

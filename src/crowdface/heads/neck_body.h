@@ -22,7 +22,7 @@ struct NeckBody {
   Positions area_vectors;   ///< area vectors of its polygons around the rim, #rim by 3
   /// Whether the file contains a head, with the heads' topology, instead of a body.
   bool is_head_mesh = false;
-  Positions skin_positions = {};  ///< positions of the whole mesh if it is a head; else empty
+  Positions head_positions = {};  ///< if the file contains a head: positions of its whole mesh
   /// The body's mesh, stored like an attachment; null if the config does not need the mesh.
   std::shared_ptr<Attachment> mesh = {};
   Rim mesh_rim = {};  ///< the vertices of `mesh` at the rim, in the order of the heads' rim

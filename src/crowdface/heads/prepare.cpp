@@ -68,8 +68,8 @@ class HeadPreparation {
     const LevelNodes& nodes = *prepared_.nodes;
     PreparedHead result;
     const NodeFields fields = filter_nodes(filter(), nodes, head.positions);
-    result.trajectory =
-        sample_smoothing_trajectory(filter(), nodes, fields, prepared_.traced_samples);
+    result.smoothing_trajectory =
+        sample_smoothing_trajectory(filter(), nodes, fields, prepared_.trajectory_samples);
     if (config_.smoothing.levels == LevelRepresentation::kCubic) {
       result.levels.fields = fit_cubic(filter(), head.positions, inputs_.max_level).fields;
     }
@@ -77,7 +77,7 @@ class HeadPreparation {
       const double tolerance = config_.smoothing.tolerance_mm / mm_per(config_.faces.units);
       LevelBasis basis = fit_level_basis(filter(), nodes, fields, tolerance);
       result.levels.fields = std::move(basis.fields);
-      result.levels.mixing = std::move(basis.mixing);
+      result.levels.function_coefficients = std::move(basis.function_coefficients);
       result.levels.error = basis.error;
     }
     return result;
@@ -104,10 +104,10 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   Prepared prepared;
   const auto chosen = [&](Index count) { return choose_samples(config, inputs, count); };
   if (inputs.mirror_map == nullptr) {
-    prepared.traced_samples = prepared.samples = chosen(kSampleCount);
+    prepared.trajectory_samples = prepared.samples = chosen(kSampleCount);
   } else {
     prepared.samples = samples_and_mirror_images(chosen(kSampleCount / 2), *inputs.mirror_map);
-    prepared.traced_samples = samples_and_mirror_corners(prepared.samples, *inputs.mirror_map);
+    prepared.trajectory_samples = samples_and_mirror_corners(prepared.samples, *inputs.mirror_map);
   }
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
                                                       inputs.max_level, missed_by_nodes(config));
@@ -116,7 +116,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
 
 HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   return {inputs.head_set.topology.vertex_count,
-          static_cast<Index>(prepared.traced_samples.size()),
+          static_cast<Index>(prepared.trajectory_samples.size()),
           static_cast<Index>(stored_smoothing_levels(inputs.max_level).size()),
           static_cast<Index>(prepared.nodes->levels().size()),
           inputs.max_level,
@@ -162,7 +162,7 @@ void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOp
   for (std::size_t h = 0; h < inputs.head_set.heads.size(); ++h) {
     if (!is_wanted(h)) continue;
     throw_if_interrupted();
-    const Digest key = key_of(config, inputs, prepared.traced_samples, h);
+    const Digest key = key_of(config, inputs, prepared.trajectory_samples, h);
     if (find_prepared(cache, key, shape)) continue;
     write_entry(cache, prepared_key(key), arrays_of(preparation.prepare(inputs.head_set.heads[h])));
   }
@@ -181,7 +181,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   std::vector<std::optional<PreparedHead>> heads(keys.size());
   parallel_for_each(keys.size(), [&](std::size_t h) {
     throw_if_interrupted();
-    keys[h] = key_of(config, inputs, prepared.traced_samples, h);
+    keys[h] = key_of(config, inputs, prepared.trajectory_samples, h);
     heads[h] = find_prepared(cache, keys[h], shape);
   });
   for (std::size_t h = 0; h < heads.size(); ++h) {
@@ -199,7 +199,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
         if (auto written = find_prepared(cache, keys[h], shape)) head = std::move(written);
       }
     }
-    prepared.trajectories.push_back(std::move(head->trajectory));
+    prepared.trajectories.push_back(std::move(head->smoothing_trajectory));
     prepared.levels.push_back(std::move(head->levels));
     progress->step();
   }
@@ -228,18 +228,19 @@ void require_not_truncated(const Prepared& prepared) {
   }
 }
 
-std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared) {
-  std::vector<HeadLevels> result;
+std::vector<HeadSmoothing> head_levels(const Config& config, const Prepared& prepared) {
+  std::vector<HeadSmoothing> result;
   for (const StoredLevels& stored : prepared.levels) {
-    HeadLevels levels{stored.fields, {}};
+    HeadSmoothing levels{stored.fields, {}};
     if (config.smoothing.levels == LevelRepresentation::kCubic) {
       levels.functions = [max_level = prepared.nodes->max_level()](std::uint64_t level) {
         const auto basis = cubic_basis(level, max_level);
         return std::vector<double>(basis.begin(), basis.end());
       };
     } else {
-      levels.functions = [nodes = prepared.nodes, mixing = stored.mixing](std::uint64_t level) {
-        return level_function_values(*nodes, mixing, level);
+      levels.functions = [nodes = prepared.nodes,
+                          coefficients = stored.function_coefficients](std::uint64_t level) {
+        return level_function_values(*nodes, coefficients, level);
       };
     }
     result.push_back(std::move(levels));

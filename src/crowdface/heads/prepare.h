@@ -25,10 +25,10 @@ struct Prepared {
   FaceSamples samples;
   /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
   /// on which the samples' mirror images depend.
-  FaceSamples traced_samples;
-  std::vector<Trajectory> trajectories;  ///< #heads, trajectories of the vertices `traced_samples`
+  FaceSamples trajectory_samples;
+  std::vector<Trajectory> trajectories;  ///< #heads; at the vertices `trajectory_samples`
   std::vector<StoredLevels> levels;      ///< #heads; no fields with `levels: exact`
-  std::shared_ptr<const LevelNodes> nodes;  ///< the nodes on which the mixing matrices are defined
+  std::shared_ptr<const LevelNodes> nodes;  ///< nodes of all StoredLevels::function_coefficients
   CachedPatches patches;                    ///< all heads' fields; empty with `levels: exact`
   std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`
   std::size_t cached_head_count = 0;        ///< number of heads found in the cache
@@ -58,7 +58,7 @@ void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOp
                    const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);
 
 /// The fitted levels in the form that blending needs.
-std::vector<HeadLevels> head_levels(const Config& config, const Prepared& prepared);
+std::vector<HeadSmoothing> head_levels(const Config& config, const Prepared& prepared);
 
 /// Calls `work`. If a cache entry was truncated while in use, warns and calls `work` again, at most
 /// three times in all. `work` must prepare the heads anew and skip what it has already finished.

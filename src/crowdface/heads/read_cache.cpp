@@ -122,8 +122,8 @@ CacheKey key_of_read_head(const Digest& text_digest) {
           Hasher().add(kVersion).add(text_digest).add(limits.vertices).add(limits.faces).digest()};
 }
 
-std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text_digest,
-                                ObjFile& head) {
+std::optional<Digest> fill_head_from_cache(const CacheFolder& cache, const Digest& text_digest,
+                                           ObjFile& head) {
   auto kept = find_cached<KeptHead>(cache, key_of_read_head(text_digest), kHeadArrays,
                                     [](const KeptHead& found, const CacheEntry&) {
                                       return found.libraries.are_sound() &&

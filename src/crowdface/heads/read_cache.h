@@ -21,10 +21,13 @@ struct HeadMesh {
   Digest digest() const;
 };
 
-/// Fills in positions, materials and groups of a head from the cache.
+/// Fills in positions, materials and groups of a head from the cache. The mesh has its own entry,
+/// see find_mesh.
 /// \param text_digest  hash of the whole file
+/// \param head         receives the data
 /// \return the hash of the head's mesh, or nothing if the cache has no entry for the file.
-std::optional<Digest> find_head(const CacheFolder& cache, const Digest& text_digest, ObjFile& head);
+std::optional<Digest> fill_head_from_cache(const CacheFolder& cache, const Digest& text_digest,
+                                           ObjFile& head);
 /// \param mesh_digest  hash of the mesh
 std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_digest);
 

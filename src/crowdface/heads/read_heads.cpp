@@ -37,10 +37,10 @@ bool by_digest(const Digest& a, const Digest& b) {
   return std::pair(a.high, a.low) < std::pair(b.high, b.low);
 }
 
-/// Meshes of the heads read so far, without duplicates. Thread-safe.
-class MeshShelf {
+/// Meshes of the heads read so far; heads with equal meshes share one. Thread-safe.
+class SharedMeshes {
  public:
-  MeshShelf(const CacheFolder& cache, Winding winding) : cache_(cache), winding_(winding) {}
+  SharedMeshes(const CacheFolder& cache, Winding winding) : cache_(cache), winding_(winding) {}
   Winding winding() const { return winding_; }
 
   /// \return the mesh from memory or the cache; null if neither has it.
@@ -53,26 +53,27 @@ class MeshShelf {
     return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
   }
 
-  /// Returns true for the first caller with this hash, who must then read the mesh. \param outline
+  /// Returns true for the first caller with this hash, who must then read the mesh. \param summary
   /// hash of the text that describes the mesh
-  bool is_first(const Digest& outline) {
+  bool is_first(const Digest& summary) {
     const std::lock_guard lock(mutex_);
-    return of_outline_.emplace(outline, Known()).second;
+    return of_summary_.emplace(summary, Known()).second;
   }
-  /// \param outline  hash of the text that describes the mesh
-  void put(const Digest& outline, HeadMesh mesh, HeadFile& head) {
+  /// \param summary  hash of the text that describes the mesh
+  void put(const Digest& summary, HeadMesh mesh, HeadFile& head) {
     head.mesh_digest = mesh.digest();
     const std::lock_guard lock(mutex_);
     auto& place = meshes_[head.mesh_digest];
     if (!place) place = std::make_shared<HeadMesh>(std::move(mesh));
     head.mesh = place;
-    if (!head.file.is_mended) of_outline_[outline] = {head.mesh_digest, place};
+    if (!head.file.is_mended) of_summary_[summary] = {head.mesh_digest, place};
   }
-  /// Gives a head the mesh that was read from another file with the same hash. The head's mesh
-  /// becomes null if there is no such mesh, or if the other file had to be repaired.
-  void take(const Digest& outline, HeadFile& head) {
+  /// Sets the head's mesh to the mesh that was read from another file with the same `summary`. Sets
+  /// it to null if there is no such mesh, or if the other file had to be repaired.
+  /// \param summary  hash of the text that describes the mesh
+  void reuse_mesh(const Digest& summary, HeadFile& head) {
     const std::lock_guard lock(mutex_);
-    const Known& known = of_outline_[outline];
+    const Known& known = of_summary_[summary];
     head.mesh_digest = known.digest;
     head.mesh = known.mesh;
   }
@@ -87,7 +88,7 @@ class MeshShelf {
   Winding winding_;
   std::mutex mutex_;
   std::map<Digest, std::shared_ptr<HeadMesh>, decltype(&by_digest)> meshes_{by_digest};
-  std::map<Digest, Known, decltype(&by_digest)> of_outline_{by_digest};
+  std::map<Digest, Known, decltype(&by_digest)> of_summary_{by_digest};
 };
 
 bool fits(const ObjFile& head, const HeadMesh& mesh) {
@@ -146,12 +147,14 @@ void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
   }
 }
 
-/// Fills in a head from the cache. \return false if the cache does not have it.
-bool read_from_cache(HeadFile& head, const CacheFolder& cache, MeshShelf& shelf) {
-  const auto mesh = find_head(cache, head.text_digest, head.file);
+/// Fills in a head and its mesh from the cache.
+/// \param shared  supplies the mesh if another head has the same mesh.
+/// \return false if the cache does not have the head or its mesh.
+bool read_from_cache(HeadFile& head, const CacheFolder& cache, SharedMeshes& shared) {
+  const auto mesh = fill_head_from_cache(cache, head.text_digest, head.file);
   if (!mesh) return false;
   head.mesh_digest = *mesh;
-  head.mesh = shelf.find(*mesh);
+  head.mesh = shared.find(*mesh);
   if (!head.mesh || fits(head.file, *head.mesh)) return head.mesh != nullptr;
   warn_of_unusable_entry(InvalidInput(
       concat(head.file.path.string(), ": its cache entry is damaged (it is of another mesh)")));
@@ -161,23 +164,23 @@ bool read_from_cache(HeadFile& head, const CacheFolder& cache, MeshShelf& shelf)
 /// A head that is being read.
 struct HeadReading {
   HeadFile head;
-  ObjOutline outline;
+  ObjSummary summary;
 };
 
 /// Moves the data that was read to the head and to the head's mesh.
-void take_mesh(HeadReading& reading, ObjFile read, MeshShelf& shelf) {
+void take_mesh(HeadReading& reading, ObjFile read, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
   file =
-      shelf.winding() == Winding::kOutward ? with_outward_faces(std::move(read)) : std::move(read);
+      shared.winding() == Winding::kOutward ? with_outward_faces(std::move(read)) : std::move(read);
   HeadMesh mesh{std::exchange(file.topology, {}), std::move(file.uvs),
                 std::exchange(file.corner_normals, {})};
   file.uvs.resize(0, 2);
-  shelf.put(reading.outline.mesh_digest, std::move(mesh), reading.head);
+  shared.put(reading.summary.mesh_digest, std::move(mesh), reading.head);
 }
 
-void read_with_mesh(HeadReading& reading, MeshShelf& shelf) {
+void read_with_mesh(HeadReading& reading, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
-  take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.outline), shelf);
+  take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.summary), shared);
 }
 
 /// A temporary folder outside the cache. It is removed when the program ends.
@@ -215,13 +218,13 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
 }
 
 /// If the file has positions but no polygons, the head has no mesh yet.
-void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf& shelf) {
+void read_other_format(HeadReading& reading, const CacheFolder& cache, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
   FileMesh mesh = read_mesh(file.path);
   reading.head.has_joined_vertices = join_split_vertices(mesh);
   if (mesh.topology.face_count() > 0) {
     auto [material_base, library] = keep_textures(reading.head, cache, mesh);
-    take_mesh(reading, convert_to_obj(std::move(mesh), fs::path(file.path), library), shelf);
+    take_mesh(reading, convert_to_obj(std::move(mesh), fs::path(file.path), library), shared);
     file.material_base = std::move(material_base);
     return;
   }
@@ -231,7 +234,7 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, MeshShelf
 
 /// Reads a head; skips the mesh if another head has the same mesh, even if that head is still being
 /// read.
-HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshShelf& shelf) {
+HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, SharedMeshes& shared) {
   HeadReading reading;
   HeadFile& head = reading.head;
   head.file.path = path;
@@ -244,20 +247,20 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
     }
   }
   head.is_cached =
-      !cache.path.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shelf);
+      !cache.path.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shared);
   if (head.is_cached) {
     seen.remember(head.text_digest);
     return reading;
   }
   if (!is_obj(path)) {
-    read_other_format(reading, cache, shelf);
+    read_other_format(reading, cache, shared);
     return reading;
   }
-  reading.outline = outline_obj(head.file.file.bytes());
-  if (shelf.is_first(reading.outline.mesh_digest)) {
-    read_with_mesh(reading, shelf);
+  reading.summary = summarise_obj(head.file.file.bytes());
+  if (shared.is_first(reading.summary.mesh_digest)) {
+    read_with_mesh(reading, shared);
   } else {
-    head.file = read_obj_of_same_mesh(path, std::move(head.file.file), reading.outline);
+    head.file = read_obj_of_known_mesh(path, std::move(head.file.file), reading.summary);
     head.mesh = nullptr;
   }
   return reading;
@@ -265,10 +268,10 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, MeshSh
 
 /// Gives a head the mesh that was read for the first head with the same hash. If that first head
 /// could not be read, reads the mesh from this head's file.
-void finish_reading(HeadReading& reading, MeshShelf& shelf) {
+void finish_reading(HeadReading& reading, SharedMeshes& shared) {
   if (reading.head.mesh || reading.head.file.is_mended) return;
-  shelf.take(reading.outline.mesh_digest, reading.head);
-  if (!reading.head.mesh) read_with_mesh(reading, shelf);
+  shared.reuse_mesh(reading.summary.mesh_digest, reading.head);
+  if (!reading.head.mesh) read_with_mesh(reading, shared);
 }
 
 /// Gives heads without polygons the polygons of the first mesh that has the same number of
@@ -300,7 +303,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
                                                      Winding winding) {
   std::vector<std::optional<HeadFile>> files(paths.size());
   std::vector<std::optional<Error>> errors(paths.size());
-  MeshShelf shelf(cache, winding);
+  SharedMeshes shared(cache, winding);
   Progress progress(concat("reading ", what), paths.size());
   std::vector<HeadReading> readings(paths.size());
   const auto for_each_sound = [&](const auto& read) {
@@ -315,11 +318,11 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
     });
   };
   for_each_sound([&](std::size_t i) {
-    readings[i] = begin_reading(paths[i], cache, shelf);
+    readings[i] = begin_reading(paths[i], cache, shared);
     progress.step();
   });
   for_each_sound([&](std::size_t i) {
-    finish_reading(readings[i], shelf);
+    finish_reading(readings[i], shared);
     files[i] = std::move(readings[i].head);
   });
   give_faces_to_points(files, errors);

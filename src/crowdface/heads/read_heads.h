@@ -37,7 +37,7 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
                                  const CacheFolder& cache, Problems& problems);
 
 /// Reads the vertex positions of a mesh file.
-/// \param others  noun in messages for the meshes that have the expected topology
+/// \param others  name in messages of the meshes that have `topology`, such as "the heads"
 /// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view others);

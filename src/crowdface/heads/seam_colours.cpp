@@ -93,38 +93,39 @@ SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
   double total = 0;
   for (const std::uint32_t v : vertices_) total += areas[v];
   for (const std::uint32_t v : vertices_) areas_.push_back(areas[v] / total);
-  head_densities_.assign(heads.heads.size(), Positions(0, 3));
+  head_optical_densities_.assign(heads.heads.size(), Positions(0, 3));
   const VertexFaces around(heads.topology);
   const std::uint32_t picture =
       blended == nullptr ? kNoIndex : picture_at(rim, around, inputs.textures.blended.layout);
-  for (std::size_t h = 0; h < head_densities_.size(); ++h) {
+  for (std::size_t h = 0; h < head_optical_densities_.size(); ++h) {
     if (picture != kNoIndex) {
       if (inputs.textures.blended.maps[picture][h])
-        head_densities_[h] = coarse_of(*blended, h, vertices_);
+        head_optical_densities_[h] = coarse_of(*blended, h, vertices_);
     } else if (!inputs.textures.texture_sets.empty()) {
-      head_densities_[h] = sampled(inputs.textures.texture_sets[h], heads, around, vertices_);
+      head_optical_densities_[h] =
+          sampled(inputs.textures.texture_sets[h], heads, around, vertices_);
     } else if (!inputs.colours.empty()) {
-      head_densities_[h] = densities_at(inputs.colours[h], vertices_);
+      head_optical_densities_[h] = densities_at(inputs.colours[h], vertices_);
     }
   }
 }
 
 bool SeamColours::has_colours() const {
-  return std::ranges::any_of(head_densities_,
+  return std::ranges::any_of(head_optical_densities_,
                              [](const Positions& rows) { return rows.rows() > 0; });
 }
 
 Positions SeamColours::blend(const std::vector<double>& weights, Index rows) const {
   double sum = 0;
-  for (std::size_t h = 0; h < head_densities_.size(); ++h) {
-    if (head_densities_[h].rows() > 0) sum += weights[h];
+  for (std::size_t h = 0; h < head_optical_densities_.size(); ++h) {
+    if (head_optical_densities_[h].rows() > 0) sum += weights[h];
   }
   Positions blended = Positions::Zero(rows, 3);
   double total = 0;
-  for (std::size_t h = 0; h < head_densities_.size(); ++h) {
+  for (std::size_t h = 0; h < head_optical_densities_.size(); ++h) {
     const double weight = sum > 0 ? weights[h] : 1;
-    if (head_densities_[h].rows() == 0 || weight == 0) continue;
-    blended += weight * head_densities_[h].topRows(rows);
+    if (head_optical_densities_[h].rows() == 0 || weight == 0) continue;
+    blended += weight * head_optical_densities_[h].topRows(rows);
     total += weight;
   }
   return blended / total;

@@ -31,9 +31,10 @@ class SeamColours {
 
   std::vector<std::uint32_t> vertices_;  ///< the ring, then the other vertices of the band
   Index ring_size_ = 0;                  ///< number of vertices in the ring
-  std::vector<double> areas_;            ///< #vertices_, shares of the band; the sum is one
-  std::vector<Positions>
-      head_densities_;  ///< #heads: densities, #vertices_ by 3; no rows if unknown
+  /// #vertices_: area around the vertex, as a fraction of the band's area
+  std::vector<double> areas_;
+  /// #heads: optical densities of the head's colours, #vertices_ by 3; no rows if unknown
+  std::vector<Positions> head_optical_densities_;
 };
 
 }  // namespace crowdface

@@ -113,8 +113,8 @@ constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {
   arrays("added", found.map.unpaired_offsets);
   arrays("normal", found.map.plane.normal);
   arrays("offset", found.map.plane.offset);
-  arrays("at vertices", found.mutual_vertex_count);
-  arrays("on surface", found.surface_partner_count);
+  arrays("at vertices", found.paired_vertex_count);
+  arrays("on surface", found.surface_mirrored_vertex_count);
   arrays("rms", found.rms_distance);
   arrays("largest", found.max_distance);
 };

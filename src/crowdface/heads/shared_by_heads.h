@@ -13,8 +13,9 @@ namespace crowdface {
 /// build_adjacency and find_components, cached. \param inputs  must have the topology and its hash
 void find_neighbours(Inputs& inputs);
 
-/// region_weights of the config's masks, cached; whole_head_weights if there are no regions.
-/// \param inputs must have the parts
+/// Returns the `region_weights` of the config's masks, from the cache if possible. If the config
+/// has no regions, returns `whole_head_weights`.
+/// \param inputs  `inputs.parts` must be set
 RegionWeights load_regions(const Config& config, const Inputs& inputs);
 
 /// choose_face_samples and find_sample_cells of the mean head, cached.

@@ -16,18 +16,18 @@ void EncodedFile::refer_to(std::string_view bytes) {
 
 void EncodedFile::add(std::string text) {
   const auto owner = std::make_shared<const std::string>(std::move(text));
-  keep(owner);
+  share_ownership(owner);
   memory_bytes_ += owner->size();
   refer_to(*owner);
 }
 
-void EncodedFile::keep(std::shared_ptr<const void> owner) {
+void EncodedFile::share_ownership(std::shared_ptr<const void> owner) {
   owners_.push_back(std::move(owner));
 }
 
 char* EncodedFile::reserve(std::size_t capacity) {
   const auto memory = std::make_shared_for_overwrite<char[]>(capacity);
-  keep(memory);
+  share_ownership(memory);
   memory_bytes_ += capacity;
   return memory.get();
 }

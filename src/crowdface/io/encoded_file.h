@@ -25,8 +25,9 @@ class EncodedFile {
   void refer_to(std::string_view bytes);
   /// Appends a text, which this object then owns.
   void add(std::string text);
-  /// Keeps `owner`, which holds referenced bytes, alive as long as this object.
-  void keep(std::shared_ptr<const void> owner);
+  /// Shares the ownership of the object that holds referenced bytes, so that these bytes live as
+  /// long as this object.
+  void share_ownership(std::shared_ptr<const void> owner);
   /// Allocates `capacity` uninitialised bytes. The caller fills these bytes and appends ranges of
   /// them with `refer_to`.
   char* reserve(std::size_t capacity);

@@ -17,9 +17,10 @@ JoinedBorders joined_ids(const FileMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> of_id;
   for (std::uint32_t v = 0; v < mesh.vertex_ids.size(); ++v) {
     const std::uint32_t piece = mesh.mesh_of_vertex.empty() ? 0 : mesh.mesh_of_vertex[v];
-    const auto [place, is_new] = of_id.try_emplace(
-        {piece, mesh.vertex_ids[v]}, static_cast<std::uint32_t>(result.first_copies.size()));
-    if (is_new) result.first_copies.push_back(v);
+    const auto [place, is_new] =
+        of_id.try_emplace({piece, mesh.vertex_ids[v]},
+                          static_cast<std::uint32_t>(result.first_copy_of_joined_vertex.size()));
+    if (is_new) result.first_copy_of_joined_vertex.push_back(v);
     result.joined_vertex.push_back(place->second);
   }
   return result;
@@ -32,8 +33,9 @@ void join_vertices(FileMesh& mesh) {
                                : joined_ids(mesh);
   mesh.mesh_of_vertex.clear();
   mesh.vertex_ids.clear();
-  mesh.positions = Positions(mesh.positions(by.first_copies, kAllColumns));
-  if (mesh.colours.rows() > 0) mesh.colours = Positions(mesh.colours(by.first_copies, kAllColumns));
+  mesh.positions = Positions(mesh.positions(by.first_copy_of_joined_vertex, kAllColumns));
+  if (mesh.colours.rows() > 0)
+    mesh.colours = Positions(mesh.colours(by.first_copy_of_joined_vertex, kAllColumns));
   for (std::uint32_t& vertex : mesh.topology.corner_vertices) vertex = by.joined_vertex[vertex];
   mesh.topology.vertex_count = mesh.positions.rows();
 }

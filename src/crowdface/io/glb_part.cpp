@@ -33,7 +33,7 @@ Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture
 void add_targets(std::span<const Displacements> moves, std::span<const std::uint32_t> split,
                  Index vertex_count, Json& scene, GlbBuffer& buffer) {
   for (const Displacements& target : moves) {
-    const GlbTargetRows moved = target_rows(target.vertices, split, vertex_count);
+    const GlbMorphRows moved = target_rows(target.vertices, split, vertex_count);
     const auto [least, most] = displacement_bounds(target, moved.moves_all_vertices);
     buffer.add_zeros(split.size());
     scene["accessors"].back()["min"] = vector_json(least);
@@ -163,7 +163,7 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
   }
   for (const Displacements& target : moves) {
     require_finite(target.moves, target.moves.rows(), name_);
-    const GlbTargetRows rows =
+    const GlbMorphRows rows =
         target_rows(target.vertices, source_vertices_, topology_.vertex_count);
     std::string bytes;
     for (const std::uint32_t vertex : rows.vertices) append_number(bytes, vertex);

@@ -91,8 +91,9 @@ class GlbPart {
   std::vector<Primitive> primitives_;
   std::vector<GlbPartMaterial> materials_;
   std::vector<std::size_t> image_sizes_;
-  std::vector<GlbImage> images_;        ///< without `bytes`
-  std::vector<GlbSkinAttribute> skin_;  ///< without `bytes`; empty: not skinned
+  // The `bytes` of the images and of the skin attributes are empty; `shared_data_` has the data.
+  std::vector<GlbImage> images_;
+  std::vector<GlbSkinAttribute> skin_;  ///< no elements if the mesh is not skinned
   std::vector<std::string> targets_;
   GivenNormals given_normals_;
   std::string shared_data_;  ///< texture coordinates, influences, triangles, images

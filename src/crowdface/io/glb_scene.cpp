@@ -136,11 +136,11 @@ std::string texture_coordinates(const SplitVertices& split, const TextureCoordin
   return bytes;
 }
 
-GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
-                          std::span<const std::uint32_t> split, Index count) {
+GlbMorphRows target_rows(std::span<const std::uint32_t> vertices,
+                         std::span<const std::uint32_t> split, Index count) {
   std::vector<std::uint32_t> row_of(static_cast<std::size_t>(count), kNoIndex);
   for (std::uint32_t row = 0; row < vertices.size(); ++row) row_of[vertices[row]] = row;
-  GlbTargetRows rows;
+  GlbMorphRows rows;
   rows.moves_all_vertices = vertices.size() == row_of.size();
   for (std::uint32_t i = 0; i < split.size(); ++i) {
     if (row_of[split[i]] == kNoIndex) continue;

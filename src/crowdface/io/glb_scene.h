@@ -81,11 +81,11 @@ class GlbBuffer {
 /// \param uvs  v upwards as in OBJ.
 std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
 
-/// The rows of one morph target in files whose vertices are split at seams.
-struct GlbTargetRows {
-  std::vector<std::uint32_t> rows;      ///< indices into the target's displacements
+/// The rows of one glTF morph target in files whose vertices are split at seams.
+struct GlbMorphRows {
+  std::vector<std::uint32_t> rows;      ///< indices into the morph target's displacements
   std::vector<std::uint32_t> vertices;  ///< #rows split vertices, ascending
-  /// whether the target moves every vertex of the mesh
+  /// whether the morph target moves every vertex of the mesh
   bool moves_all_vertices = false;
 };
 
@@ -93,8 +93,8 @@ struct GlbTargetRows {
 /// \param vertices  original vertices that the target moves
 /// \param split  for each split vertex, its original vertex
 /// \param count  number of original vertices
-GlbTargetRows target_rows(std::span<const std::uint32_t> vertices,
-                          std::span<const std::uint32_t> split, Index count);
+GlbMorphRows target_rows(std::span<const std::uint32_t> vertices,
+                         std::span<const std::uint32_t> split, Index count);
 
 /// Minimum and maximum of a target's displacements, for each coordinate. Vertices that the target
 /// does not move count as zero.

@@ -72,13 +72,13 @@ class GlbTemplate {
   Index point_count_;
   /// The original vertex of each split vertex with an index ≥ #V.
   std::vector<std::uint32_t> copied_vertices_;
-  std::optional<Tangents> tangents_;    ///< set if a material has a normal map
-  std::string shared_data_;             ///< the part of the buffer that is the same in all files
-  std::vector<GlbTargetRows> targets_;  ///< without the lists of vertices
+  std::optional<Tangents> tangents_;   ///< set if a material has a normal map
+  std::string shared_data_;            ///< the part of the buffer that is the same in all files
+  std::vector<GlbMorphRows> targets_;  ///< with empty `vertices`
   /// Index of the accessor of the first morph target's displacements; the accessors of further
   /// morph targets follow.
   std::size_t first_target_ = 0;
-  GlbSkin skin_;                  ///< without influences
+  GlbSkin skin_;                  ///< only the joints; `influences` is empty
   std::size_t target_bytes_ = 0;  ///< bytes of the displacements of all targets
   /// The scene as JSON, without the bounds and names, because these differ between faces.
   std::string json_;

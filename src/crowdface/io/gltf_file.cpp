@@ -20,8 +20,8 @@ using GltfJson = GltfFile::Json;
 
 /// Largest absolute value that a node's matrix may contain: 1000 km in metres.
 constexpr double kFarthestNode = 1e6;
-constexpr std::size_t kOften = 4;  ///< how many numbers may be read from the file per byte of its
-                                   ///< buffers
+/// For each byte of the file's buffers, at most this many numbers may be read.
+constexpr std::size_t kMaxNumbersPerByte = 4;
 
 std::size_t size_of_type(int type) {
   if (type == kUnsignedByte || type == kByte) return 1;
@@ -130,7 +130,7 @@ GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(s
     scene_ = parse_shallow_json(bytes);
   }
   if (!scene_.is_object()) fail("expected a glTF 2.0 file, found that its JSON cannot be read");
-  remaining_numbers_ = kOften * binary_.size();
+  remaining_numbers_ = kMaxNumbersPerByte * binary_.size();
 }
 
 void GltfFile::fail(const std::string& what) const {
@@ -164,7 +164,7 @@ std::string_view GltfFile::buffer(std::size_t number) {
   const auto [known, is_new] = decoded_buffers_.try_emplace(number);
   if (!is_new) return known->second;
   known->second = read_uri(json.at("uri").get<std::string>(), what);
-  remaining_numbers_ += kOften * known->second.size();
+  remaining_numbers_ += kMaxNumbersPerByte * known->second.size();
   return known->second;
 }
 
@@ -194,7 +194,7 @@ std::string_view GltfFile::view(std::size_t number) {
           " cannot be unpacked; gltf-transform copy in.glb out.glb writes it without compression"));
     }
     known->second = std::move(*bytes);
-    remaining_numbers_ += kOften * known->second.size();
+    remaining_numbers_ += kMaxNumbersPerByte * known->second.size();
     return known->second;
   }
   return part(json);

@@ -204,7 +204,7 @@ class Collector {
   fs::path texture_of(std::string_view rest, const fs::path& folder) {
     const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
     if (!is_new) return known->second;
-    const std::vector<std::string_view> suffixes = suffixes_at_words(rest);
+    const std::vector<std::string_view> suffixes = suffixes_starting_at_words(rest);
     const bool has_options = rest.starts_with('-');
     known->second = folder / with_forward_slashes(has_options ? suffixes.back() : rest);
     if (textures_.full) return known->second;
@@ -290,7 +290,7 @@ MaterialStatement material_statement(std::string_view line) {
   return {line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank))};
 }
 
-std::vector<std::string_view> suffixes_at_words(std::string_view text) {
+std::vector<std::string_view> suffixes_starting_at_words(std::string_view text) {
   constexpr std::size_t kMaxSuffixes = 32;
   std::vector<std::string_view> suffixes;
   for (std::size_t end = text.size(); end > 0 && suffixes.size() < kMaxSuffixes;) {

@@ -46,13 +46,13 @@ MaterialStatement material_statement(std::string_view line);
 bool is_texture_statement(std::string_view word);
 /// All suffixes of a text that begin at one of its last 32 words, longest first. One of them is the
 /// file name in a statement, because the file name comes after the options and may contain spaces.
-std::vector<std::string_view> suffixes_at_words(std::string_view text);
+std::vector<std::string_view> suffixes_starting_at_words(std::string_view text);
 
 /// Finds the material files that a mesh names, and the textures that these files name. A name with
-/// <UDIM> stands for all existing tiles. Problems become warnings, not errors: files that are
-/// missing or unreadable, paths that lead out of the mesh's folder (which are not followed), names
-/// that a mesh may have (see `mesh_format_of`), files in the reserved folders `topology` and
-/// `blended`, and more names than `input_limits().textures`.
+/// the placeholder `<UDIM>` stands for all existing tiles. Warns about files that are missing or
+/// unreadable, and about more names than `input_limits().textures`. Also warns about files that
+/// crowdface does not copy: files outside the mesh's folder, and files whose names crowdface uses
+/// for its own files (mesh files, and everything in the folders `topology` and `blended`).
 /// \param mesh  path of the OBJ file.
 /// \param libraries  arguments of the `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,

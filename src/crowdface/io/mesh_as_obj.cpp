@@ -40,8 +40,8 @@ ObjFile convert_to_obj(FileMesh mesh, const std::filesystem::path& path,
     encoded = with_colours(encoded, byte_colours(mesh.colours));
   }
   MappedFile text = MappedFile::from_text(std::move(encoded));
-  const ObjOutline outline = outline_obj(text.bytes());
-  ObjFile file = read_obj(path, std::move(text), outline);
+  const ObjSummary summary = summarise_obj(text.bytes());
+  ObjFile file = read_obj(path, std::move(text), summary);
   file.notes = std::move(mesh.notes);
   file.is_mended = true;
   return file;

@@ -56,8 +56,8 @@ struct MeshFormatTraits {
 };
 
 const MeshFormatTraits& traits_of(MeshFormat format);
-/// Whether face files of this format name texture files of attachments. If so, these texture files
-/// are stored beside the meshes.
+/// Whether a face file of this format refers to the texture files of attachments by file name. If
+/// so, these texture files are stored beside the meshes.
 inline bool refers_to_attachment_textures(const MeshFormatTraits& format) {
   return format.attachments == DataStorage::kOwnFiles ||
          (format.attachments == DataStorage::kInside && format.textures == DataStorage::kOwnFiles);

@@ -92,7 +92,7 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
 
 /// Replaces the values that tinyobjloader read with the more accurate values that `scan_obj` read.
 void take_scanned_values(ObjScan scan, ObjFile& result) {
-  // Scanned positions are rounded correctly; the loader's positions are not.
+  // scan_obj rounds the numbers of the text correctly; tinyobjloader does not.
   result.positions = std::move(scan.positions);
   result.material_libraries = std::move(scan.material_libraries);
   result.materials = std::move(scan.materials);
@@ -101,10 +101,10 @@ void take_scanned_values(ObjScan scan, ObjFile& result) {
 }
 
 /// Scans the text. If the scan fails, repairs the text (`mend_obj`) and scans the repaired text.
-ObjScan scan_or_mend(ObjFile& obj, const ObjOutline& outline) {
+ObjScan scan_or_mend(ObjFile& obj, const ObjSummary& summary) {
   const std::string name = obj.path.string();
   try {
-    return scan_obj(obj.file.bytes(), name, outline, ObjLines::kAll);
+    return scan_obj(obj.file.bytes(), name, summary, ObjLines::kAll);
   } catch (const InvalidInput&) {
     refuse_non_mesh_file(obj.file.bytes(), obj.path);
     auto mended = mend_obj(obj.file.bytes());
@@ -113,22 +113,22 @@ ObjScan scan_or_mend(ObjFile& obj, const ObjOutline& outline) {
     obj.notes = std::move(mended->notes);
     obj.is_mended = true;
   }
-  return scan_obj(obj.file.bytes(), name, outline_obj(obj.file.bytes()), ObjLines::kAll);
+  return scan_obj(obj.file.bytes(), name, summarise_obj(obj.file.bytes()), ObjLines::kAll);
 }
 
 }  // namespace
 
 ObjFile read_obj(const std::filesystem::path& path) {
   MappedFile file(path);
-  const ObjOutline outline = outline_obj(file.bytes());
-  return read_obj(path, std::move(file), outline);
+  const ObjSummary summary = summarise_obj(file.bytes());
+  return read_obj(path, std::move(file), summary);
 }
 
-ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOutline& outline) {
+ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjSummary& summary) {
   ObjFile result;
   result.path = path;
   result.file = std::move(file);
-  ObjScan scan = scan_or_mend(result, outline);
+  ObjScan scan = scan_or_mend(result, summary);
 
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
@@ -151,12 +151,12 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOu
   return result;
 }
 
-ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file,
-                              const ObjOutline& outline) {
+ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile file,
+                               const ObjSummary& summary) {
   ObjFile result;
   result.path = path;
   result.file = std::move(file);
-  take_scanned_values(scan_obj(result.file.bytes(), path.string(), outline, ObjLines::kAllButMesh),
+  take_scanned_values(scan_obj(result.file.bytes(), path.string(), summary, ObjLines::kAllButMesh),
                       result);
   return result;
 }

@@ -28,9 +28,8 @@ struct ObjFile {
   std::vector<std::string> notes;   ///< repairs and ignored statements, one sentence each
   bool is_mended = false;           ///< whether repairs changed the text
   bool has_reversed_faces = false;  ///< see with_outward_faces
-  /// If the material files are not in the folder of `path`: a path in the material files' folder,
-  /// from which their relative paths start. The file name of this path does not matter. Otherwise
-  /// empty.
+  /// A path whose folder contains the material files; only its folder is used, not its file name.
+  /// Empty if the material files are in the folder of `path`.
   std::filesystem::path material_base;
 
   const std::filesystem::path& material_path() const {
@@ -45,14 +44,14 @@ struct ObjFile {
 ObjFile read_obj(const std::filesystem::path& path);
 /// Reads an OBJ file whose content is mapped.
 /// \param file  content of the file at `path`.
-/// \param outline  outline of this content.
-ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjOutline& outline);
+/// \param summary  summary of this content.
+ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjSummary& summary);
 
 /// Reads an OBJ file whose polygons and texture coordinates equal those of an earlier file. The
 /// result's topology, texture coordinates and corner normals stay empty.
-/// \param outline  outline of this file; its `mesh_digest` must equal that of the earlier file.
-ObjFile read_obj_of_same_mesh(const std::filesystem::path& path, MappedFile file,
-                              const ObjOutline& outline);
+/// \param summary  summary of this file; its `mesh_digest` must equal that of the earlier file.
+ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile file,
+                               const ObjSummary& summary);
 
 /// The materials of a mesh, and the material of each polygon ("face").
 struct FaceMaterials {

@@ -69,18 +69,18 @@ bool is_of(std::string_view line, std::string_view statement) {
 }
 
 /// Counts the lines of each kind, so that a later single pass can check the indices. Also computes
-/// the hash `ObjOutline::mesh_digest`.
-class Outliner {
+/// the hash `ObjSummary::mesh_digest`.
+class Summariser {
  public:
   void look_at(std::string_view whole_line) {
     const std::string_view line = without_blanks_before(whole_line);
     if (line.empty() || line[0] == '#') return;
     if (is_of(line, "v")) {
-      ++outline_.vertex_count;
+      ++summary_.vertex_count;
       return;
     }
     if (is_of(line, "vn")) {
-      ++outline_.normal_count;
+      ++summary_.normal_count;
       return;
     }
     for (const std::string_view statement : {"g", "o", "usemtl", "mtllib"}) {
@@ -90,15 +90,15 @@ class Outliner {
       hasher_.add(statement);
       return;
     }
-    if (is_of(line, "f")) ++outline_.face_count;
-    if (is_of(line, "vt")) ++outline_.uv_count;
+    if (is_of(line, "f")) ++summary_.face_count;
+    if (is_of(line, "vt")) ++summary_.uv_count;
     take(whole_line);
   }
-  ObjOutline end() {
+  ObjSummary end() {
     add_run();
     mark_place();
-    outline_.mesh_digest = hasher_.digest();
-    return outline_;
+    summary_.mesh_digest = hasher_.digest();
+    return summary_;
   }
 
  private:
@@ -120,17 +120,17 @@ class Outliner {
   }
   /// Adds to the hash how many vertices and normals precede this line, because relative indices
   /// count back from these numbers.
-  void mark_place() { hasher_.add(outline_.vertex_count).add(outline_.normal_count); }
+  void mark_place() { hasher_.add(summary_.vertex_count).add(summary_.normal_count); }
 
-  ObjOutline outline_;
+  ObjSummary summary_;
   Hasher hasher_;
   std::string_view run_;
 };
 
 class Scanner {
  public:
-  Scanner(std::string_view text, const std::string& name, const ObjOutline& outline, ObjLines lines)
-      : text_(text), name_(name), lines_(lines), total_(outline) {}
+  Scanner(std::string_view text, const std::string& name, const ObjSummary& summary, ObjLines lines)
+      : text_(text), name_(name), lines_(lines), total_(summary) {}
 
   ObjScan run() {
     if (text_.starts_with("\xEF\xBB\xBF")) {
@@ -340,7 +340,7 @@ class Scanner {
   bool in_cut_line_ = false;  ///< whether the text ends in this line, without a line end
   std::vector<std::string_view> words_;
   ObjLines lines_;
-  ObjOutline total_, seen_;  ///< counts in the whole text, and in the lines checked so far
+  ObjSummary total_, seen_;  ///< counts in the whole text, and in the lines checked so far
   ObjScan scan_;
   std::string_view first_other_;  ///< first statement that OBJ does not define
   std::size_t first_other_line_ = 0;
@@ -348,15 +348,15 @@ class Scanner {
 
 }  // namespace
 
-ObjOutline outline_obj(std::string_view text) {
-  Outliner outliner;
-  for_each_line(text, [&](std::string_view line) { outliner.look_at(line); });
-  return outliner.end();
+ObjSummary summarise_obj(std::string_view text) {
+  Summariser summariser;
+  for_each_line(text, [&](std::string_view line) { summariser.look_at(line); });
+  return summariser.end();
 }
 
-ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,
+ObjScan scan_obj(std::string_view text, const std::string& name, const ObjSummary& summary,
                  ObjLines lines) {
-  return Scanner(text, name, outline, lines).run();
+  return Scanner(text, name, summary, lines).run();
 }
 
 }  // namespace crowdface

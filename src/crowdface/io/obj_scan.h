@@ -30,15 +30,15 @@ struct ObjScan {
   std::vector<std::string> notes;     ///< ignored statements, one sentence each
 };
 
-/// Line counts and a hash of an OBJ text. A fast first pass over the text computes them.
-struct ObjOutline {
+/// Line counts and a hash of an OBJ text. `summarise_obj` computes them in a fast first pass.
+struct ObjSummary {
   std::uint64_t vertex_count = 0, uv_count = 0, normal_count = 0, face_count = 0;
   /// Hash of the whole text except the numbers of `v` and `vn`, comments, and the names of groups,
   /// objects and materials. Texts with the same hash have the same polygons and texture coordinates
   /// on the same lines.
   Digest mesh_digest;
 };
-ObjOutline outline_obj(std::string_view text);
+ObjSummary summarise_obj(std::string_view text);
 
 /// Which lines `scan_obj` checks.
 enum class ObjLines {
@@ -52,11 +52,11 @@ enum class ObjLines {
 /// corners, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
 /// vertex colours are valid; statements of other programs are ignored.
 /// \param name  name of the file, for messages.
-/// \param outline  outline of the text.
+/// \param summary  summary of the text.
 /// \param lines  the lines to check; with kAllButMesh the result has no texture coordinates and no
 ///               corners.
 /// \throws InvalidInput naming file, line, what was expected and what was found.
-ObjScan scan_obj(std::string_view text, const std::string& name, const ObjOutline& outline,
+ObjScan scan_obj(std::string_view text, const std::string& name, const ObjSummary& summary,
                  ObjLines lines);
 
 }  // namespace crowdface

@@ -135,8 +135,8 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
 }
 
 void ObjTemplate::set_given_normals(const std::vector<std::uint32_t>& corner_rows,
-                                    const GivenNormals& fixed) {
-  if (fixed.vertices.empty()) return;
+                                    const GivenNormals& given) {
+  if (given.vertices.empty()) return;
   // For each normal, the vertex whose corners use it; kNoIndex if corners of several vertices use
   // the normal.
   std::vector<std::uint32_t> vertices(static_cast<std::size_t>(fans_->rows()), kNoIndex);
@@ -149,12 +149,12 @@ void ObjTemplate::set_given_normals(const std::vector<std::uint32_t>& corner_row
     is_used[row] = true;
   }
   std::map<std::uint32_t, Index> numbers;
-  for (const std::uint32_t vertex : fixed.vertices) {
+  for (const std::uint32_t vertex : given.vertices) {
     numbers.emplace(vertex, static_cast<Index>(numbers.size()));
   }
   for (std::uint32_t row = 0; row < vertices.size(); ++row) {
     const auto found = numbers.find(vertices[row]);
-    if (found != numbers.end()) given_normals_.emplace_back(row, fixed.normals.row(found->second));
+    if (found != numbers.end()) given_normals_.emplace_back(row, given.normals.row(found->second));
   }
 }
 

@@ -72,7 +72,7 @@ class ObjTemplate {
   };
 
   /// Finds the `vn` lines that get given normals, and fills in `given_normals_`.
-  void set_given_normals(const std::vector<std::uint32_t>& corner_rows, const GivenNormals& fixed);
+  void set_given_normals(const std::vector<std::uint32_t>& corner_rows, const GivenNormals& given);
   void add_block(const std::vector<NumberRange>& ranges);
   char* encode_block(const Block& block, const Rows& rows, char* out) const;
   char* encode_range(const NumberRange& range, const Rows& rows, char* out) const;

@@ -53,8 +53,8 @@ void end_if_starting() {
 /// a logger that waits for a thread that could not start.
 class StartOfLibraries {
  public:
-  explicit StartOfLibraries(const char* dependents) {
-    starting_libraries = dependents;
+  explicit StartOfLibraries(const char* dependents_phrase) {
+    starting_libraries = dependents_phrase;
     [[maybe_unused]] static const int registered = std::atexit(end_if_starting);
     starting = 1;
     struct sigaction action {};
@@ -82,15 +82,15 @@ class StartOfLibraries {
   std::terminate_handler end_before_ = nullptr;
 };
 
-void* open_library(const std::string& name, int flags, const char* dependents,
-                   const char* failure) {
+void* open_library(const std::string& name, int flags, const char* dependents_phrase,
+                   const char* failure_phrase) {
   std::optional<StartOfLibraries> start;
-  if (guarded) start.emplace(dependents);
+  if (guarded) start.emplace(dependents_phrase);
   try {
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);
   } catch (...) {  // the dynamic loader stays locked, so recovery is impossible
     if (guarded) end_without_libraries(0);
-    throw IoError(concat(failure, ": their libraries failed to start"));
+    throw IoError(concat(failure_phrase, ": their libraries failed to start"));
   }
 }
 
@@ -100,23 +100,24 @@ void guard_library_loading() {
   guarded = true;
 }
 
-void* load_library_function(const char* library, const char* function, const char* dependents,
-                            const char* failure) {
+void* load_library_function(const char* library, const char* function,
+                            const char* dependents_phrase, const char* failure_phrase) {
   // A third-party program may link `library`, so that it is loaded already. Otherwise load it from
   // a folder relative to the executable.
-  void* opened = open_library(library, RTLD_NOLOAD, dependents, failure);
+  void* opened = open_library(library, RTLD_NOLOAD, dependents_phrase, failure_phrase);
   std::string why;
   if (opened == nullptr) {
     std::error_code ignored;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
     const auto file = program.parent_path() / CROWDFACE_LIBRARIES / library;
-    opened = open_library(file.lexically_normal().string(), 0, dependents, failure);
+    opened = open_library(file.lexically_normal().string(), 0, dependents_phrase, failure_phrase);
     if (opened == nullptr) why = ::dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread
   }
-  if (opened == nullptr) opened = open_library(library, 0, dependents, failure);
+  if (opened == nullptr) opened = open_library(library, 0, dependents_phrase, failure_phrase);
   if (opened == nullptr) {
-    throw IoError(concat(
-        failure, ", because a library cannot be loaded (is the installation complete?): ", why));
+    throw IoError(concat(failure_phrase,
+                         ", because a library cannot be loaded (is the installation complete?): ",
+                         why));
   }
   void* found = ::dlsym(opened, function);
   if (found == nullptr) throw IoError(concat(library, ": belongs to another version of crowdface"));

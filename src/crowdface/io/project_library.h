@@ -8,13 +8,13 @@ namespace crowdface {
 /// libraries have the same place relative to the program in the build folder and after
 /// installation.
 /// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
-/// \param dependents  the part "…" of the message "the libraries that … cannot be started", for
-///                 example "images need (OpenImageIO)".
-/// \param failure  beginning of other messages; for example "images cannot be read".
+/// \param dependents_phrase  who needs the libraries. It completes the error message "the libraries
+///     that … cannot be started", for example with "images need (OpenImageIO)".
+/// \param failure_phrase  beginning of all other error messages, such as "images cannot be read".
 /// \throws IoError if the library is missing from its installed place, cannot be loaded, or lacks
 ///     the function.
-void* load_library_function(const char* library, const char* function, const char* dependents,
-                            const char* failure);
+void* load_library_function(const char* library, const char* function,
+                            const char* dependents_phrase, const char* failure_phrase);
 
 /// Installs handlers of signals and of exit. If a library aborts, calls exit, or needs longer than
 /// a minute while it is being loaded, the handlers end the process with code 74 and a message; this

@@ -52,8 +52,8 @@ void reverse_inward_faces(FileMesh& mesh) {
 ObjFile with_outward_faces(ObjFile file) {
   if (!is_inside_out(file.topology, file.positions)) return file;
   MappedFile text = MappedFile::from_text(with_turned_faces(file.file.bytes()));
-  const ObjOutline outline = outline_obj(text.bytes());
-  ObjFile turned = read_obj(file.path, std::move(text), outline);
+  const ObjSummary summary = summarise_obj(text.bytes());
+  ObjFile turned = read_obj(file.path, std::move(text), summary);
   turned.notes = std::move(file.notes);
   turned.is_mended = turned.has_reversed_faces = true;
   turned.material_base = std::move(file.material_base);

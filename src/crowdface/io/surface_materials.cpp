@@ -25,7 +25,7 @@ std::vector<float> leading_numbers(std::string_view text) {
 /// with the longest name.
 std::filesystem::path texture_at_end(std::string_view rest, const std::filesystem::path& folder,
                                      const MaterialFiles& files) {
-  for (const std::string_view suffix : suffixes_at_words(rest)) {
+  for (const std::string_view suffix : suffixes_starting_at_words(rest)) {
     std::string name(suffix);
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::filesystem::path relative = (folder / name).lexically_normal();

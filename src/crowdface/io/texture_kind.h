@@ -10,9 +10,10 @@ namespace crowdface {
 /// What a texture stores. Statements of material files correspond to these kinds.
 enum class TextureKind { kColour, kNormal, kRoughness, kSpecular, kDisplacement, kBump };
 
+/// The line of material files (MTL) that names a texture of one kind, such as "map_Kd skin.png".
 struct TextureStatement {
   TextureKind kind;
-  std::string_view word;  ///< statement in material files, as this program writes it
+  std::string_view word;  ///< first word of the line, as this program writes it
   std::string_view name;  ///< name of the kind in file names
 };
 

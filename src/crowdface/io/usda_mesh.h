@@ -26,7 +26,7 @@ inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 /// displacements only once.
 class UsdaMesh {
  public:
-  /// The contents of the prim that are the same in all files, apart from the polygons.
+  /// What the prim contains in addition to the polygons. These contents are the same in all files.
   struct Options {
     Subdivision subdivision = Subdivision::kNone;
     std::vector<std::string> materials = {};  ///< names; may be empty

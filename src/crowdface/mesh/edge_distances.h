@@ -56,7 +56,8 @@ class EdgeDistances {
   const Positions& positions_;
   /// #V: smallest distance found so far; final when the vertex is settled
   std::vector<double> distances_;
-  std::vector<std::uint32_t> sources_;  ///< #V: index of the source from which the distance is
+  /// #V: index, in the list of sources, of the nearest source found so far
+  std::vector<std::uint32_t> sources_;
   std::vector<std::uint32_t> reached_;  ///< the settled vertices, nearest first
   std::vector<std::uint32_t> touched_;  ///< the vertices whose distance is finite
   std::vector<bool> settled_;           ///< #V

@@ -37,14 +37,14 @@ JoinedBorders joined_borders(const Topology& topology, const Positions& position
   JoinedBorders result;
   std::map<std::array<double, 4>, std::uint32_t> row_at_place;
   for (std::uint32_t v = 0; v < is_border.size(); ++v) {
-    const auto next = static_cast<std::uint32_t>(result.first_copies.size());
+    const auto next = static_cast<std::uint32_t>(result.first_copy_of_joined_vertex.size());
     std::uint32_t joined = next;
     if (is_border[v]) {
       const auto row = positions.row(v);
       const double piece = piece_of_vertex.empty() ? 0 : piece_of_vertex[v];
       joined = row_at_place.try_emplace({piece, row[0], row[1], row[2]}, next).first->second;
     }
-    if (joined == next) result.first_copies.push_back(v);
+    if (joined == next) result.first_copy_of_joined_vertex.push_back(v);
     result.joined_vertex.push_back(joined);
   }
   return result;

@@ -13,7 +13,8 @@ namespace crowdface {
 struct JoinedBorders {
   std::vector<std::uint32_t>
       joined_vertex;  ///< #V: index of the joined vertex that each vertex becomes
-  std::vector<std::uint32_t> first_copies;  ///< for each joined vertex, its first copy; ascending
+  /// for each joined vertex, the lowest index of the vertices that become it; ascending
+  std::vector<std::uint32_t> first_copy_of_joined_vertex;
 };
 
 /// Joins vertices that have the same position and lie on border edges. Exporters make such copies

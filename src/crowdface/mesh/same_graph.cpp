@@ -62,6 +62,7 @@ class Graph {
     return end - begin;
   }
   std::uint32_t face(std::uint32_t corner) const { return face_of_[corner]; }
+  /// The graph colour of each vertex, see `refine`. Matching vertices have equal colours.
   const std::vector<std::uint64_t>& colours() const { return colours_; }
 
  private:
@@ -69,8 +70,9 @@ class Graph {
     return std::uint64_t{a} << 32U | b;
   }
 
-  /// Computes a finer colour of each vertex from the colours in the polygons around the vertex. The
-  /// result does not depend on the order of the polygons.
+  /// Colour refinement (Weisfeiler-Leman): in each round, computes a new label ("colour") of each
+  /// vertex from the labels of the vertices of the polygons around it. The result does not depend
+  /// on the order of the polygons.
   void refine() {
     colours_.assign(static_cast<std::size_t>(topology_.vertex_count), 0);
     for (int round = 0; round < kRounds; ++round) {
@@ -157,8 +159,8 @@ class Matcher {
   }
 
   /// Matches the component of a seed with a component of b. Starts from every corner of b whose
-  /// vertex has the same colour as the seed's vertex, and keeps the match with the smallest
-  /// distances between matched vertices.
+  /// vertex has the same graph colour (see `colours`) as the seed's vertex, and keeps the match
+  /// with the smallest distances between matched vertices.
   /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
     // If an earlier matched component contains the seed's vertex too, its match in b; otherwise
@@ -250,8 +252,8 @@ class Matcher {
     placed_ = fit_similarity(from, to, ScaleFit::kRigid).apply(at_b_);
   }
 
-  /// Matches vertices of a with vertices of b that belong to no polygon, in the order of their
-  /// numbers.
+  /// Matches each unmatched vertex of a with the next unmatched vertex of b, in ascending order.
+  /// \return false if b has too few unmatched vertices, or if one of these belongs to a polygon.
   bool match_loose() {
     std::uint32_t w = 0;
     for (std::uint32_t& in_b : to_b_) {

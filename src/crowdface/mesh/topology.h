@@ -81,7 +81,8 @@ struct HeadSet {
   std::vector<Head> heads;
 };
 
-/// Replaces the index values that occur by the numbers 0, 1, 2, …, in the same order.
+/// Renumbers indices without gaps: the smallest value in `indices` becomes 0, the next larger value
+/// becomes 1, and so on.
 /// \param indices  each below `count`; the function writes the new numbers here.
 /// \return the old number of each new number.
 std::vector<std::uint32_t> renumber(std::span<std::uint32_t> indices, Index count);

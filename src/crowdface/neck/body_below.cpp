@@ -45,8 +45,8 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   }
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  // Sum for each part: how much higher the part's polygons along the loop are than their edges in
-  // the loop. The index is the part's root polygon.
+  // #polygons, valid at the root polygon of each part. For each edge of the loop that bounds the
+  // part: the height of the adjacent polygon's centroid above the edge; summed over these edges.
   std::vector<double> above(faces, 0.0);
   visit_edges(topology, [&](std::uint32_t f, const Edge& edge) { edges.emplace_back(edge, f); });
   std::ranges::sort(edges);

@@ -55,7 +55,7 @@ double root_mean_square(const Positions& rows) {
 /// How well the best rigid motion maps one rim to another: its rotation angle and the remaining
 /// distance.
 struct RigidFit {
-  double degrees = 0, left = 0;  ///< rotation angle; rms distance after the motion
+  double degrees = 0, rms_mm = 0;  ///< rotation angle; rms distance after the motion
 };
 
 RigidFit rigid_fit(const Positions& from, const Positions& to) {
@@ -116,29 +116,30 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
                   mm_text(2 * radius * std::sin(fit.degrees * std::numbers::pi / 360)),
                   " along the heads' rim");
   }
-  if (fit.left <= reach_mm / 3) return {};
-  if (nearest_rms(from, to) < fit.left / 2) {
+  if (fit.rms_mm <= reach_mm / 3) return {};
+  if (nearest_rms(from, to) < fit.rms_mm / 2) {
     return concat("has its vertices in another order: one after the other they lie ",
-                  mm_text(fit.left), " (rms) off those of the heads' rim");
+                  mm_text(fit.rms_mm), " (rms) off those of the heads' rim");
   }
-  return concat("has another form: its vertices lie ", mm_text(fit.left),
+  return concat("has another form: its vertices lie ", mm_text(fit.rms_mm),
                 " (rms) off those of the heads' rim");
 }
 
-/// The order whose rim fits best if the rim may be rotated.
-/// \param orders  all orders of one direction, then all orders of the other direction
+/// Returns the order of a body's rim vertices with the best rigid fit to the heads' rim.
+/// \param orders  first the orders that go around the rim in one direction, then the orders that go
+///                around it in the other direction
 const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
-  // A rim with equal left and right sides also fits upside down, in the other direction. If the
-  // larger of the two fit errors is at most kMaxErrorRatio times the smaller, choose the direction
-  // with the smaller rotation.
+  // If the left and right halves of a rim are equal, the rim with its vertices in reverse order
+  // also fits: upside down. If the larger of the two fit errors is at most kMaxErrorRatio times the
+  // smaller, choose the direction with the smaller rotation.
   constexpr double kMaxErrorRatio = 1.2;
   const std::span all(orders);
-  const auto left = [](const OrderedRim& one) { return one.fit.left; };
-  const OrderedRim* best = &*std::ranges::min_element(all.first(of_one_direction), {}, left);
+  const auto rms_mm = [](const OrderedRim& one) { return one.fit.rms_mm; };
+  const OrderedRim* best = &*std::ranges::min_element(all.first(of_one_direction), {}, rms_mm);
   if (all.size() == of_one_direction) return *best;
-  const OrderedRim* other = &*std::ranges::min_element(all.subspan(of_one_direction), {}, left);
-  if (other->fit.left < best->fit.left) std::swap(best, other);
-  const bool alike = other->fit.left <= kMaxErrorRatio * best->fit.left + kRoundingMm;
+  const OrderedRim* other = &*std::ranges::min_element(all.subspan(of_one_direction), {}, rms_mm);
+  if (other->fit.rms_mm < best->fit.rms_mm) std::swap(best, other);
+  const bool alike = other->fit.rms_mm <= kMaxErrorRatio * best->fit.rms_mm + kRoundingMm;
   return alike && other->fit.degrees < best->fit.degrees ? *other : *best;
 }
 
@@ -199,7 +200,7 @@ RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positi
   }
   const OrderedRim* best = &*std::ranges::min_element(orders, {}, &OrderedRim::square_sum);
   const OrderedRim& turned = best_turned(orders, is_free ? body_rim.size() : 1);
-  if (turned.fit.left < kMuchBetter * best->fit.left - kRoundingMm) best = &turned;
+  if (turned.fit.rms_mm < kMuchBetter * best->fit.rms_mm - kRoundingMm) best = &turned;
   RimMatch match;
   match.rim = best->order;
   const Positions points = body_positions(match.rim, kAllColumns);

@@ -18,7 +18,7 @@ void BinaryAnswer::add(std::string_view name, std::string_view type, std::size_t
 }
 
 std::string BinaryAnswer::bytes() const {
-  nlohmann::ordered_json whole = head;
+  nlohmann::ordered_json whole = json;
   whole["arrays"] = arrays_;
   std::string text = whole.dump();
   pad(text, ' ');

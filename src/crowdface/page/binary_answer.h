@@ -19,7 +19,7 @@ namespace crowdface {
 class BinaryAnswer {
  public:
   /// The JSON object of the answer. The function bytes() adds the key `arrays` to its text.
-  nlohmann::ordered_json head = nlohmann::ordered_json::object();
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
 
   template <class T>
   void add(std::string_view name, std::span<const T> values) {

@@ -233,8 +233,8 @@ void LocalServer::State::read_from(Connection& client) {
   take_request(client);
 }
 
-/// Processes the part of a request that has been received. Parses the head when the head is
-/// complete, and queues the request when the whole request is complete.
+/// Processes the received part of an HTTP request. Parses the HTTP head (request line and header
+/// fields) when it is complete, and queues the request when its body is complete too.
 void LocalServer::State::take_request(Connection& client) {
   if (!client.head) {
     constexpr std::string_view kEnd = "\r\n\r\n";

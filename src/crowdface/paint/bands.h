@@ -24,7 +24,8 @@ enum class Band : std::uint8_t {
   kEars,
   kNeck,  ///< below chin and ears
 };
-inline constexpr std::array<std::pair<std::string_view, Band>, 5> kBandNames = {
+/// The name of each mask region that a Band defines.
+inline constexpr std::array<std::pair<std::string_view, Band>, 5> kMaskBandNames = {
     {{"brow", Band::kBrow},
      {"nose", Band::kNose},
      {"mouth", Band::kMouth},

@@ -340,9 +340,9 @@ class LandmarkSearch {
     const auto tip = at("nose_tip"), base = at("nose_base");
     if (!tip || !base) return miss({"nose_wing_left", "nose_wing_right"}, reason);
     constexpr double kFrom = 9, kTo = 25, kStep = 0.25, kSpan = 1, kMinSlope = 0.6;
-    // The point kBeside outward from the wing's steepest point lies on the cheek. The slope there
-    // must be at most kFlatter times the wing's steepest slope.
-    constexpr double kBeside = 4, kFlatter = 0.7;
+    // The cheek beside a wing of the nose is flatter than the wing: kToCheekMm outward from the
+    // wing's steepest point, the slope is at most kMaxSlopeRatio times the wing's steepest slope.
+    constexpr double kToCheekMm = 4, kMaxSlopeRatio = 0.7;
     const auto slope = [&](double x, double up) {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);
       return inner && outer ? (*inner - *outer) / (2 * kSpan) : 0;
@@ -358,7 +358,7 @@ class LandmarkSearch {
         const double here = slope(x, up);
         if (here > steepest) steepest = here, across = x;
       }
-      if (across <= widest || slope(across + kBeside, up) > kFlatter * steepest) continue;
+      if (across <= widest || slope(across + kToCheekMm, up) > kMaxSlopeRatio * steepest) continue;
       widest = across;
       at_height = up;
     }
@@ -439,9 +439,9 @@ class LandmarkSearch {
     widest("jaw", {0, mouth->up - 4, back - 16}, {0, mouth->up, front}, reason);
   }
 
-  /// The ears' highest and lowest points. Seen from the side, the upper rim of an ear is where the
-  /// surface first rises steeply on the way down from above; the lower rim, on the way up from
-  /// below.
+  /// Finds the ears' highest and lowest points. Rays from the side scan the surface downwards from
+  /// above the ear, and upwards from below it. In each direction, the first steep rise of the
+  /// surface is the ear's rim.
   void ear_rims(const EarBox& ears) {
     constexpr double kAround = 16, kStep = 0.5, kRise = 0.8;
     const double back = ears.back / mm_, front = ears.front / mm_;

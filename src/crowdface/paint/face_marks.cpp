@@ -135,8 +135,8 @@ class Outline {
       front = std::max(front, lower.y() + t * (upper.y() - lower.y()));
     }
   }
-  /// Fills heights without skin: interpolates linearly between heights with skin, and repeats the
-  /// first and the last value beyond them.
+  /// Fills in `front_` at heights at which the plane cuts no skin. Interpolates linearly between
+  /// the nearest heights with skin; above and below all skin, repeats the nearest value.
   void fill_gaps() {
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < front_.size(); ++i) {
@@ -178,7 +178,8 @@ constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.
 constexpr double kBridgeWayMm = 15, kLipWayMm = 5, kChinWayMm = 10;
-constexpr double kPriorMm = 3;  ///< penalty at the end of the search range
+/// On a fine mesh: penalty for a height at the end of the search range, as a depth of the profile.
+constexpr double kMaxHeightPenaltyMm = 3;
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
 constexpr double kFineMm = 5;       ///< edges up to this length resolve the lips
 constexpr double kCoarsestMm = 18;  ///< longer edges do not show a face
@@ -201,8 +202,9 @@ MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, doubl
   // arbitrarily deep.
   constexpr double kDeepMm = 4, kDeeperShare = 0.25;
   constexpr double kMaxConvexMm = 4.5;
-  // The lips are convex above and below the line between them; the hollow above the chin lies
-  // between a lip and the flatter chin.
+  // The mouth has a convex lip above and below it; the hollow above the chin has a lip above it
+  // only. kToLipMm: distance above and below the mouth at which the lips' convexity is measured.
+  // kMaxLipMm: upper limit of the measured convexity.
   constexpr double kToLipMm = 6, kMaxLipMm = 2;
   const auto lip = [&](double height) {
     return std::clamp(-outline.hollow(height, kLipWayMm * mm), 0.0, kMaxLipMm * mm);
@@ -232,8 +234,9 @@ MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, doubl
   return best;
 }
 
-/// Typical edge length of the skin around a face: the edge of a square that has the median area of
-/// the polygons there.
+/// Returns the typical edge length of the skin within about 70 mm of the eyes: the square root of
+/// the median polygon area.
+/// \param face  position and size of the head's face, as found from its relief
 double edge_length_near(const Topology& topology, const HeadShape& head, const ReliefMatch& face) {
   constexpr double kNearMm = 70;
   std::vector<double> areas;
@@ -309,7 +312,7 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
   // penalty, and thus the mean face, has more weight on such a mesh.
   const double coarseness = std::max(1.0, edge_length_near(topology, head, match) / (kFineMm * mm));
-  const double prior = kPriorMm * mm * coarseness * coarseness;
+  const double prior = kMaxHeightPenaltyMm * mm * coarseness * coarseness;
   const auto best_near = [&](double expected, double reach, const auto& measure) {
     const double middle = eyes + expected * match.stretch * mm;
     return outline.best(middle - reach * mm, middle + reach * mm, [&](double h) {
@@ -376,7 +379,7 @@ std::optional<Orientation> find_orientation(const Topology& topology, const Head
   const auto match = match_relief(samples, axes, head.eyeball_centres);
   if (!match || match->score < kMinScore) return std::nullopt;
   if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
-  return orientations[match->requested_axes_index];
+  return orientations[match->nearest_orientation_index];
 }
 
 std::optional<std::string> long_edges_message(const Topology& topology, const HeadShape& head,

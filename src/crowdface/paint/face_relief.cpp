@@ -457,11 +457,11 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
     // Of the requested axes, choose the axes that are nearest to the axes of the face.
-    match.requested_axes_index = static_cast<std::size_t>(
+    match.nearest_orientation_index = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
         all_axes.begin());
-    const HeadAxes& asked = all_axes[match.requested_axes_index];
+    const HeadAxes& asked = all_axes[match.nearest_orientation_index];
     match.rotation_degrees = angle_between(match.axes, asked);
     // Compensate a small pitch of the match.
     const double pitch =

@@ -29,8 +29,9 @@ struct ReliefMatch {
   /// The correlation, plus 0.15 if the known eyeballs are at the eyes of this match, or minus 0.15
   /// if the eyeballs are elsewhere.
   double score = -1;
-  /// index, in the argument `axes` of match_relief, of the axes that are nearest to the face's axes
-  std::size_t requested_axes_index = 0;
+  /// index of the requested orientation (argument `axes` of match_relief) that is nearest to the
+  /// orientation of the face
+  std::size_t nearest_orientation_index = 0;
   double rotation_degrees = 0;  ///< angle between the nearest requested axes and the face's axes
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
   /// Axes of the face: in these axes the face is symmetric and as upright as the mean face. Small

@@ -12,7 +12,7 @@ constexpr std::string_view kForm =
     "brow,nose,mouth and, if wanted, ears and neck, with commas between";
 
 Band band_of(std::string_view name) {
-  for (const auto& [known, band] : kBandNames) {
+  for (const auto& [known, band] : kMaskBandNames) {
     if (known == name) return band;
   }
   throw UsageError(concat("--bands: expected ", kForm, ", found ", quoted(name)));
@@ -39,7 +39,7 @@ std::vector<Band> parse_bands(std::string_view text) {
 std::vector<std::string> names_of(const std::vector<Band>& bands) {
   std::vector<std::string> names;
   for (const Band band : bands) {
-    names.emplace_back(kBandNames[static_cast<std::size_t>(band)].first);
+    names.emplace_back(kMaskBandNames[static_cast<std::size_t>(band)].first);
   }
   return names;
 }

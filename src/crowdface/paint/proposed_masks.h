@@ -14,7 +14,7 @@ namespace crowdface {
 /// and mouth.
 /// \throws UsageError otherwise.
 std::vector<Band> parse_bands(std::string_view text);
-/// Returns the names of bands, as in kBandNames.
+/// Returns the names of bands, as in kMaskBandNames.
 std::vector<std::string> names_of(const std::vector<Band>& bands);
 
 /// Width and height in texels that are sufficient for masks of soft regions on a mesh with this

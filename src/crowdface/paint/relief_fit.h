@@ -42,7 +42,8 @@ struct ReliefFit {
   double correlation = -1;  ///< see ReliefMatch::correlation
   double amplitude = 0;     ///< amplitude of the relief, 1 for the mean face
   double offset = 0;        ///< depth between the eyes minus the depth of the fitted relief there
-  double slope_up = 0;      ///< vertical slope of the depths without the relief
+  /// vertical slope in the fitted model (depth per length upwards), in addition to the mean face
+  double slope_up = 0;
 };
 
 /// Fits a model to the depths by least squares. The model is a weighted sum of an offset, slopes,

@@ -74,7 +74,7 @@ SurfaceDistance::SurfaceDistance(const Topology& topology, const Positions& posi
       positions_(positions),
       adjacency_(build_adjacency(topology)),
       faces_(topology),
-      twins_(find_twins(adjacency_, positions)),
+      next_twins_(find_twins(adjacency_, positions)),
       grid_(positions, used_vertices(adjacency_)) {}
 
 SurfacePoint SurfaceDistance::nearest(const Eigen::Vector3d& point) const {
@@ -87,15 +87,15 @@ std::vector<std::uint32_t> SurfaceDistance::adjacent_vertices(std::uint32_t vert
   do {
     const auto neighbours = adjacency_.items_of(at);
     out.insert(out.end(), neighbours.begin(), neighbours.end());
-    at = twins_[at];
+    at = next_twins_[at];
   } while (at != vertex);
   return out;
 }
 
 std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::vertices_within(
     const std::vector<SurfacePoint>& points, double reach) const {
-  std::vector<double> distance(twins_.size(), kFar);
-  std::vector<bool> done(twins_.size(), false);
+  std::vector<double> distance(next_twins_.size(), kFar);
+  std::vector<bool> done(next_twins_.size(), false);
   using Front = std::pair<double, std::uint32_t>;
   std::priority_queue<Front, std::vector<Front>, std::greater<>> front;
   const auto reached = [&](std::uint32_t vertex, double way) {
@@ -121,7 +121,7 @@ std::vector<SurfaceDistance::ReachedVertex> SurfaceDistance::vertices_within(
     if (done[vertex]) continue;
     done[vertex] = true;
     out.push_back({vertex, way});
-    if (twins_[vertex] != vertex) reached(twins_[vertex], way);
+    if (next_twins_[vertex] != vertex) reached(next_twins_[vertex], way);
     const Eigen::Vector3d here = row3(positions_, vertex);
     for (const std::uint32_t f : faces_.items_of(vertex)) {
       const auto face = topology_.face(f);

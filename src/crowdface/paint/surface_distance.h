@@ -34,7 +34,7 @@ class SurfaceDistance {
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }
-  /// Returns the neighbours of a vertex and of its twins (see twins_); the list may contain
+  /// Returns the neighbours of a vertex and of its twins (see next_twins_); the list may contain
   /// duplicates.
   std::vector<std::uint32_t> adjacent_vertices(std::uint32_t vertex) const;
 
@@ -43,9 +43,9 @@ class SurfaceDistance {
   const Positions& positions_;
   Adjacency adjacency_;
   VertexFaces faces_;
-  /// #V: twins are boundary vertices of different components at the same position. Each vertex
-  /// links to its next twin in a cyclic list; a vertex without a twin links to itself.
-  std::vector<std::uint32_t> twins_;
+  /// #V: twins are boundary vertices of different components at the same position. Entry v is the
+  /// next vertex in the cyclic list of v and its twins; v itself if v has no twin.
+  std::vector<std::uint32_t> next_twins_;
   PointGrid grid_;
 };
 

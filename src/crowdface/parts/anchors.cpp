@@ -137,8 +137,8 @@ PartWeights::PartWeights(const Positions& positions,
   }
 }
 
-void PartWeights::pull(const Positions& target, std::span<const RigidMotion> motions,
-                       Positions& result) const {
+void PartWeights::move_with_parts(const Positions& target, std::span<const RigidMotion> motions,
+                                  Positions& result) const {
   for (std::size_t i = 0; i < weights_.size();) {
     const std::uint32_t v = weights_[i].vertex;
     const Eigen::Vector3d bound = result.row(v).transpose();

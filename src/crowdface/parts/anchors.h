@@ -78,7 +78,8 @@ class PartWeights {
   ///
   /// \param target   The head that the face is built on.
   /// \param motions  #rigid: motion of each part from `target`.
-  void pull(const Positions& target, std::span<const RigidMotion> motions, Positions& result) const;
+  void move_with_parts(const Positions& target, std::span<const RigidMotion> motions,
+                       Positions& result) const;
 
  private:
   struct PartWeight {

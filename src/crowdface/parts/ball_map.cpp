@@ -31,9 +31,9 @@ double radius_along(const Topology& topology, const VertexFaces& faces, const Po
 
 }  // namespace
 
-BallMap::BallMap(const Topology& topology, const VertexFaces& faces, const Positions& head,
-                 std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre,
-                 double radius, const HeadAxes& axes)
+BallRadii::BallRadii(const Topology& topology, const VertexFaces& faces, const Positions& head,
+                     std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre,
+                     double radius, const HeadAxes& axes)
     : axes_(axes),
       side_(axes.side()),
       centre_(centre),
@@ -59,7 +59,7 @@ BallMap::BallMap(const Topology& topology, const VertexFaces& faces, const Posit
   max_radius_ = static_cast<double>(*std::ranges::max_element(radii_));
 }
 
-BallMap::Gap BallMap::gap_at(const Eigen::Vector3d& centre_to_point) const {
+BallRadii::Gap BallRadii::gap_at(const Eigen::Vector3d& centre_to_point) const {
   const double distance = centre_to_point.norm();
   if (!(distance > 0)) return {-radius_, axes_.front};
   const Eigen::Vector3d direction = centre_to_point / distance;

@@ -12,15 +12,15 @@ namespace crowdface {
 /// The radius of an eyeball, including the cornea, for each direction around its front. A grid over
 /// the stereographic plane stores the radii, so that a table look-up, without a search, gives the
 /// gap between eyeball and lid.
-class BallMap {
+class BallRadii {
  public:
-  BallMap() = default;
+  BallRadii() = default;
   /// \param vertices  Vertices of the eyeball's surface.
   /// \param centre    Centre of the eyeball.
   /// \param radius    Radius of the eyeball.
-  BallMap(const Topology& topology, const VertexFaces& faces, const Positions& head,
-          std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre, double radius,
-          const HeadAxes& axes);
+  BallRadii(const Topology& topology, const VertexFaces& faces, const Positions& head,
+            std::span<const std::uint32_t> vertices, const Eigen::Vector3d& centre, double radius,
+            const HeadAxes& axes);
 
   /// Gap between the eyeball's surface and a point.
   struct Gap {

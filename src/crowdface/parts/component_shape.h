@@ -55,7 +55,7 @@ Eigen::Vector3d centre_of(const Positions& positions, std::span<const std::uint3
 /// Returns the root mean square distance of the given vertices (at least one) from a point.
 double radius_about(const Eigen::Vector3d& point, const Positions& positions,
                     std::span<const std::uint32_t> vertices);
-/// Returns the length of the diagonal of the bounding box of the given vertices (at least one).
+/// Returns the length of the diagonal of the bounding box of one or more vertices.
 double extent_of(const Positions& positions, std::span<const std::uint32_t> vertices);
 
 }  // namespace crowdface

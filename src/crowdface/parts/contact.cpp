@@ -33,12 +33,22 @@ constexpr double kFar = 0.15, kDone = 0.002;
 /// that moves the vertices by the same distance.
 constexpr double kHoldTurn = 1, kHoldSize = 2;
 constexpr double kSmaller = 0.06, kLarger = 0.01;
-/// Penalties for violations, as multiples of the reach. kNewPenalty: for vertices that are outside
-/// the skin in all heads; these vertices have priority. kDeepPenalty: for all other vertices.
-constexpr double kNewPenalty = 1000, kDeepPenalty = 1;
+/// Penalty factors for violations of an optimisation step, in units of the reach. kOutsidePenalty:
+/// for vertices that are outside the skin in all heads; these vertices have priority.
+/// kInsidePenalty: for all other vertices.
+constexpr double kOutsidePenalty = 1000, kInsidePenalty = 1;
 
-/// Unknowns of an optimisation step of a part. All of them are lengths.
-enum Unknown : std::size_t { kShift = 0, kTurn = 3, kSize = 6, kNewSlack, kDeepSlack, kUnknowns };
+/// Index of the first unknown of each kind in an optimisation step of a part: translation (3
+/// unknowns), rotation (3), change of size, and the two violations with the penalties
+/// kOutsidePenalty and kInsidePenalty. All unknowns are lengths.
+enum Unknown : std::size_t {
+  kShift = 0,
+  kTurn = 3,
+  kSize = 6,
+  kOutsideSlack,
+  kInsideSlack,
+  kUnknowns
+};
 
 }  // namespace
 
@@ -63,7 +73,7 @@ PartContact::PartContact(const Topology& topology, const VertexFaces& faces,
   // The majority determines the sign of the normals: most vertices of a part are outside the skin,
   // although roots of teeth may be inside.
   normal_sign_ = sum < 0 ? -1 : 1;
-  find_starts(positions, skin, heads);
+  find_search_starts(positions, skin, heads);
   find_clusters(positions, heads);
   parallel_for_each(pairs_.size(), 64, [&](std::size_t i) {
     for (const Head& head : heads) {
@@ -74,8 +84,9 @@ PartContact::PartContact(const Topology& topology, const VertexFaces& faces,
   });
 }
 
-void PartContact::find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
-                              const std::vector<Head>& heads) {
+void PartContact::find_search_starts(const Positions& positions,
+                                     std::span<const std::uint32_t> skin,
+                                     const std::vector<Head>& heads) {
   // If two start vertices are nearer to each other than this distance, searches from both find the
   // same point of the skin.
   const double apart = 0.3 * reach_;
@@ -98,17 +109,17 @@ void PartContact::find_starts(const Positions& positions, std::span<const std::u
       nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
-  // For each pair, keep at most kStarts of these skin vertices as starts of the search for the
-  // nearest skin. Omit a vertex that is closer than `apart` to another start of the pair.
+  // For each pair, keep at most kMaxSearchStarts of these skin vertices as starts of the search for
+  // the nearest skin. Omit a vertex that is closer than `apart` to another start of the pair.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    auto& starts = pairs_[i].starts;
+    SearchStarts& starts = pairs_[i].search_starts;
     std::size_t count = 1;
     for (const auto& of_head : nearest) {
       const std::uint32_t v = of_head[i];
       const auto is_near = [&](std::uint32_t start) {
         return (row3(positions, v) - row3(positions, start)).norm() < apart;
       };
-      if (v == kNoIndex || count == kStarts ||
+      if (v == kNoIndex || count == kMaxSearchStarts ||
           std::any_of(starts.begin(), starts.begin() + count, is_near)) {
         continue;
       }
@@ -181,10 +192,10 @@ Eigen::Vector3d PartContact::normal_near(const SurfacePoint& place, const Positi
 
 PartContact::Height PartContact::height(std::size_t pair, const Eigen::Vector3d& point,
                                         const Positions& skin) const {
-  const Starts& starts = pairs_[pair].starts;
-  Starts ends = {};
+  const SearchStarts& starts = pairs_[pair].search_starts;
+  SearchStarts ends = {};
   SurfacePoint place;
-  for (std::size_t s = 0; s < kStarts && (s == 0 || starts[s] != starts[0]); ++s) {
+  for (std::size_t s = 0; s < kMaxSearchStarts && (s == 0 || starts[s] != starts[0]); ++s) {
     ends[s] = walk_to_nearest_vertex(*topology_, *faces_, skin, starts[s], point);
     if (std::find(ends.begin(), ends.begin() + s, ends[s]) != ends.begin() + s) continue;
     const SurfacePoint other = nearest_point_from(*topology_, *faces_, skin, ends[s], point);
@@ -249,7 +260,7 @@ bool PartContact::step(const Positions& target, const RigidMotion& start,
                                   arm.y(),
                                   arm.z(),
                                   from.dot(now.outward) / radius};
-    a[never ? kNewSlack : kDeepSlack] = 1;
+    a[never ? kOutsideSlack : kInsideSlack] = 1;
     program.add_lower_bound(a, least - now.height);
   }
   near.resize(kept);
@@ -261,8 +272,8 @@ bool PartContact::step(const Positions& target, const RigidMotion& start,
   // Keep the total change of size small, and within fixed limits.
   program.add_target(kSize, -grown, kHoldSize);
   program.add_bounds(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
-  program.add_slack(kNewSlack, kNewPenalty * reach_);
-  program.add_slack(kDeepSlack, kDeepPenalty * reach_);
+  program.add_slack(kOutsideSlack, kOutsidePenalty * reach_);
+  program.add_slack(kInsideSlack, kInsidePenalty * reach_);
   const QuadraticProgram::Vector x = program.solve(1e-5 * reach_);
   motion =
       nudged(motion, middle, {x[0], x[1], x[2]},

@@ -52,15 +52,16 @@ class PartContact {
   std::size_t size() const { return pairs_.size(); }
 
  private:
-  static constexpr std::size_t kStarts = 3;
-  using Starts = std::array<std::uint32_t, kStarts>;
+  /// largest number of skin vertices from which the search for the skin nearest to a vertex starts
+  static constexpr std::size_t kMaxSearchStarts = 3;
+  using SearchStarts = std::array<std::uint32_t, kMaxSearchStarts>;
   struct Pair {
     std::uint32_t vertex;
     Triangle corners;
     std::array<double, 3> shares;
     /// Vertices at which the search for the nearest skin starts. If both lips are near, some of
     /// these vertices lie on each lip.
-    Starts starts;
+    SearchStarts search_starts;
     double min_height;  ///< smallest height of the pair in all heads
   };
   /// Pairs that are close together. The height of the middle pair, minus `slack`, is a lower bound
@@ -70,8 +71,8 @@ class PartContact {
     double slack;
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
-  void find_starts(const Positions& positions, std::span<const std::uint32_t> skin,
-                   const std::vector<Head>& heads);
+  void find_search_starts(const Positions& positions, std::span<const std::uint32_t> skin,
+                          const std::vector<Head>& heads);
   void find_clusters(const Positions& positions, const std::vector<Head>& heads);
   double approximate_height(const Pair& pair, const Eigen::Vector3d& point,
                             const Positions& skin) const;

@@ -13,9 +13,9 @@
 namespace crowdface {
 namespace {
 
-/// Search radii around a section's middle, in multiples of the distance between sections. The pairs
-/// within kDirectionReach determine the direction along the gap. The pairs within kUpReach
-/// determine the section's `up`.
+/// Search radii around a section's middle, in multiples of the distance between sections. The
+/// facing pairs of vertices within kDirectionReach determine the direction along the gap. The
+/// facing pairs within kUpReach determine the direction across the gap (GapSection::up).
 constexpr double kDirectionReach = 4, kUpReach = 1.5;
 
 /// Returns the direction, perpendicular to `up`, in which the midpoints of the pairs near a point

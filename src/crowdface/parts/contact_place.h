@@ -70,7 +70,8 @@ class Clearance {
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
-    /// indices of points; the points of the low profile come before the points of the high profile
+    /// indices of the two neighbouring points of the low and of the high profile (see GapSection);
+    /// the points of the low profile have the lower indices
     std::array<std::uint32_t, 2> low, high;
     std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 
@@ -104,6 +105,7 @@ class Clearance {
   /// A segment between two neighbouring points, or a single point without neighbours.
   using Segment = std::array<std::uint32_t, 2>;
 
+  /// Returns the coordinate of each profile point (see `points_`) along a direction.
   std::vector<double> coordinates(const Eigen::Vector3d& direction,
                                   const Positions& positions) const;
 

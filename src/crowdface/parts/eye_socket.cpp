@@ -21,9 +21,10 @@ constexpr std::size_t kDirections = 60;
 /// Largest number of lid vertices that are used; more vertices are subsampled evenly.
 constexpr std::size_t kMaxLids = 2500;
 
-/// kMeans: weight of the error of a lid's mean gap, relative to the mean square error of the gaps
-/// at the rim. kMeanOff: tolerance of the mean gap, as a fraction of the radius (0.05 mm).
-constexpr double kMeans = 20, kMeanOff = 0.004;
+/// kMeanGapWeight: weight of the error of a lid's mean gap, relative to the mean square error of
+/// the gaps at the rim. kMeanGapTolerance: tolerance of the mean gap, as a fraction of the radius
+/// (0.05 mm).
+constexpr double kMeanGapWeight = 20, kMeanGapTolerance = 0.004;
 /// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the cost of
 /// errors of the gaps.
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
@@ -32,8 +33,8 @@ constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
 /// Gap that is kept at lid vertices that are outside the eyeball in all heads: fraction of the
 /// radius (0.025 mm).
 constexpr double kMargin = 0.002;
-/// A lid vertex with a larger gap counts as outside the eyeball, although the vertex may be up to
-/// 0.04 mm inside: fraction of the radius.
+/// Smallest gap of lid vertices that count as outside the eyeball, as a fraction of the radius. It
+/// is negative: vertices up to 0.04 mm inside the eyeball also count as outside.
 constexpr double kMinOutsideGap = -0.003;
 /// Fractions of the radius. Lid vertices farther from the eyeball than this distance need no check,
 /// because the eyeball moves by a smaller distance: kFarFirst in the first step, kFarLater in later
@@ -107,9 +108,9 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
   return lids;
 }
 
-EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads)
+EyeSocket::EyeSocket(Lids lids, std::vector<BallRadii> ball_radii, const std::vector<Head>& heads)
     : lids_(std::move(lids)),
-      maps_(std::move(maps)),
+      ball_radii_(std::move(ball_radii)),
       smallest_gaps_(lids_.vertices.size(), 1e300),
       rim_indices_(lids_.vertices.size(), kNoIndex) {
   for (std::size_t r = 0; r < lids_.rim.size(); ++r) {
@@ -119,7 +120,7 @@ EyeSocket::EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Hea
     std::vector<double>& gaps = gaps_.emplace_back(lids_.rim.size());
     for (std::size_t i = 0; i < lids_.vertices.size(); ++i) {
       const Eigen::Vector3d point = heads[h].positions.row(lids_.vertices[i]).transpose();
-      const double gap = maps_[h].gap_at(point - maps_[h].centre()).gap;
+      const double gap = ball_radii_[h].gap_at(point - ball_radii_[h].centre()).gap;
       smallest_gaps_[i] = std::min(smallest_gaps_[i], gap);
       if (rim_indices_[i] != kNoIndex) gaps[rim_indices_[i]] = gap;
     }
@@ -152,7 +153,7 @@ RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& skin
         step(target, skin_motion, motion, k == 0 ? kFarFirst : kFarLater, size_mode, lids);
     const double change = (next.moved_pivot - motion.moved_pivot).norm();
     motion = next;
-    if (change < kDoneShift * maps_[target].radius()) break;
+    if (change < kDoneShift * ball_radii_[target].radius()) break;
   }
   return motion;
 }
@@ -160,7 +161,7 @@ RigidMotion EyeSocket::iterate_steps(std::size_t target, const RigidMotion& skin
 RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
                             const RigidMotion& motion, double far, SizeMode size_mode,
                             std::vector<LidPoint>& lids) const {
-  const BallMap& map = maps_[target];
+  const BallRadii& map = ball_radii_[target];
   const double radius = motion.scale * map.radius();
   // A gap is measured along the normal of the eyeball, so the gap is a little smaller than the
   // distance along the ray from the centre.
@@ -181,7 +182,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
     const std::uint32_t r = rim_indices_[lid.index];
     const Eigen::Vector3d from = lid.point - centre;
     if (r == kNoIndex && from.squaredNorm() > outside * outside) continue;
-    BallMap::Gap gap = map.gap_at(motion.apply_inverse(lid.point) - map.centre());
+    BallRadii::Gap gap = map.gap_at(motion.apply_inverse(lid.point) - map.centre());
     gap.gap *= motion.scale;
     if (r == kNoIndex && gap.gap > far * radius) continue;
     lids[kept++] = lid;
@@ -210,12 +211,12 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
     if (of.count == 0) continue;
     for (double& value : of.a) value /= of.count;
     const double missing = of.missing / of.count;
-    program.add_target(of.a, missing, kMeans);
+    program.add_target(of.a, missing, kMeanGapWeight);
     QuadraticProgram::Vector less = of.a;
     for (double& value : less) value = -value;
     of.a[kMeanGapSlack] = less[kMeanGapSlack] = 1;
-    program.add_lower_bound(of.a, missing - kMeanOff * radius);
-    program.add_lower_bound(less, -missing - kMeanOff * radius);
+    program.add_lower_bound(of.a, missing - kMeanGapTolerance * radius);
+    program.add_lower_bound(less, -missing - kMeanGapTolerance * radius);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     program.add_target(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);

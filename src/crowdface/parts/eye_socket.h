@@ -33,8 +33,8 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
 class EyeSocket {
  public:
   EyeSocket() = default;
-  /// \param maps  #heads: the radii of the eyeball in each head.
-  EyeSocket(Lids lids, std::vector<BallMap> maps, const std::vector<Head>& heads);
+  /// \param ball_radii  #heads: the radii of the eyeball in each head, by direction.
+  EyeSocket(Lids lids, std::vector<BallRadii> ball_radii, const std::vector<Head>& heads);
 
   const Lids& lids() const { return lids_; }
   /// Returns, for each rim vertex, the gap between this vertex and the eyeball in a head; negative
@@ -57,7 +57,7 @@ class EyeSocket {
   /// \param scaled_motion  Result of `fit`, scaled to the wanted size.
   RigidMotion fit_translation(std::size_t target, const RigidMotion& skin_motion,
                               const RigidMotion& scaled_motion, const Positions& face) const;
-  Eigen::Vector3d centre(std::size_t target) const { return maps_[target].centre(); }
+  Eigen::Vector3d centre(std::size_t target) const { return ball_radii_[target].centre(); }
 
  private:
   enum class SizeMode { kFree, kKept };
@@ -74,10 +74,10 @@ class EyeSocket {
                             SizeMode size_mode, const Positions& face) const;
 
   Lids lids_;
-  std::vector<BallMap> maps_;               ///< #heads
-  std::vector<std::vector<double>> gaps_;   ///< #heads by #rim
-  std::vector<double> smallest_gaps_;       ///< #lids: smallest gap in all heads
-  std::vector<std::uint32_t> rim_indices_;  ///< #lids: index in the rim, or kNoIndex
+  std::vector<BallRadii> ball_radii_;       ///< #heads
+  std::vector<std::vector<double>> gaps_;   ///< #heads by #rim vertices
+  std::vector<double> smallest_gaps_;       ///< #lid vertices: smallest gap in all heads
+  std::vector<std::uint32_t> rim_indices_;  ///< #lid vertices: index in the rim, or kNoIndex
 };
 
 }  // namespace crowdface

@@ -64,9 +64,8 @@ class MirroredWalk {
 
   const Topology& topology_;
   const VertexFaces& vertex_faces_;
-  // State of the current walk:
-  /// #V: for each vertex of the first side, its mirror partner on the second side; kNoIndex if no
-  /// partner is known
+  /// #V: for each vertex of the first side, the mirror partner that the current walk found on the
+  /// second side; kNoIndex if none
   std::vector<std::uint32_t> partner_of_vertex_;
   std::vector<std::uint32_t> vertex_of_partner_;  ///< #V: the inverse of partner_of_vertex_
   /// #F: whether the walk has visited the polygon on the first side

@@ -21,15 +21,18 @@ namespace {
 /// A coordinate plane is preferred if its error is at most this factor times the error of the best
 /// plane.
 constexpr double kAsGood = 1.05;
-constexpr std::size_t kSeeds = 24;  ///< number of walks tried for two components
+/// Largest number of seeds. A seed is a vertex of a component where a walk over the polygons of the
+/// component and of its mirror image starts.
+constexpr std::size_t kMaxMirrorSeeds = 24;
 /// A walk with an error below this fraction of the component's extent is accepted without further
 /// walks, because a sphere has many symmetries.
 constexpr double kAcceptedError = 0.01;
 // Lengths are fractions of the skin's extent, about 43 cm.
 // largest distance of a partner from the vertex's mirror image
 constexpr double kMatchReach = 0.01;
-/// The root mean square error of a walk may be at most the larger of two limits: kWalkShare of the
-/// component's extent, and kWalkReach of the skin's extent.
+/// A walk (see MirroredWalk) pairs the vertices of two components. Its error is the root mean
+/// square distance of the pairs after mirroring. The error may be at most the larger of two limits:
+/// kWalkShare of the component's extent, and kWalkReach of the skin's extent.
 constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
 // largest difference between the bounding boxes of two matched components
 constexpr double kBoxReach = 0.03;
@@ -37,7 +40,7 @@ constexpr double kBoxReach = 0.03;
 /// length.
 constexpr double kNearness = 0.05;
 
-constexpr double kMore = 1 + 1e-9;  ///< tolerance for rounding in sums
+constexpr double kRoundingFactor = 1 + 1e-9;  ///< factor on limits of sums; allows for rounding
 
 using Vertices = std::vector<std::uint32_t>;
 
@@ -111,12 +114,12 @@ class PlaceFinder {
     // Collect seeds: the vertices for which the distance from the mirror image to the nearest
     // vertex is smallest.
     std::vector<Seed> seeds;
-    for (const std::uint32_t v : evenly_spaced_items(here, 20 * kSeeds)) {
+    for (const std::uint32_t v : evenly_spaced_items(here, 20 * kMaxMirrorSeeds)) {
       const auto near = grid.nearest(image(v));
       seeds.push_back({near.distance, v, near.vertex});
     }
     std::ranges::stable_sort(seeds, {}, &Seed::distance);
-    seeds.resize(std::min(seeds.size(), kSeeds));
+    seeds.resize(std::min(seeds.size(), kMaxMirrorSeeds));
     const double extent = bounding_box(mean_, here).sizes().maxCoeff();
     std::optional<std::vector<MirroredPair>> best;
     double best_rms = std::max(kWalkShare * extent, kWalkReach * extent_);
@@ -128,7 +131,8 @@ class PlaceFinder {
         const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
         const std::uint32_t partner_of_to = grid.nearest(image(to)).vertex;
         // A walk that is worse than the best so far ends early.
-        const double most = kMore * best_rms * best_rms * static_cast<double>(here.size());
+        const double most =
+            kRoundingFactor * best_rms * best_rms * static_cast<double>(here.size());
         double squares = 0;
         auto pairs = walk_.walk_from(
             {seed.vertex, to}, {partner_of_to, seed.partner}, [&](const MirroredPair& pair) {
@@ -258,7 +262,7 @@ void keep_form(const Positions& mean, double reach, MirrorMap& map) {
 }  // namespace
 
 double FoundMirror::partner_fraction() const {
-  return static_cast<double>(mutual_vertex_count + surface_partner_count) /
+  return static_cast<double>(paired_vertex_count + surface_mirrored_vertex_count) /
          static_cast<double>(map.corners.size());
 }
 
@@ -309,7 +313,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   found.rms_distance = std::sqrt(mean_square(map, mean, &found.max_distance));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
     if (std::ranges::binary_search(map.unpaired_vertices, v)) continue;
-    ++(map.is_vertex(v) ? found.mutual_vertex_count : found.surface_partner_count);
+    ++(map.is_vertex(v) ? found.paired_vertex_count : found.surface_mirrored_vertex_count);
   }
   return found;
 }

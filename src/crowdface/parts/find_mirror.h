@@ -9,11 +9,11 @@ namespace crowdface {
 /// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  /// number of vertices in mutual pairs: each vertex of a pair is the partner of the other
-  Index mutual_vertex_count = 0;
-  /// number of vertices whose partner is a point on the surface instead of a vertex; vertices in
-  /// neither of both counts have no partner
-  Index surface_partner_count = 0;
+  /// number of vertices in pairs: each vertex of a pair is the partner of the other
+  Index paired_vertex_count = 0;
+  /// number of vertices whose partner is a point inside a polygon or on an edge, not a vertex.
+  /// All vertices that neither paired_vertex_count nor this field counts have no partner.
+  Index surface_mirrored_vertex_count = 0;
   /// Distance of the mean head from its mirror image, in the unit of the heads: root mean square
   /// and maximum over all vertices.
   double rms_distance = 0, max_distance = 0;

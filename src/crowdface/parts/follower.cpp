@@ -50,11 +50,11 @@ bool have_same_positions(const Positions& before, const Positions& after,
 
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<double> equal_weights;  ///< #vertices: equal weights, for fits of the part's shape
+  std::vector<double> unit_weights;  ///< #vertices: all 1, for fits of the part's shape
   Socket socket;
   bool is_eyeball = false;
-  EyeSocket eye;        ///< used for eyeballs
-  PartContact contact;  ///< used for other parts
+  EyeSocket eye;        ///< used if the part is an eyeball
+  PartContact contact;  ///< used if the part is not an eyeball
 };
 
 /// The mean head and its skin, to which parts are bound.
@@ -83,13 +83,13 @@ Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
 }
 
 EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMean& skin) {
-  const std::vector<double> equal_weights(part.vertices.size(), 1.0);
-  std::vector<BallMap> maps(skin.heads.heads.size());
+  const std::vector<double> unit_weights(part.vertices.size(), 1.0);
+  std::vector<BallRadii> maps(skin.heads.heads.size());
   parallel_for_each(maps.size(), [&](std::size_t i) {
     const Positions& head = skin.heads.heads[i].positions;
-    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, equal_weights);
-    maps[i] = BallMap(skin.heads.topology, skin.around, head, part.surface,
-                      motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
+    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, unit_weights);
+    maps[i] = BallRadii(skin.heads.topology, skin.around, head, part.surface,
+                        motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
   });
   return {find_lids(skin.mean, PointGrid(skin.mean, part.vertices), ball.centre, ball.radius,
                     skin.axes, skin.vertices),
@@ -99,7 +99,7 @@ EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMea
 RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& skin) {
   RigidPart bound;
   bound.vertices = part.vertices;
-  bound.equal_weights.assign(part.vertices.size(), 1.0);
+  bound.unit_weights.assign(part.vertices.size(), 1.0);
   bound.is_eyeball = part.is_eyeball;
   if (!part.is_eyeball) {
     bound.socket = socket_of(part, kSocketReach * skin.extent, skin);
@@ -126,15 +126,16 @@ struct PartFollower::State {
   std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< #heads: offsets of the bound vertices
   PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
 
-  /// The motion of the skin around a part, and the motion of the part.
-  struct Found {
-    bool still = true;  ///< the skin around the part is unmoved
-    RigidMotion skin, part;
+  struct PartMotion {
+    bool still = true;  ///< whether the skin around the part is unmoved
+    RigidMotion skin;   ///< motion of the skin around the part
+    RigidMotion part;   ///< motion of the part itself
   };
-  Found find_motion(const RigidPart& part, std::size_t target, const Positions& result) const;
+  PartMotion find_motion(const RigidPart& part, std::size_t target, const Positions& result) const;
   /// Gives all eyeballs of the head the same change of size.
-  void even_sizes(std::size_t target, const Positions& result, std::vector<Found>& found) const;
-  void place(const RigidPart& part, std::size_t target, const Found& found,
+  void even_sizes(std::size_t target, const Positions& result,
+                  std::vector<PartMotion>& found) const;
+  void place(const RigidPart& part, std::size_t target, const PartMotion& found,
              Positions& result) const;
 };
 
@@ -185,11 +186,11 @@ PartFollower::PartFollower(const HeadSet& heads, const PartList& parts, const He
 
 PartFollower::~PartFollower() = default;
 
-PartFollower::State::Found PartFollower::State::find_motion(const RigidPart& part,
-                                                            std::size_t target,
-                                                            const Positions& result) const {
+PartFollower::State::PartMotion PartFollower::State::find_motion(const RigidPart& part,
+                                                                 std::size_t target,
+                                                                 const Positions& result) const {
   const Positions& before = heads.heads[target].positions;
-  Found found;
+  PartMotion found;
   found.still = have_same_positions(before, result, part.socket.vertices) &&
                 have_same_positions(before, result, part.eye.lids().vertices);
   if (found.still || part.socket.vertices.size() < 3) return found;
@@ -201,7 +202,7 @@ PartFollower::State::Found PartFollower::State::find_motion(const RigidPart& par
 }
 
 void PartFollower::State::even_sizes(std::size_t target, const Positions& result,
-                                     std::vector<Found>& found) const {
+                                     std::vector<PartMotion>& found) const {
   double sum = 0, count = 0;
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     if (!rigid[p].is_eyeball) continue;
@@ -219,7 +220,7 @@ void PartFollower::State::even_sizes(std::size_t target, const Positions& result
   });
 }
 
-void PartFollower::State::place(const RigidPart& part, std::size_t target, const Found& found,
+void PartFollower::State::place(const RigidPart& part, std::size_t target, const PartMotion& found,
                                 Positions& result) const {
   const Positions& before = heads.heads[target].positions;
   if (shape == PartShape::kTarget) {
@@ -234,7 +235,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
   }
   // First move the blended part rigidly onto the target's part, so that only the shape of the
   // blended part is kept.
-  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.equal_weights);
+  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.unit_weights);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();
   }
@@ -244,7 +245,7 @@ void PartFollower::follow(Index target, Positions& result) const {
   const auto t = static_cast<std::size_t>(target);
   const Positions& before = state_->heads.heads[t].positions;
   // Parts can be processed in parallel: each reads only skin, and writes only its own vertices.
-  std::vector<State::Found> found(state_->rigid.size());
+  std::vector<State::PartMotion> found(state_->rigid.size());
   std::vector<RigidMotion> motions;
   parallel_for_each(found.size(), [&](std::size_t p) {
     found[p] = state_->find_motion(state_->rigid[p], t, result);
@@ -256,7 +257,7 @@ void PartFollower::follow(Index target, Positions& result) const {
     if (!state_->rigid[p].is_eyeball) motions.push_back(found[p].part);
   }
   state_->anchors.place_vertices(before, state_->offsets[t], result);
-  state_->tooth_weights.pull(before, motions, result);
+  state_->tooth_weights.move_with_parts(before, motions, result);
 }
 
 }  // namespace crowdface

@@ -72,10 +72,10 @@ double overlap(const Box& a, const Box& b, Index axis) {
   return a.intersection(b).sizes()(axis) - std::min(a.sizes()(axis), b.sizes()(axis)) / 2;
 }
 
-/// Returns the number of components that are the teeth of the lower jaw. These are the components
-/// below the widest gap between the middles of successive components. Returns 0 if the components
-/// are not two rows: each row must be flatter than the gap, and the rows must overlap seen from
-/// above but hardly in height.
+/// Returns the number of components that are the teeth of the lower jaw. The widest gap between the
+/// mid-heights of successive components separates the two rows of teeth. Returns 0 if the
+/// components are not two rows of teeth: the mid-heights of each row must span less than the gap,
+/// and the bounding boxes of the rows must overlap in width and depth, but hardly in height.
 std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;

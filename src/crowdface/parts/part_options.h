@@ -11,7 +11,7 @@ enum class PartShape {
 
 /// How a generated face treats lips and other skin that nearly touches skin.
 enum class ContactHandling {
-  kAuto,  ///< gaps stay between the gaps of the target and of the sources
+  kAuto,  ///< each gap gets a width between its smallest and largest width on target and sources
   kNone,  ///< gaps are not corrected after the blend (Eq. 7)
 };
 

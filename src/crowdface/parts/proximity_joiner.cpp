@@ -20,10 +20,10 @@ ProximityJoiner::ProximityJoiner(const Positions& points, std::vector<std::uint3
       groups_(groups),
       tree_(std::move(rows), points, kMaxInLeaf),
       boxes_(tree_.nodes.size()),
-      common_groups_(tree_.nodes.size(), kNoIndex) {
+      groups_of_nodes_(tree_.nodes.size(), kNoIndex) {
   for (std::size_t n = tree_.nodes.size(); n-- > 0;) {
     for (const std::uint32_t row : rows_of(n)) boxes_[n].extend(row3(points_, row));
-    common_groups_[n] = common_group(n);
+    groups_of_nodes_[n] = common_group(n);
   }
 }
 
@@ -42,7 +42,7 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
   // The distance of a box uses the same arithmetic as the distances of points below. So rounding
   // cannot make a box farther away than the points in it.
   if (boxes_[n].exteriorDistance(place) > reach) return;
-  std::uint32_t& only = common_groups_[n];
+  std::uint32_t& only = groups_of_nodes_[n];
   if (only != kNoIndex && groups_.root(only) == groups_.root(component)) return;
   if (tree_.nodes[n].is_leaf()) {
     for (const std::uint32_t row : rows_of(n)) {
@@ -62,7 +62,7 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
 std::uint32_t ProximityJoiner::common_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];
   if (!node.is_leaf()) {
-    const std::uint32_t a = common_groups_[n + 1], b = common_groups_[node.second_child];
+    const std::uint32_t a = groups_of_nodes_[n + 1], b = groups_of_nodes_[node.second_child];
     const bool one = a != kNoIndex && b != kNoIndex && groups_.root(a) == groups_.root(b);
     return one ? a : kNoIndex;
   }

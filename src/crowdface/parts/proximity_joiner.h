@@ -41,9 +41,9 @@ class ProximityJoiner {
   DisjointSets& groups_;
   MedianSplitTree tree_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
-  /// #nodes: if all points of the node are known to belong to the same group, a component of this
-  /// group; otherwise kNoIndex
-  std::vector<std::uint32_t> common_groups_;
+  /// #nodes: the group of components to which all points of the node belong, given as the index of
+  /// one of its components; kNoIndex if the points are not known to belong to a single group
+  std::vector<std::uint32_t> groups_of_nodes_;
 };
 
 }  // namespace crowdface

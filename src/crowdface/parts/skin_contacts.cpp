@@ -43,11 +43,11 @@ double bump(double distance) {
   return rest * rest * rest * rest * (4 * distance + 1);
 }
 
-/// The skin around a group, and the side of each vertex: ½ on the high side, −½ on the low side,
-/// varying linearly along the surface between them.
+/// The skin around a group of facing vertices, and the side of the gap on which each vertex lies.
 struct Sides {
   std::vector<std::uint32_t> vertices;  ///< ascending
-  std::vector<double> side;             ///< #V
+  /// #V: ½ on the high side of the gap, −½ on the low side; linear along the surface in between
+  std::vector<double> side_weights;
 };
 
 Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
@@ -71,14 +71,14 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
     const double to_low = std::min(from_low.distance(v), reach);
     const double to_high = std::min(from_high.distance(v), reach);
     const double both = to_low + to_high;
-    sides.side[v] = both > 0 ? (to_low - to_high) / both / 2 : 0;
+    sides.side_weights[v] = both > 0 ? (to_low - to_high) / both / 2 : 0;
   }
   return sides;
 }
 
-/// Smooths `side` over a length of about `size`. Each round averages each value with the mean of
-/// its neighbours' values.
-void round_off(const Adjacency& adjacency, const Positions& mean, double size, Sides& sides) {
+/// Smooths `sides.side_weights` over a length of about `size`. Each round averages each value with
+/// the mean of its neighbours' values.
+void smooth_sides(const Adjacency& adjacency, const Positions& mean, double size, Sides& sides) {
   double squares = 0, count = 0;
   for (const std::uint32_t v : sides.vertices) {
     for (const std::uint32_t n : adjacency.items_of(v)) {
@@ -95,12 +95,12 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
   // Skin outside `sides.vertices` is neither on the low nor on the high side. One extra row, with
   // the value 0, represents all of this skin.
   const auto rows = sides.vertices.size();
-  std::vector<std::uint32_t> row_of(sides.side.size(), static_cast<std::uint32_t>(rows));
+  std::vector<std::uint32_t> row_of(sides.side_weights.size(), static_cast<std::uint32_t>(rows));
   for (std::size_t i = 0; i < rows; ++i) row_of[sides.vertices[i]] = static_cast<std::uint32_t>(i);
   std::vector<double> side(rows + 1, 0.0);
   CompressedRows<std::uint32_t> neighbours;
   for (std::size_t i = 0; i < rows; ++i) {
-    side[i] = sides.side[sides.vertices[i]];
+    side[i] = sides.side_weights[sides.vertices[i]];
     std::vector<std::uint32_t> around;
     for (const std::uint32_t n : adjacency.items_of(sides.vertices[i])) around.push_back(row_of[n]);
     neighbours.add_group(around);
@@ -115,7 +115,7 @@ void round_off(const Adjacency& adjacency, const Positions& mean, double size, S
     });
     std::swap(next, side);
   }
-  for (std::size_t i = 0; i < rows; ++i) sides.side[sides.vertices[i]] = side[i];
+  for (std::size_t i = 0; i < rows; ++i) sides.side_weights[sides.vertices[i]] = side[i];
 }
 
 void append(const std::vector<double>& more, std::vector<double>& values) {
@@ -144,29 +144,29 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
   SectionGroup section_group;
   section_group.begin = sections_.size();
   for (GapSection& section : distribute_gap_sections(group, kSectionSpacing * extent)) {
-    cut_profiles(adjacency, mean, sides.vertices, sides.side, kProfile * extent, section);
+    cut_profiles(adjacency, mean, sides.vertices, sides.side_weights, kProfile * extent, section);
     if (section.low_profile.empty() || section.high_profile.empty()) continue;
     clearances_.emplace_back(section, adjacency);
     sections_.push_back(std::move(section));
   }
   section_group.end = sections_.size();
   if (section_group.begin == section_group.end) return;
-  round_off(adjacency, mean, kRounding * extent, sides);
-  compute_kernels(mean, sides.vertices, sides.side, extent, section_group);
+  smooth_sides(adjacency, mean, kRounding * extent, sides);
+  compute_kernels(mean, sides.vertices, sides.side_weights, extent, section_group);
   compute_point_motions(section_group);
   section_groups_.push_back(std::move(section_group));
 }
 
 void SkinContacts::compute_kernels(const Positions& mean_head,
                                    std::span<const std::uint32_t> near_skin,
-                                   const std::vector<double>& sides, double skin_extent,
+                                   const std::vector<double>& side_weights, double skin_extent,
                                    SectionGroup& section_group) const {
   const double reach = kMotionReach * skin_extent;
   for (const std::uint32_t v : near_skin) {
     std::vector<KernelValue> kernels;
     for (std::size_t p = section_group.begin; p < section_group.end; ++p) {
       const double distance = (row3(mean_head, v) - sections_[p].middle).norm() / reach;
-      const double weight = sides[v] * bump(distance);
+      const double weight = side_weights[v] * bump(distance);
       if (std::abs(weight) > kMinWeight) {
         kernels.push_back({static_cast<std::uint32_t>(p), weight});
       }
@@ -235,7 +235,7 @@ std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
 /// a linear complementarity problem, solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992,
 /// chapter 5). The points at which two profiles are nearest change during the iteration, so each
 /// step computes the gap again.
-std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_amplitudes(
+std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_kernel_amplitudes(
     const SectionGroup& section_group, std::span<const Range> ranges, double max_amplitude,
     Profiles& profiles, std::vector<double>& amplitudes) const {
   std::vector<AmplitudeChange> changes;
@@ -319,10 +319,11 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
         missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (missing <= tolerance_) break;
-      // The largest deviation in the first round limits the amplitudes in all rounds.
+      // In all rounds, limit the amplitudes to kMaxCorrection times the largest distance of a gap
+      // from its range in the first round.
       if (round == 0) most = kMaxCorrection * missing;
       // Solve for the amplitudes with these facing points.
-      changes = find_amplitudes(section_group, ranges, most, profiles, amplitudes);
+      changes = find_kernel_amplitudes(section_group, ranges, most, profiles, amplitudes);
     }
     if (most > 0) move(section_group, amplitudes, positions);
   }

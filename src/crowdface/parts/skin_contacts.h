@@ -56,16 +56,17 @@ class SkinContacts {
     std::uint32_t section;
     double weight;  ///< positive on the high side, negative on the low side
   };
-  /// The changes of height and depth of a group's profile points if the amplitude of one section
-  /// grows by one. The points have the same order as in Profiles.
+  /// Derivatives of the heights and depths of a group's profile points with respect to the
+  /// amplitude of one section. The points have the same order as in Profiles.
   struct PointMotions {
     std::vector<double> heights, depths;
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {
-    std::size_t begin = 0, end = 0;           ///< range of sections
-    std::vector<std::uint32_t> vertices;      ///< vertices that move, ascending
-    CompressedRows<KernelValue> kernels;      ///< #vertices: values of the nearby sections
+    std::size_t begin = 0, end = 0;       ///< range of sections
+    std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
+    /// #vertices: the kernels of the nearby sections, evaluated at the vertex
+    CompressedRows<KernelValue> kernels;
     std::vector<PointMotions> point_motions;  ///< #sections of the group
   };
 
@@ -84,32 +85,35 @@ class SkinContacts {
 
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
-  /// Sets the vertices and the kernels of a group.
+  /// Sets the vertices that a group's corrections move, and the kernel values (see KernelValue) at
+  /// these vertices.
   ///
-  /// \param mean_head    #V by 3: the mean head.
-  /// \param near_skin    The skin around the group, ascending.
-  /// \param sides        #V: ½ on the high side, −½ on the low side, smooth between the sides.
-  /// \param skin_extent  Extent of the whole skin.
+  /// \param mean_head     #V by 3: the mean head.
+  /// \param near_skin     The skin around the group, ascending.
+  /// \param side_weights  #V: ½ on the gap's high side, −½ on the low side, smooth in between.
+  /// \param skin_extent   Extent of the whole skin.
   void compute_kernels(const Positions& mean_head, std::span<const std::uint32_t> near_skin,
-                       const std::vector<double>& sides, double skin_extent,
+                       const std::vector<double>& side_weights, double skin_extent,
                        SectionGroup& section_group) const;
   /// Sets the point motions of a group, from its kernels.
   void compute_point_motions(SectionGroup& section_group) const;
-  /// A change of a section's amplitude, the factor of the section's kernel in the displacement.
+  /// A change of a section's amplitude. Each section displaces the skin by its amplitude times its
+  /// kernel.
   struct AmplitudeChange {
     std::size_t section;  ///< index within the group
     double amount;
   };
-  /// Finds the amplitudes of a group's kernels that bring the gaps into their ranges
-  /// (skin_contacts.cpp explains the method). Updates the heights of `profiles`.
+  /// Finds the amplitude of each section's kernel (see KernelValue) such that the gaps of the
+  /// displaced skin are in their ranges; skin_contacts.cpp explains the method. Updates the heights
+  /// of `profiles`.
   ///
   /// \param max_amplitude  Limit for the absolute value of each amplitude.
   /// \param amplitudes  Amplitudes of the group's sections; updated.
   /// \return       The changes in order. The depths of `profiles` are not updated.
-  std::vector<AmplitudeChange> find_amplitudes(const SectionGroup& section_group,
-                                               std::span<const Range> ranges, double max_amplitude,
-                                               Profiles& profiles,
-                                               std::vector<double>& amplitudes) const;
+  std::vector<AmplitudeChange> find_kernel_amplitudes(const SectionGroup& section_group,
+                                                      std::span<const Range> ranges,
+                                                      double max_amplitude, Profiles& profiles,
+                                                      std::vector<double>& amplitudes) const;
   static void move_depths(const SectionGroup& section_group,
                           std::span<const AmplitudeChange> changes, std::vector<double>& depths);
   void move(const SectionGroup& section_group, std::span<const double> amplitudes,

@@ -135,7 +135,7 @@ std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
   return concat(comments, section("template", template_lines), section("scan", scan_lines));
 }
 
-std::string_view opening_comments(std::string_view text) {
+std::string_view header_comments(std::string_view text) {
   std::size_t end = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t next = std::min(text.find('\n', begin), text.size() - 1) + 1;
@@ -148,9 +148,9 @@ std::string_view opening_comments(std::string_view text) {
   return text.substr(0, end);
 }
 
-bool has_comments_after_opening(std::string_view text) {
+bool has_comments_after_header(std::string_view text) {
   // A " #" inside a quoted name also counts as a comment. The user then gets a needless warning.
-  text.remove_prefix(opening_comments(text).size());
+  text.remove_prefix(header_comments(text).size());
   return text.find(" #") != std::string_view::npos || text.find("\n#") != std::string_view::npos ||
          text.starts_with('#');
 }

@@ -57,13 +57,13 @@ struct PickedLandmark {
 
 /// The text of a landmark file, from which read_landmarks reads the same landmarks. The text omits
 /// landmarks that are neither on the template nor on the scan.
-/// \param comments  lines put in front, see opening_comments.
+/// \param comments  lines put in front, see header_comments.
 std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
                              std::string_view comments = {});
 
 /// The comment lines at the start of a text, with their line ends.
-std::string_view opening_comments(std::string_view text);
-/// Whether the text may have comments after its opening comments (see opening_comments).
-bool has_comments_after_opening(std::string_view text);
+std::string_view header_comments(std::string_view text);
+/// Whether the text may have comments below its header_comments.
+bool has_comments_after_header(std::string_view text);
 
 }  // namespace crowdface

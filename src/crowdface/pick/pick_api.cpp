@@ -159,7 +159,7 @@ HttpAnswer save(PickSession& session, const Json& body) {
 
 }  // namespace
 
-PickApi::PickApi(PickScans& scans, std::optional<std::filesystem::path> pages,
+PickApi::PickApi(PickableScans& scans, std::optional<std::filesystem::path> pages,
                  std::size_t max_triangles)
     : scans_(scans), page_(std::move(pages), "pick"), max_triangles_(max_triangles) {}
 
@@ -222,12 +222,12 @@ HttpAnswer PickApi::job_answer(const PickSession& session) const {
        {"scans", scans},
        {"number", scans_.current_index()},
        {"file", inputs.landmark_file.string()},
-       {"loses_comments", session.loses_comments()},
+       {"loses_comments", session.saving_deletes_comments()},
        {"names", names},
        {"landmarks", landmarks}});
 }
 
-void pick_landmarks(PickScans& scans, std::optional<std::filesystem::path> pages, int port,
+void pick_landmarks(PickableScans& scans, std::optional<std::filesystem::path> pages, int port,
                     const std::function<void(const std::string&)>& started) {
   constexpr std::size_t kMaxTriangles = 100'000;
   PickApi api(scans, std::move(pages), kMaxTriangles);

@@ -22,7 +22,8 @@ class PickApi {
   /// \param scans           must outlive this object
   /// \param pages           folder of the built pages; nothing if there is none
   /// \param max_triangles  maximum number of triangles of each mesh that the page shows
-  PickApi(PickScans& scans, std::optional<std::filesystem::path> pages, std::size_t max_triangles);
+  PickApi(PickableScans& scans, std::optional<std::filesystem::path> pages,
+          std::size_t max_triangles);
 
   /// Answers a request; a faulty request gets the answer {"error": sentence} and no exception.
   HttpAnswer answer(const HttpRequest& request);
@@ -34,7 +35,7 @@ class PickApi {
   HttpAnswer mesh_answer(const PickableMesh& whole, const ColourRows& colours,
                          ShownMesh& shown) const;
 
-  PickScans& scans_;
+  PickableScans& scans_;
   PageFiles page_;
   std::size_t max_triangles_;
 };
@@ -44,7 +45,7 @@ class PickApi {
 /// \param port     0: any free port
 /// \param started  called with the address of the page once the server listens
 /// \throws Error
-void pick_landmarks(PickScans& scans, std::optional<std::filesystem::path> pages, int port,
+void pick_landmarks(PickableScans& scans, std::optional<std::filesystem::path> pages, int port,
                     const std::function<void(const std::string&)>& started);
 
 }  // namespace crowdface

@@ -27,7 +27,7 @@ struct OpenScan {
 };
 
 /// The list of scans on which landmarks are picked, one at a time. Thread-safe.
-class PickScans {
+class PickableScans {
  public:
   struct Entry {
     std::filesystem::path scan_file, landmark_file;
@@ -35,7 +35,7 @@ class PickScans {
   /// Opens the first scan without a landmark file, or the first scan if all scans have landmark
   /// files.
   /// \param read_inputs  reads the scan of an entry. \throws Error
-  PickScans(std::vector<Entry> entries, std::function<PickInputs(const Entry&)> read_inputs);
+  PickableScans(std::vector<Entry> entries, std::function<PickInputs(const Entry&)> read_inputs);
 
   /// The open scan.
   std::shared_ptr<OpenScan> current() const;

@@ -85,9 +85,9 @@ std::vector<PickedLandmark> PickSession::landmarks() const {
   return landmarks_;
 }
 
-bool PickSession::loses_comments() const {
+bool PickSession::saving_deletes_comments() const {
   const std::lock_guard lock(mutex_);
-  return has_comments_after_opening(last_file_text_);
+  return has_comments_after_header(last_file_text_);
 }
 
 std::string PickSession::text_on_disk() const {
@@ -128,7 +128,7 @@ void PickSession::save(const std::vector<PickedLandmark>& landmarks) {
         inputs_.landmark_file.string(),
         " has been changed by another program since it was read; save again to overwrite it"));
   }
-  std::string text = format_landmarks(landmarks, opening_comments(before));
+  std::string text = format_landmarks(landmarks, header_comments(before));
   write_file(inputs_.landmark_file, text);
   last_file_text_ = std::move(text);
   landmarks_ = landmarks;

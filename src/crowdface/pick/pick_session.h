@@ -47,8 +47,9 @@ class PickSession {
   const PoseHint& scan_orientation() const { return scan_orientation_; }
   /// The landmarks read from the file or saved last.
   std::vector<PickedLandmark> landmarks() const;
-  /// Whether saving would lose comments: only comments at the start of the file are kept.
-  bool loses_comments() const;
+  /// Whether saving the landmark file would delete some of its comments. Saving keeps only comments
+  /// at the start of the file.
+  bool saving_deletes_comments() const;
 
   /// The first point at which a ray hits the mesh. On the template, this is a vertex. On the scan,
   /// it is a point whose coordinates are rounded to a power of ten that is at most a millionth of

@@ -154,10 +154,10 @@ std::string PickableMesh::encode_reduced(std::size_t max_triangles,
   const auto list = [](const Eigen::Vector3d& v) {
     return nlohmann::ordered_json::array({v.x(), v.y(), v.z()});
   };
-  answer.head["origin"] = list(middle_);
-  answer.head["low"] = list(box_min() - middle_);
-  answer.head["high"] = list(box_max() - middle_);
-  answer.head["whole_triangles"] = quads_.size();
+  answer.json["origin"] = list(middle_);
+  answer.json["low"] = list(box_min() - middle_);
+  answer.json["high"] = list(box_max() - middle_);
+  answer.json["whole_triangles"] = quads_.size();
   answer.add("positions", std::span<const float>(points));
   answer.add("normals", std::span<const std::int16_t>(normals));
   answer.add("triangles", std::span<const std::uint32_t>(triangles));

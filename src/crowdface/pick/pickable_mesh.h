@@ -68,7 +68,7 @@ class PickableMesh {
   Eigen::Vector3d box_max() const { return box_.max(); }
 
   /// The mesh reduced to about `max_triangles` triangles, with the normals of the full mesh, as a
-  /// BinaryAnswer. Head: `origin`, `low` and `high` (relative to `origin`), `whole_triangles`
+  /// BinaryAnswer. JSON: `origin`, `low` and `high` (relative to `origin`), `whole_triangles`
   /// (number of triangles of the full mesh). Arrays: `positions` (relative to `origin`), `normals`
   /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other), and `colours` if there
   /// are any.

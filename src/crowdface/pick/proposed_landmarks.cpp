@@ -53,7 +53,7 @@ SkinRegions face_regions(const WrapTemplate& wrap_template) {
   const auto alpha = propose_bands(wrap_template.topology, head, marks, bands);
   SkinRegions regions;
   for (const Band band : bands) {
-    for (const auto& [name, known] : kBandNames) {
+    for (const auto& [name, known] : kMaskBandNames) {
       if (known == band) regions.names.emplace_back(name);
     }
   }

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-void add_change_choices(const Config& config, bool has_textures, nlohmann::ordered_json& json) {
+void add_possible_changes(const Config& config, bool has_textures, nlohmann::ordered_json& json) {
   if (!config.review.reviews.empty()) json["reviews"] = config.review.reviews.size();
   if (std::ranges::any_of(config.attachments.items,
                           [](const auto& item) { return item.tint != Tint::kNone; })) {

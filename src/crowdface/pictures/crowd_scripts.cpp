@@ -40,7 +40,7 @@ Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLik
   if (!names.bands.empty()) json["bands"] = names.bands;
   json["pictures"] = config.output.contact_sheet.has_value();
   for (const Shape& shape : shapes.shapes) json["shapes"].push_back(shape.name);
-  add_change_choices(config, has_textures, json);
+  add_possible_changes(config, has_textures, json);
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < names.heads.size(); ++h) {
     json["heads"].push_back({{"name", names.heads[h]},
@@ -59,7 +59,7 @@ Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLik
 
 std::vector<std::size_t> ranks(const Likeness& likeness, std::size_t faces) {
   std::vector<std::size_t> rank(faces);
-  for (std::size_t i = 0; i < likeness.order.size(); ++i) rank[likeness.order[i]] = i;
+  for (std::size_t i = 0; i < likeness.face_order.size(); ++i) rank[likeness.face_order[i]] = i;
   return rank;
 }
 

@@ -223,13 +223,13 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   // because an open mouth lets light reach more vertices.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
-  most_moving_shape_ = static_cast<std::size_t>(
+  largest_motion_shape_ = static_cast<std::size_t>(
       std::max_element(shapes.begin(), shapes.end(),
                        [&](const Shape& a, const Shape& b) { return way(a) < way(b); }) -
       shapes.begin());
   Positions acting = mean;
-  shapes[most_moving_shape_].moves.add_to(acting);
-  visibility_in_most_moving_shape_ =
+  shapes[largest_motion_shape_].moves.add_to(acting);
+  visibility_in_largest_motion_shape_ =
       vertex_visibility(pictured_mesh_.topology(), surfaces.kinds, acting, mesh_.vertices);
   // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
   for (float& open : visibility_) open = std::max(open, kMinLight);
@@ -301,7 +301,7 @@ std::string GalleryMeshes::shared_script() const {
   json["box"] = {to_json(box_low_), to_json(box_high_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
   json["draft"] = base64(little_endian(draft_triangles_));
-  json["twins"] = base64(little_endian(mesh_.first_copies));
+  json["twins"] = base64(little_endian(mesh_.first_copy_of_vertex));
   if (!mesh_.uvs.empty()) {
     json["uvs"] = base64(little_endian(mesh_.uvs));
     json["looks"] = mesh_.material_starts;
@@ -317,8 +317,8 @@ std::string GalleryMeshes::shared_script() const {
   };
   json["light"] = light(visibility_);
   if (!shown_shapes_.empty())
-    json["widest"] = {{"shape", most_moving_shape_},
-                      {"light", light(visibility_in_most_moving_shape_)}};
+    json["widest"] = {{"shape", largest_motion_shape_},
+                      {"light", light(visibility_in_largest_motion_shape_)}};
   for (const ShownShape& shown : shown_shapes_) {
     json["moved"].push_back(base64(little_endian(shown.vertices)));
   }

@@ -82,9 +82,10 @@ class GalleryMeshes {
     std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
   };
   std::vector<ShownShape> shown_shapes_;  ///< #shapes
-  std::size_t most_moving_shape_ = 0;  ///< index of the shape that moves most, such as an open jaw
-  /// like `visibility_`, but in the shape `most_moving_shape_`
-  std::vector<float> visibility_in_most_moving_shape_;
+  /// index of the shape that moves most, such as an open jaw
+  std::size_t largest_motion_shape_ = 0;
+  /// like `visibility_`, but in the shape `largest_motion_shape_`
+  std::vector<float> visibility_in_largest_motion_shape_;
 };
 
 }  // namespace crowdface

@@ -91,7 +91,7 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
     body.topology.add_face(corners, with_uvs ? uvs : std::vector<std::uint32_t>());
   }
   body.points = bust.positions(rows, kAllColumns);
-  body.ring = places_at(neck.seam.rim, inputs.head_set);
+  body.ring_places = places_at(neck.seam.rim, inputs.head_set);
   body.topology.vertex_count += body.points.rows();
   body_.emplace(std::move(body));
 }
@@ -138,7 +138,7 @@ TextureSet PicturedMesh::add_body(TextureSet textures, const BlendedPicture* bod
   TextureLayer& roughness = textures.roughness;
   if (roughness.texture_of_face.empty()) return textures;
   float sum = 0, count = 0;
-  for (const TexturePlace& place : body_->ring) {
+  for (const TexturePlace& place : body_->ring_places) {
     if (const auto rough = roughness_at(textures, place)) {
       sum += *rough;
       count += 1;

@@ -56,7 +56,8 @@ class PicturedMesh {
     /// #points: for each vertex of the body, the row of one of its texture coordinates in `uvs`, or
     /// kNoIndex
     std::vector<std::uint32_t> uv_rows;
-    std::vector<TexturePlace> ring;  ///< places on the face at the ring
+    /// the vertices of the neck ring, as places in the face's textures
+    std::vector<TexturePlace> ring_places;
   };
   const Config& config_;
   const Inputs& inputs_;
@@ -72,11 +73,11 @@ class PicturedFace {
                const BlendedPicture* body = nullptr, int max_px = 0)
       : positions_(&positions), textures_(textures), colours_(colours) {
     if (!mesh.has_body()) return;
-    positions_ = &joined_positions_.emplace(mesh.add_body(positions));
+    positions_ = &positions_with_body_.emplace(mesh.add_body(positions));
     if (textures != nullptr) {
-      textures_ = &joined_textures_.emplace(mesh.add_body(*textures, body, max_px));
+      textures_ = &textures_with_body_.emplace(mesh.add_body(*textures, body, max_px));
     }
-    if (colours != nullptr) colours_ = &joined_colours_.emplace(mesh.add_body(*colours, body));
+    if (colours != nullptr) colours_ = &colours_with_body_.emplace(mesh.add_body(*colours, body));
   }
   PicturedFace(const PicturedFace&) = delete;
   PicturedFace& operator=(const PicturedFace&) = delete;
@@ -89,9 +90,9 @@ class PicturedFace {
   const Positions* positions_;
   const TextureSet* textures_;
   const VertexColours* colours_;
-  std::optional<Positions> joined_positions_;
-  std::optional<TextureSet> joined_textures_;
-  std::optional<VertexColours> joined_colours_;
+  std::optional<Positions> positions_with_body_;
+  std::optional<TextureSet> textures_with_body_;
+  std::optional<VertexColours> colours_with_body_;
 };
 
 }  // namespace crowdface

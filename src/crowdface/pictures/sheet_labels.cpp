@@ -53,7 +53,7 @@ std::vector<std::string> given_by(std::string_view parent, const FacePlan& face,
 
 std::vector<std::size_t> sheet_order(SheetOrder order, const std::vector<FacePlan>& crowd,
                                      const Likeness& likeness) {
-  if (order == SheetOrder::kLikeness) return likeness.order;
+  if (order == SheetOrder::kLikeness) return likeness.face_order;
   std::vector<std::size_t> faces(crowd.size());
   std::iota(faces.begin(), faces.end(), std::size_t{0});
   if (order == SheetOrder::kPlan) return faces;

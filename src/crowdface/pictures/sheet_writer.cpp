@@ -17,7 +17,7 @@ namespace {
 
 // Largest width and height of a page's image in the index, in pixels
 constexpr int kIndexWidth = 480, kIndexHeight = 960;
-constexpr std::size_t kPagesPerVolume = 64;
+constexpr std::size_t kPagesPerBatch = 64;
 
 std::string to_png(const Rgb8Image& image) {
   return encode_png(image.width, image.height, 3, image.pixels);
@@ -38,7 +38,7 @@ SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFo
                          std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {
   // Background tasks point to elements, which must not move.
-  pdf_page_pngs_.reserve(kPagesPerVolume);
+  pdf_page_pngs_.reserve(kPagesPerBatch);
 }
 
 std::filesystem::path SheetWriter::add_file(const std::string& name) {
@@ -67,7 +67,7 @@ void SheetWriter::wait() {
 }
 
 void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8Image page) {
-  if (index_cells_.size() == kPagesPerVolume) finish_volume(false);
+  if (index_cells_.size() == kPagesPerBatch) finish_page_batch(false);
   const auto width = static_cast<int>(std::int64_t{kIndexHeight} * page.width / page.height);
   index_cells_.push_back(
       {shrink_picture(page, std::clamp(width, 1, std::min(kIndexWidth, page.width))),
@@ -78,7 +78,7 @@ void SheetWriter::add(const std::string& stem, const std::string& caption, Rgb8I
 void SheetWriter::write_index(const std::string& number) {
   const auto columns = static_cast<int>(
       std::clamp(std::ceil(std::sqrt(static_cast<double>(index_cells_.size()))), 1.0, 8.0));
-  const std::size_t before = finished_volumes_ * kPagesPerVolume;
+  const std::size_t before = finished_batch_count_ * kPagesPerBatch;
   const std::string note =
       number.empty() ? concat(index_cells_.size(), " sheets")
                      : concat("sheets ", before + 1, " to ", before + index_cells_.size());
@@ -90,10 +90,10 @@ void SheetWriter::write_index(const std::string& number) {
   if (contains(formats_, SheetFormat::kPdf)) pdf_page_pngs_.insert(pdf_page_pngs_.begin(), png);
 }
 
-void SheetWriter::finish_volume(bool is_last) {
-  const bool is_only = is_last && finished_volumes_ == 0;
+void SheetWriter::finish_page_batch(bool is_last) {
+  const bool is_only = is_last && finished_batch_count_ == 0;
   const std::string number =
-      is_only ? std::string() : concat('_', zero_padded(finished_volumes_ + 1, 3));
+      is_only ? std::string() : concat('_', zero_padded(finished_batch_count_ + 1, 3));
   if (!is_only || index_cells_.size() > 1) write_index(number);
   wait();
   if (!pdf_page_pngs_.empty()) {
@@ -101,11 +101,11 @@ void SheetWriter::finish_volume(bool is_last) {
   }
   index_cells_.clear();
   pdf_page_pngs_.clear();
-  ++finished_volumes_;
+  ++finished_batch_count_;
 }
 
 std::vector<std::filesystem::path> SheetWriter::finish() {
-  finish_volume(true);
+  finish_page_batch(true);
   return std::move(written_files_);
 }
 

@@ -12,8 +12,8 @@
 namespace crowdface {
 
 /// Writes pages of contact sheets to a folder, in the requested formats. Every 64 pages form a
-/// volume with its own index and, if requested, its own PDF file, so that the memory in use does
-/// not grow with the number of faces.
+/// batch with its own index and, if requested, its own PDF file, so that the memory in use does not
+/// grow with the number of faces.
 class SheetWriter {
  public:
   /// \param folder  must exist. \param title  title of each index.
@@ -24,7 +24,7 @@ class SheetWriter {
   /// \param stem     file name without extension.
   /// \param caption  text under the page in the index.
   void add(const std::string& stem, const std::string& caption, Rgb8Image page);
-  /// Writes the index and the PDF file of the last volume. A single page gets no index. \return all
+  /// Writes the index and the PDF file of the last batch. A single page gets no index. \return all
   /// files written.
   std::vector<std::filesystem::path> finish();
 
@@ -34,16 +34,16 @@ class SheetWriter {
   void wait();
   std::filesystem::path add_file(const std::string& name);
   void write_index(const std::string& number);
-  /// Writes the index and, if requested, the PDF file of the current volume of pages, and begins
-  /// the next volume.
-  void finish_volume(bool is_last);
+  /// Writes the index and, if requested, the PDF file of the current batch of pages, and begins
+  /// the next batch.
+  void finish_page_batch(bool is_last);
 
   std::filesystem::path folder_;
   std::vector<SheetFormat> formats_;
   std::string title_;
-  std::size_t finished_volumes_ = 0;        ///< number of finished volumes
-  std::vector<std::string> pdf_page_pngs_;  ///< pages of the current volume, if a PDF is requested
-  std::vector<SheetCell> index_cells_;      ///< pages in the index of the current volume
+  std::size_t finished_batch_count_ = 0;
+  std::vector<std::string> pdf_page_pngs_;  ///< pages of the current batch, if a PDF is requested
+  std::vector<SheetCell> index_cells_;      ///< index of the current batch: one cell for each page
   std::vector<std::filesystem::path> written_files_;
   int pages_in_memory_ = 0;
   // Must be the last member: its destructor waits for tasks that use the other members.

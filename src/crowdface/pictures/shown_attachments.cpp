@@ -49,7 +49,7 @@ Json part_to_json(const PreviewMesh& mesh, const Positions& positions,
       kMaxAttachmentDraft * mesh.triangles.size() / (3 * kMaxAttachmentTriangles);
   json["draft"] = base64(little_endian(
       draft_triangles(mesh, positions, std::max<std::size_t>(kMinAttachmentDraft, most))));
-  json["twins"] = base64(little_endian(mesh.first_copies));
+  json["twins"] = base64(little_endian(mesh.first_copy_of_vertex));
   if (!mesh.uvs.empty()) json["uvs"] = base64(little_endian(mesh.uvs));
   json["colour"] = {material.colour[0], material.colour[1], material.colour[2]};
   json["share"] = material.opacity_factor;

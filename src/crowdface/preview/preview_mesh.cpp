@@ -45,7 +45,7 @@ PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle
         number[corner] = static_cast<std::uint32_t>(mesh.vertices.size());
         mesh.vertices.push_back(vertex);
         mesh.face_of_vertex.push_back(split.face_of_corner[corner]);
-        mesh.first_copies.push_back(first.emplace(vertex, number[corner]).first->second);
+        mesh.first_copy_of_vertex.push_back(first.emplace(vertex, number[corner]).first->second);
         for (int axis = 0; axis < 2 && uvs.rows() > 0; ++axis) {
           mesh.uvs.push_back(uv == kNoIndex ? 0.0F : static_cast<float>(uvs(uv, axis)));
         }

@@ -16,7 +16,7 @@ struct PreviewMesh {
   std::vector<std::uint32_t> vertices;
   /// For each preview vertex: index of the first preview vertex that is a copy of the same vertex
   /// of the whole mesh. Copies share a normal, so that borders do not show.
-  std::vector<std::uint32_t> first_copies;
+  std::vector<std::uint32_t> first_copy_of_vertex;
   /// Indices into `vertices`, three per triangle, grouped by material.
   std::vector<std::uint32_t> triangles;
   std::vector<float> uvs;  ///< two per vertex; empty if there are no texture coordinates

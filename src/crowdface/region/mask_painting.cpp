@@ -238,8 +238,8 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       throw_if_interrupted();
       canvas.bleed();
     }
-    // Collect the texture coordinates in this tile of all vertices with priority: the texels that a
-    // lookup there interpolates, and the vertex weights that the lookup should return.
+    // Collect the texture lookups in this tile of all vertices with priority. A lookup interpolates
+    // the texels in `texels_of_samples` and should return the vertex weights in `weights`.
     std::vector<Texels> texels_of_samples;
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {

@@ -26,7 +26,7 @@ class AttachmentStage {
 
   /// The normal and the colour of an attachment at a hit.
   struct HitSurface {
-    Eigen::Vector3f normal;  ///< interpolated; any length, on either side
+    Eigen::Vector3f normal;  ///< interpolated, not normalised; may point away from the camera
     LinearRgb colour;
   };
   HitSurface surface_at(const RayHit& hit) const;

@@ -56,16 +56,18 @@ Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
 /// the camera) is inside a wedge with slope s, centre c and distance d if d ≥ z + |x − c|/s.
 struct Wedge {
   double slope;
-  double positive = -std::numeric_limits<double>::infinity();  ///< max of z + x/s
-  double negative = -std::numeric_limits<double>::infinity();  ///< max of z − x/s
+  /// Maxima of z + x/slope and of z − x/slope over the points. Each maximum determines one of the
+  /// wedge's two boundary lines.
+  double max_z_plus_x = -std::numeric_limits<double>::infinity();
+  double max_z_minus_x = -std::numeric_limits<double>::infinity();
 
   void add(double x, double z) {
-    positive = std::max(positive, z + x / slope);
-    negative = std::max(negative, z - x / slope);
+    max_z_plus_x = std::max(max_z_plus_x, z + x / slope);
+    max_z_minus_x = std::max(max_z_minus_x, z - x / slope);
   }
-  double centre() const { return slope * (positive - negative) / 2; }
+  double centre() const { return slope * (max_z_plus_x - max_z_minus_x) / 2; }
   double distance_from(double c) const {
-    return std::max(positive - c / slope, negative + c / slope);
+    return std::max(max_z_plus_x - c / slope, max_z_minus_x + c / slope);
   }
 };
 
@@ -118,7 +120,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   // chest of a bust may protrude farther than the nose.
   const auto nose = static_cast<std::size_t>(
       std::max_element(ahead.begin() + kLowestNose, ahead.end()) - ahead.begin());
-  // The width of the head at the nose and above.
+  // Find the left and right ends of the head above the underside of the nose's slice. Lower parts
+  // are left out, because shoulders are wider than the head.
   double left = -kNone, right = kNone;
   for (Index i = 0; i < head.rows(); ++i) {
     if (slice_of(head.row(i).dot(up)) < nose) continue;
@@ -173,7 +176,8 @@ Camera fit_camera(std::span<const Positions* const> heads, const HeadFrame& fram
   const Heights heights = heights_of(heads, camera.up);
   const double lowest = lowest_shown(heads, frame, heights, options.bottom_cut_fraction);
   const double neck = heights.at(kNeck);
-  // Find the smallest wedges around all points that must be visible.
+  // For each image direction, find the smallest field of view (see Wedge) that contains all points
+  // that must be visible.
   double nearest = -std::numeric_limits<double>::infinity();
   double furthest = std::numeric_limits<double>::infinity();
   for (const Positions* head : heads) {

@@ -144,8 +144,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   const auto has_middle = [&](auto from, auto to) {
     return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
   };
-  // Rims overlap: a square's rim ends 2 · kRimWidth pixels after the start of the next square's
-  // rim.
+  // The first square that, with its rim, contains a pixel. Neighbouring squares with their rims
+  // overlap by 2 · kRimWidth pixels.
   const auto first_square = [&](auto from) {
     return hn::ShiftRight<kLog2SquareSide>(
         hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRimWidth)), none));
@@ -156,9 +156,9 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   for (std::size_t i = 0; i < Boxes::kCount; i += hn::Lanes(lanes)) {
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
-    // Move the origin from the image's corner to the corner of the first square's rim (kRimWidth
-    // pixels outside the image), enlarge the boxes by kBlur and clip them to the image with its
-    // rim.
+    // The boxes are relative to the upper left corner of the image. Move the origin to the corner
+    // of the image with its rim, which is kRimWidth pixels wide. Enlarge the boxes by kBlur, and
+    // clip them to the image with its rim.
     left = hn::Add(left, hn::Set(lanes, kRimWidth - kBlur));
     top = hn::Add(top, hn::Set(lanes, kRimWidth - kBlur));
     right = hn::Add(right, hn::Set(lanes, kRimWidth + kBlur));

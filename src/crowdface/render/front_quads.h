@@ -31,8 +31,9 @@ struct alignas(16) ProjectedVertex {
   float nearness;
 };
 
-/// A quad and its bounding box in pixels, relative to the upper left corner of a square's rim.
-/// `right` and `bottom` are inclusive.
+/// A quad that overlaps a square of the image or the square's rim, and the quad's bounding box in
+/// pixels. The box is relative to the upper left corner of the square with its rim. `right` and
+/// `bottom` are inclusive.
 struct QuadOnPixels {
   std::uint32_t quad;
   std::uint8_t left, top, right, bottom;

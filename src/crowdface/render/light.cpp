@@ -57,7 +57,7 @@ class ByteTable {
   }
 
  private:
-  static constexpr float kWhite = 1.5F;  ///< upper bound of the smallest value that maps to 255
+  static constexpr float kWhite = 1.5F;  ///< this value and all larger values map to 255
   static constexpr std::size_t kSteps = 6144;
   std::array<float, 257> first_of_{};  ///< least value that maps to each byte
   std::array<std::uint8_t, kSteps> at_step_{};

@@ -24,13 +24,15 @@ struct PointVisibility {
   std::array<const float*, kFields> field_values;  ///< one array per field, #points numbers each
 };
 
-/// The fields of PointVisibility for the pixels of a square and a rim of one pixel: means of
+/// The visibility of the lights at each pixel of a square of the image and of a rim of one pixel
+/// around the square. Combines the fields of PointVisibility over the points of a pixel: means of
 /// positions and normals (a mean normal is shorter than 1 if the normals differ), and sums of the
 /// numbers of rays.
 class PixelVisibility {
  public:
-  static constexpr std::size_t kStride =
-      kSquareSide + 2 + 14;  ///< row length, padded to a multiple of 16
+  /// Length of a row: the square, a rim of 1 pixel at both ends, and 14 numbers as padding to a
+  /// multiple of 16.
+  static constexpr std::size_t kStride = kSquareSide + 2 + 14;
 
   PixelVisibility() { clear(); }
   /// Marks all pixels as empty: sets their normals to 0, so that filter_visibility ignores the
@@ -47,6 +49,7 @@ class PixelVisibility {
 
  private:
   static constexpr std::size_t kSize = (kSquareSide + 2) * kStride + 16;
+  /// the values of all PointVisibility fields: kSize values for each field, one field after another
   std::vector<float> field_values_;
 };
 

@@ -24,16 +24,17 @@ Texture shrunk_texture(int width, int height, int max_px,
     for (int y = 0; y < height; ++y) row(y, row_of(y));
     return small;
   }
-  // If the source's size is not a multiple of the block size, some blocks are one texel larger.
-  const auto begins = [](int count, int of) {
-    std::vector<std::size_t> at;
-    for (int i = 0; i <= count; ++i) {
-      at.push_back(static_cast<std::size_t>(std::int64_t{i} * of / count));
+  // Divides a side of the source into blocks, and returns the first texel of each block, then the
+  // end. If `texels` is not a multiple of `blocks`, some blocks are one texel larger.
+  const auto block_begins = [](int blocks, int texels) {
+    std::vector<std::size_t> begins;
+    for (int i = 0; i <= blocks; ++i) {
+      begins.push_back(static_cast<std::size_t>(std::int64_t{i} * texels / blocks));
     }
-    return at;
+    return begins;
   };
-  const std::vector<std::size_t> left = begins(small.width, width);
-  const std::vector<std::size_t> top = begins(small.height, height);
+  const std::vector<std::size_t> left = block_begins(small.width, width);
+  const std::vector<std::size_t> top = block_begins(small.height, height);
   std::vector<LinearRgb> texels(static_cast<std::size_t>(width));
   for (int y = 0; y < small.height; ++y) {
     const std::span<LinearRgb> sums = row_of(y);

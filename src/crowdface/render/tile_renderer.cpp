@@ -105,7 +105,7 @@ struct TileMemory {
   std::vector<CameraHit*> asking;
   PixelVisibility pixels;
   PointLists points;
-  std::vector<CameraHit> middles;  ///< mean hits of a row of pixels
+  std::vector<CameraHit> mean_hits;  ///< for each pixel of a row: mean of the pixel's hits
   Shares row_shares, shares;
   ShadeBatch batch;
 };
@@ -439,15 +439,15 @@ class Tile {
 
   void shade_row(int y, Rgb8Image& image) {
     const auto width = static_cast<std::size_t>(right_ - left_);
-    std::vector<CameraHit>& middles = memory_.middles;
-    middles.resize(width);
+    std::vector<CameraHit>& mean_hits = memory_.mean_hits;
+    mean_hits.resize(width);
     memory_.points.resize(width);
     for (std::size_t i = 0; i < width; ++i) {
       const Pixel& at = pixel(left_ + static_cast<int>(i), y);
       if (!shows_one(at)) continue;
-      middles[i] = mean_of(hits_of(at));
-      middles[i].surface.normal.normalize();
-      put(middles[i], i, memory_.points);
+      mean_hits[i] = mean_of(hits_of(at));
+      mean_hits[i].surface.normal.normalize();
+      put(mean_hits[i], i, memory_.points);
     }
     share(memory_.points, width, left_, y, true, memory_.row_shares);
     memory_.batch.clear();
@@ -455,7 +455,7 @@ class Tile {
       const int x = left_ + static_cast<int>(i);
       const Pixel& at = pixel(x, y);
       if (shows_one(at)) {
-        add_to_batch(middles[i], memory_.row_shares, i);
+        add_to_batch(mean_hits[i], memory_.row_shares, i);
       } else {
         add_each(hits_of(at), x, y);
       }

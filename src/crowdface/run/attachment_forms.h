@@ -74,8 +74,8 @@ class AttachmentForms {
   std::map<const Attachment*, Form> forms_;  ///< the converted data of each attachment
 };
 
-/// The form of the mesh that all faces share, and the forms of the attachments that the face's file
-/// also contains.
+/// The data that the files of all faces share, converted for one file format: the data of the mesh,
+/// and the data ("forms", see AttachmentForms) of the attachments.
 template <class Mesh, class Part>
 struct MeshWithAttachments {
   Mesh mesh;

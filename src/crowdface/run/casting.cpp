@@ -63,7 +63,8 @@ CrowdDistances measure_crowd_distances(const FaceSpace& space,
   distances.between_heads = quartiles(below_diagonal(head_distances));
   distances.between_faces = quartiles(pair_distances(crowd_plan.points));
   if (distances.between_heads.median > 0) {
-    distances.median_ratio = distances.between_faces.median / distances.between_heads.median;
+    distances.face_to_head_median_ratio =
+        distances.between_faces.median / distances.between_heads.median;
   }
   const Index regions = space.sampled_heads().region_weights.cols();
   for (Index k = 0; regions > 1 && k < regions; ++k) {
@@ -106,7 +107,7 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
     report.founder_distances = quartiles(std::move(founder_distances));
     report.nearest_outsider_mm = nearest < HUGE_VAL ? nearest : 0;
     if (!config.families[f].parents.empty())
-      report.stranger_fraction_nearer_than_parent = family.stranger_fraction_nearer_than_parent;
+      report.nearer_stranger_fraction = family.nearer_stranger_fraction;
     report.silhouette_coefficient =
         mean_silhouette_coefficient(crowd_plan.families, f, crowd_plan.points);
     reports.push_back(std::move(report));
@@ -141,7 +142,7 @@ void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePla
 }
 
 ColourOptions colour_options(const Config& config) {
-  return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.alike};
+  return {config.crowd.seed, config.faces.names, config.faces.tags, config.textures.matching_tags};
 }
 
 /// Rounds values to four decimals, as the plan file does, so that this run reports the same values
@@ -177,8 +178,9 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs, const Pre
       sample_heads(inputs.head_set, inputs.regions, prepared.samples, prepared.trajectories,
                    inputs.max_level, mm_per(config.faces.units));
   if (inputs.mirror_map != nullptr) {
-    heads.mirror_images = sample_mirror_images(inputs.head_set, inputs.regions, *inputs.mirror_map,
-                                               prepared.samples, prepared.traced_samples, heads);
+    heads.mirror_images =
+        sample_mirror_images(inputs.head_set, inputs.regions, *inputs.mirror_map, prepared.samples,
+                             prepared.trajectory_samples, heads);
   }
   FaceSpace space =
       cached_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
@@ -210,9 +212,12 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
 
 AttachmentOptions attachment_options(const Config& config) {
   const Config::Attachments& placed = config.attachments;
-  AttachmentOptions draw{config.crowd.seed, {placed.items.begin(), placed.items.end()},
-                         placed.none,       config.faces.tags,
-                         placed.quotas,     config.faces.names};
+  AttachmentOptions draw{config.crowd.seed,
+                         {placed.items.begin(), placed.items.end()},
+                         placed.fraction_without_item_by_kind,
+                         config.faces.tags,
+                         placed.quotas,
+                         config.faces.names};
   draw.hair_colours[""] = placed.hair_colours;
   for (const Group& group : config.groups) {
     if (!group.hair_colours.empty()) draw.hair_colours[group.name] = group.hair_colours;

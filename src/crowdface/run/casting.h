@@ -37,7 +37,7 @@ struct CrowdDistances {
   Quartiles to_nearest_head, to_nearest_face;
   /// median of `between_faces` divided by the median of `between_heads`; 0 if there are no heads to
   /// compare
-  double median_ratio = 0;
+  double face_to_head_median_ratio = 0;
 };
 
 /// Statistics of how similar the members of a family are.
@@ -49,10 +49,10 @@ struct FamilyReport {
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_outsider_mm = 0;
   double silhouette_coefficient = 0;  ///< see mean_silhouette_coefficient
-  /// Empty if the family has no parents. Otherwise computed for each child: the fraction of the
-  /// faces outside the family that are nearer to the child than the farther of its two parents.
-  /// This is the largest fraction of any child.
-  std::optional<double> stranger_fraction_nearer_than_parent;
+  /// The largest value over all children of this fraction: of the faces outside the family, the
+  /// fraction that is nearer to the child than the farther of its two parents. Empty if the family
+  /// has no parents.
+  std::optional<double> nearer_stranger_fraction;
 };
 
 /// A cast crowd: its faces, and the heads' positions on the plane.

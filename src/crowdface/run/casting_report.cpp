@@ -40,8 +40,9 @@ Json distances_to_json(const std::vector<std::string>& regions, const CrowdDista
   Json json;
   json["between_heads_mm"] = to_json(distances.between_heads);
   json["between_faces_mm"] = to_json(distances.between_faces);
-  json["median_ratio"] =
-      distances.median_ratio > 0 ? Json(rounded(distances.median_ratio)) : Json();
+  json["median_ratio"] = distances.face_to_head_median_ratio > 0
+                             ? Json(rounded(distances.face_to_head_median_ratio))
+                             : Json();
   for (std::size_t k = 0; k < distances.between_faces_by_region.size(); ++k) {
     json["between_faces_by_region_mm"][regions[k]] = to_json(distances.between_faces_by_region[k]);
   }
@@ -53,7 +54,7 @@ Json distances_to_json(const std::vector<std::string>& regions, const CrowdDista
 Json asked_to_json(const DiversityOptions& diversity) {
   return {{"mode", word_of(diversity.mode)},
           {"min_distance_mm", diversity.min_distance_mm},
-          {"min_distance_to_faces_mm", diversity.min_distance_to_faces_mm},
+          {"min_distance_to_faces_mm", diversity.min_distance_to_heads_mm},
           {"max_weight", diversity.max_weight}};
 }
 
@@ -131,9 +132,8 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
                     {"to_founder_mm", nearest_to_json(family.founder_distances)},
                     {"nearest_other_mm", rounded(family.nearest_outsider_mm)},
                     {"silhouette", rounded(family.silhouette_coefficient)}});
-    if (family.stranger_fraction_nearer_than_parent) {
-      json.back()["strangers_nearer_than_a_parent"] =
-          rounded(*family.stranger_fraction_nearer_than_parent);
+    if (family.nearer_stranger_fraction) {
+      json.back()["strangers_nearer_than_a_parent"] = rounded(*family.nearer_stranger_fraction);
     }
   }
   return json;
@@ -183,7 +183,7 @@ void log_casting(const CrowdPlan& crowd_plan) {
                     " mm, median ", mm(distances.between_faces.median),
                     " mm; between the input heads: closest ", mm(distances.between_heads.min),
                     " mm, median ", mm(distances.between_heads.median),
-                    " mm; ratio of the medians ", mm(distances.median_ratio)));
+                    " mm; ratio of the medians ", mm(distances.face_to_head_median_ratio)));
   }
   std::vector<std::string> thrown;
   for (std::size_t r = 0; r < kReasonCount; ++r) {

@@ -48,12 +48,12 @@ class ChangedLooks {
   /// \param crowd  all faces before any change.
   ChangedLooks(const Config& config, const CastingOptions& casting,
                const AttachmentOptions& attachments, const ColourOptions& colours,
-               const std::vector<int>& kinds, const std::vector<FacePlan>& crowd)
+               const std::vector<int>& groups, const std::vector<FacePlan>& crowd)
       : config_(config),
         casting_(casting),
         attachments_(attachments),
         colours_(colours),
-        kinds_(kinds),
+        groups_(groups),
         crowd_(crowd) {}
 
   FacePlan of(const ChangedFace& changed, const FacePlan& before) const {
@@ -121,7 +121,7 @@ class ChangedLooks {
 
   FacePlan with_attachments(FacePlan face) const {
     if (!config_.attachments.items.empty())
-      choose_attachments_of_changed_face(attachments_, kinds_, crowd_, face);
+      choose_attachments_of_changed_face(attachments_, groups_, crowd_, face);
     return face;
   }
 
@@ -139,7 +139,7 @@ class ChangedLooks {
   const CastingOptions& casting_;
   const AttachmentOptions& attachments_;
   const ColourOptions& colours_;
-  const std::vector<int>& kinds_;
+  const std::vector<int>& groups_;
   const std::vector<FacePlan>& crowd_;
 };
 
@@ -147,12 +147,12 @@ class ChangedLooks {
 
 void replace_changed_faces(const Config& config, const CastingOptions& casting,
                            const AttachmentOptions& attachments, const ColourOptions& colours,
-                           const std::vector<int>& kinds,
+                           const std::vector<int>& groups,
                            const std::map<std::size_t, ChangedFace>& changed,
                            std::vector<FacePlan>& crowd) {
   if (changed.empty()) return;
   const std::vector<FacePlan> cast = crowd;
-  const ChangedLooks looks(config, casting, attachments, colours, kinds, cast);
+  const ChangedLooks looks(config, casting, attachments, colours, groups, cast);
   for (const auto& [face, change] : changed) crowd[face] = looks.of(change, cast[face]);
 }
 

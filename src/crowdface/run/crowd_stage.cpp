@@ -37,7 +37,7 @@ double face_spacing(const Inputs& inputs, Eigen::Index axis) {
 Rows rows_of(const Config& config, const Inputs& inputs, std::size_t faces) {
   const Axis up = config.faces.up, front = config.faces.front;
   const Eigen::Index side = 3 - up.index - front.index;
-  // whether the stage keeps the heads' axes, see UsdaTemplate
+  // whether the USD stage has the same axes as the heads, see UsdaTemplate
   const bool keeps_axes = up.sign > 0 && up.index > 0;
   Rows rows;
   rows.side = Eigen::Vector3d::Unit(keeps_axes ? side : 0) * face_spacing(inputs, side);

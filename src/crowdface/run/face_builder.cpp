@@ -196,13 +196,13 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
     }
     ranges.push_back(range);
   }
-  if (recipe.asymmetry != 1) include_mirrored_ranges(ranges);
+  if (recipe.asymmetry != 1) include_mirrored_gap_ranges(ranges);
   return ranges;
 }
 
 /// Extends each range to include the range of the mirrored contact, because a face whose asymmetry
 /// is not 1 combines both sides.
-void FaceBuilder::include_mirrored_ranges(std::vector<SkinContacts::Range>& ranges) const {
+void FaceBuilder::include_mirrored_gap_ranges(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {
     const Eigen::Vector3d image = mirror().plane.mirrored(contacts_->section(p).middle);

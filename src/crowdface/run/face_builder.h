@@ -79,7 +79,8 @@ class FaceBuilder {
   /// Returns, for each contact, the allowed range of the gap. The range extends from the gap of the
   /// target head to the weighted mean of the gaps of the source heads.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
-  void include_mirrored_ranges(std::vector<SkinContacts::Range>& ranges) const;
+  /// Extends the gap range of each contact to include the gap range of the mirrored contact.
+  void include_mirrored_gap_ranges(std::vector<SkinContacts::Range>& ranges) const;
 
   const Config& config_;
   const Inputs& inputs_;

@@ -73,8 +73,8 @@ struct FaceResult {
   std::vector<FileDigest> file_digests;  ///< one per file of FaceFileLists::all_files
   /// defects of the skin compared with the target head; empty if not checked
   std::optional<SkinDefects> skin_defects;
-  /// one per shape: number of intersecting skin triangles, see FaceShapes::shapes_of_face; empty if
-  /// there are no shapes
+  /// for each blend shape: number of skin triangles that intersect each other if the shape is
+  /// applied to the face, see FaceShapes::shapes_of_face; empty if there are no blend shapes
   std::vector<Index> skin_intersections;
 };
 

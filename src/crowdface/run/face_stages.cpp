@@ -205,7 +205,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     for (const FacePlan& face : crowd) targets.insert(face.recipe.target);
     check_.emplace(skin_check(config, inputs, targets));
     fixed_bytes += check_->memory_bytes();
-    of_thread += check_->compare_memory_bytes();
+    of_thread += check_->comparison_memory_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
   waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
@@ -242,7 +242,7 @@ class FaceStages::Output {
       const StageTimer timer(busy_.encode_seconds);
       for (FaceFile& file : lists_.all_files(face)) {
         EncodedFile bytes = file.make(finished);
-        bytes.keep(finished.textures);
+        bytes.share_ownership(finished.textures);
         result.file_digests.push_back({bytes.size(), bytes.digest()});
         ready.push_back({std::move(file.path), std::move(bytes), result.file_digests.back()});
       }

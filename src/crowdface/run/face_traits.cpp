@@ -19,8 +19,8 @@ namespace {
 std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inputs,
                                         const Prepared& prepared, const FaceSamples& samples) {
   const std::vector<std::uint64_t> levels = stored_smoothing_levels(inputs.max_level);
-  const std::vector<HeadLevels> fitted =
-      prepared.filter ? std::vector<HeadLevels>() : head_levels(config, prepared);
+  const std::vector<HeadSmoothing> fitted =
+      prepared.filter ? std::vector<HeadSmoothing>() : head_levels(config, prepared);
   std::vector<Trajectory> trajectories(inputs.head_set.heads.size());
   for (std::size_t h = 0; h < trajectories.size(); ++h) {
     if (prepared.filter) {

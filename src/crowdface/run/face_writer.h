@@ -24,9 +24,9 @@ struct ReadyFile {
 };
 
 /// Writes faces on a separate thread, so that computing threads need not wait for the disk. While
-/// one batch of faces is written, the faces that computing threads finish collect in the next
-/// batch. Each batch needs only one sync to disk and one write to the ledger. A file that already
-/// has the right content is not written again.
+/// the writer writes one batch of faces, it collects the faces that are finished in the meantime
+/// for the next batch. Each batch needs only one sync to disk and one write to the ledger. A file
+/// that already has the right content is not written again.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.

@@ -159,7 +159,7 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
   auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
   crowd->crowd_plan = timed(stages, "cast", [&] {
     FindMeshDefects defects;
-    if (candidates_are_built(job.config))
+    if (casting_builds_candidate_meshes(job.config))
       defects = mesh_defects(job.config, job.inputs, crowd->builder.get());
     return plan_crowd(job.config, job.inputs, crowd->prepared, defects, options.cache);
   });
@@ -239,7 +239,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     return find_done_faces(face_ledger, crowd, asked_for, [&] { checking.step(); });
   });
   const std::size_t built = so_far.missing_faces.size();
-  if (purpose == Purpose::kGather) refuse_missing_faces(directory, crowd, so_far.missing_faces);
+  if (purpose == Purpose::kGather) require_all_faces(directory, crowd, so_far.missing_faces);
   if (!options.shard.is_whole_crowd()) {
     progress.emplace(directory.progress(options.shard), so_far.shard_face_count,
                      so_far.shard_face_count - built);

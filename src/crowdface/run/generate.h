@@ -29,8 +29,8 @@ struct GenerateOptions {
 };
 
 /// Runs the whole job: read, prepare, cast, blend, write, render, report. Writes nothing until all
-/// inputs are checked. Skips work that is done according to the ledger in the folder. A repeated
-/// run therefore resumes a stopped run or repairs a finished crowd. \throws Error.
+/// inputs are checked. Skips work that the ledger in the folder records as done. A repeated run
+/// therefore resumes a stopped run or repairs a finished crowd. \throws Error.
 void generate(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
               const GenerateOptions& options);
 /// Runs the job of a config object. Validates the object's values like the values of a config file.

@@ -39,10 +39,10 @@ std::optional<GlbImage> supported_image(const fs::path& file) {
   return std::nullopt;
 }
 
-/// Returns an image whose RGB is `colour` and whose alpha is the opacity `holes`. If `holes` has
-/// another size than `colour`, uses the nearest texel of `holes`.
-GlbImage rgba_image(const Image* colour, const Image* holes) {
-  const Image& size = colour != nullptr ? *colour : *holes;
+/// Returns an image whose RGB is `colour` and whose alpha is `opacity`. Null: white or opaque. If
+/// `opacity` has another size than `colour`, uses the nearest texel of `opacity`.
+GlbImage rgba_image(const Image* colour, const Image* opacity) {
+  const Image& size = colour != nullptr ? *colour : *opacity;
   std::vector<std::uint8_t> pixels;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
@@ -50,13 +50,13 @@ GlbImage rgba_image(const Image* colour, const Image* holes) {
         pixels.push_back(colour == nullptr ? 255
                                            : byte_at(*colour, x, y, colour->channels < 3 ? 0 : c));
       }
-      if (holes == nullptr) {
+      if (opacity == nullptr) {
         pixels.push_back(255);
         continue;
       }
-      const int channel = holes->alpha_channel >= 0 ? holes->alpha_channel : 0;
-      pixels.push_back(
-          byte_at(*holes, x * holes->width / size.width, y * holes->height / size.height, channel));
+      const int channel = opacity->alpha_channel >= 0 ? opacity->alpha_channel : 0;
+      pixels.push_back(byte_at(*opacity, x * opacity->width / size.width,
+                               y * opacity->height / size.height, channel));
     }
   }
   return {encode_png(size.width, size.height, 4, pixels), "image/png"};

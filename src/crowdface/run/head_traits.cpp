@@ -95,7 +95,8 @@ std::vector<std::vector<std::optional<double>>> measure_each(const Config& confi
 
 TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
                                  const HeadLandmarks& landmarks) {
-  return TraitDistributions(measure_each(config, inputs, landmarks), config.quantiles_of.targets);
+  return TraitDistributions(measure_each(config, inputs, landmarks),
+                            config.quantile_distributions.targets);
 }
 
 std::vector<std::vector<double>> head_traits_of_config(const Config& config, const Inputs& inputs) {

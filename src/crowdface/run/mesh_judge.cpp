@@ -61,7 +61,7 @@ PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) 
           viewing_of(config)};
 }
 
-bool candidates_are_built(const Config& config) {
+bool casting_builds_candidate_meshes(const Config& config) {
   return config.believability.check &&
          config.believability.meshes == BelievabilityOptions::MeshChecks::kJudge;
 }

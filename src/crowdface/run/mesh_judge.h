@@ -25,7 +25,7 @@ SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<
 PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs);
 
 /// Whether casting builds the whole mesh of each candidate face to find defects in this mesh.
-bool candidates_are_built(const Config& config);
+bool casting_builds_candidate_meshes(const Config& config);
 
 /// Returns a function that builds the mesh of a candidate face and finds defects in this mesh.
 /// \param builder must outlive the result.

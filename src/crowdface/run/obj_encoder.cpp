@@ -60,8 +60,8 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   return {memory, encode};
 }
 
-/// For each target head whose own `mtllib` line does not name the material files that this run
-/// writes: a new `mtllib` line that does.
+/// Returns new `mtllib` lines by target head. Contains only target heads whose own `mtllib` line
+/// names other material files than those that this run writes.
 std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.target_heads) {

@@ -37,8 +37,8 @@ FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePla
   return so_far;
 }
 
-void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
-                          const std::vector<std::size_t>& missing_faces) {
+void require_all_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
+                       const std::vector<std::size_t>& missing_faces) {
   if (missing_faces.empty()) return;
   constexpr std::size_t kNamed = 8;
   std::vector<std::string> names;

@@ -26,8 +26,8 @@ FaceProgress find_done_faces(const FaceLedger& ledger, const std::vector<FacePla
                              const Shard& shard, const std::function<void()>& on_checked_face = {});
 
 /// Checks that no face is missing. \throws MissingInput that names the first few missing faces.
-void refuse_missing_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
-                          const std::vector<std::size_t>& missing_faces);
+void require_all_faces(const CrowdDirectory& directory, const std::vector<FacePlan>& crowd,
+                       const std::vector<std::size_t>& missing_faces);
 
 /// Writes the files that all faces share, if a format needs such files and they do not exist yet.
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,

@@ -58,8 +58,8 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
                            mean,
                            std::sqrt(squares / std::max(count - 1, 1.0)),
                            kolmogorov_smirnov_distance(*target, sampled),
-                           normal_fraction_below(*target, low),
-                           1 - normal_fraction_below(*target, high)};
+                           normal_cdf(*target, low),
+                           1 - normal_cdf(*target, high)};
     }
     reports.push_back(report);
   }

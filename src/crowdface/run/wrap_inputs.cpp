@@ -88,14 +88,14 @@ void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& wrap_tem
 
 int texture_size_of(const WrapOptions& options) {
   constexpr std::uint64_t kMin = 64, kMax = 16384;
-  if (options.texture.empty()) {
+  if (options.texture_size.empty()) {
     if (options.delight) throw UsageError("--delight: expected --texture SIZE, found none");
     return 0;
   }
-  const auto size = parse_unsigned(options.texture);
+  const auto size = parse_unsigned(options.texture_size);
   if (!size || *size < kMin || *size > kMax) {
     throw UsageError(concat("--texture: expected a whole number from ", kMin, " to ", kMax,
-                            ", found ", quoted(options.texture)));
+                            ", found ", quoted(options.texture_size)));
   }
   return static_cast<int>(*size);
 }

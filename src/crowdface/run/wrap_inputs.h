@@ -26,7 +26,7 @@ struct WrapOptions {
   std::string batch;          ///< a folder of scans; `out` is then a folder
   std::string out, landmarks, template_landmarks, model, ignore;
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
-  std::string texture;  ///< texels per side
+  std::string texture_size;  ///< side length of the textures to bake, in texels
   bool no_pictures = false, force = false, dry_run = false, estimate = false, delight = false;
   bool strict = false;  ///< whether to refuse doubtful heads
   Shard shard;          ///< the part of the batch to wrap

@@ -130,8 +130,9 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 
 /// Returns the landmarks from the files. If the files have too few landmarks and the pose of the
 /// scan is known, adds landmarks that are detected from the scan's shape.
-/// \param hint  input: pose of the scan, or empty. Output, if the files have too few landmarks: the
-/// human face that is found in the relief of the scan. An empty hint also gets this face's axes.
+/// \param hint  pose of the scan; empty if unknown. If the files have too few landmarks, the
+///     function searches the scan for a face and stores it in `hint->face`. If `hint` was empty,
+///     the axes of the face that was found become its pose.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -150,7 +151,7 @@ std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& tas
   } else {
     if (!face) return landmarks;
     hint = PoseHint{face->axes.up, face->axes.front, face};
-    const Orientation orientation = all_orientations()[face->requested_axes_index];
+    const Orientation orientation = all_orientations()[face->nearest_orientation_index];
     log_info(concat(task.scan.string(), ": found a face that looks along ",
                     name_of(orientation.front), " with ", name_of(orientation.up), " up"));
   }
@@ -213,7 +214,7 @@ std::map<std::string, double> leave_one_out_distances(const WrapInputs& shared,
 std::string likely_causes(const WrapInputs& shared, const Scan& scan,
                           const std::vector<WrapLandmark>& landmarks) {
   constexpr double kPart = 0.3;  // fraction of a head's surface that may be missing
-  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_shape);
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_program);
   if (picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) return {};
   std::string part =
       net_area_fraction(scan) < kPart
@@ -223,7 +224,7 @@ std::string likely_causes(const WrapInputs& shared, const Scan& scan,
   if (!shared.hint) return part;
   const auto face = find_scan_face(scan, std::nullopt);
   if (!face) return part;
-  const Orientation found = all_orientations()[face->requested_axes_index];
+  const Orientation found = all_orientations()[face->nearest_orientation_index];
   if (shared.hint->up == unit_vector(found.up) && shared.hint->front == unit_vector(found.front))
     return part;
   return concat(part, part.empty() ? "; the scan seems to look" : "; or it looks", " along ",

@@ -97,7 +97,7 @@ double WrapTextures::write(const WrapResult& result, const Scan& scan, const Sca
                            const TextureFiles& files) const {
   const Scan skin = keep_skin(scan);
   const ScanSurface surface(
-      {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.file_triangles});
+      {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.file_triangle_indices});
   const ScanBake bake(target_, result.positions, surface, colours, options_);
   double filled = 0;
   for (std::size_t p = 0; p < files.map_files.size(); ++p) {
@@ -118,7 +118,7 @@ EncodedFile WrapTextures::head_file(EncodedFile plain, const TextureFiles& files
   if (plain.replace_line("mtllib", first)) return plain;
   EncodedFile with_materials(first + '\n');
   for (const std::string_view piece : plain.pieces()) with_materials.refer_to(piece);
-  with_materials.keep(std::make_shared<EncodedFile>(std::move(plain)));
+  with_materials.share_ownership(std::make_shared<EncodedFile>(std::move(plain)));
   return with_materials;
 }
 

@@ -131,7 +131,7 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
     const std::vector<std::uint32_t> others = scene.leaves_near(one);
     for (const std::uint32_t other : others) masks_of_leaf[other] = {0, 0};
     const auto ones = tree_.leaf(one);
-    // Set the masks of the triangles that are at most kSheetRings edges from a triangle of `one`.
+    // For each triangle of leaf `one`, mark the triangles that are at most kSheetRings edges away.
     for (std::size_t k = 0; k < ones.size(); ++k) {
       for (const std::uint32_t other : rings.triangles_near(ones[k])) {
         if (place[other] == kNoIndex) continue;
@@ -191,15 +191,15 @@ void CrossingSearch::update(const Positions& mesh, const std::vector<bool>& chan
 
 std::vector<CrossingSearch::Pair> CrossingSearch::intersecting_pairs(
     const Positions& mesh, const Boxes& boxes,
-    const std::function<bool(std::uint32_t)>& may_intersect) const {
+    const std::function<bool(std::uint32_t)>& is_exempt) const {
   std::vector<Pair> pairs;
   for (const LeafPair& pair : leaf_pairs_) {
     if ((boxes.is_changed[pair.first] | boxes.is_changed[pair.second]) == 0) continue;
     if (!boxes_overlap(boxes.leaf_boxes[pair.first], boxes.leaf_boxes[pair.second])) continue;
     std::uint64_t left =
-        (pair.always_tested_mask | pair.tested_if_folded_mask) &
+        (pair.always_tested_mask | pair.tested_if_normals_differ_mask) &
         overlap_mask(boxes.triangle_boxes[pair.first], boxes.triangle_boxes[pair.second]);
-    if ((left & pair.tested_if_folded_mask) != 0) {
+    if ((left & pair.tested_if_normals_differ_mask) != 0) {
       left &=
           pair.always_tested_mask | ~similar_normal_mask(boxes.leaf_normals[pair.first],
                                                          boxes.leaf_normals[pair.second], kAlike);
@@ -208,7 +208,7 @@ std::vector<CrossingSearch::Pair> CrossingSearch::intersecting_pairs(
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
       const std::uint32_t t = tree_.leaf(pair.first)[bit / LeafBoxes::kCount];
       const std::uint32_t u = tree_.leaf(pair.second)[bit % LeafBoxes::kCount];
-      if (may_intersect(t) && may_intersect(u)) continue;
+      if (is_exempt(t) && is_exempt(u)) continue;
       if (!triangles_intersect(mesh, triangles_[t], triangles_[u])) continue;
       pairs.push_back({std::min(t, u), std::max(t, u)});
     }

@@ -49,10 +49,10 @@ class CrossingSearch {
 
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
-  /// \param may_intersect  A pair is ignored if this function returns true for both triangles.
-  std::vector<Pair> intersecting_pairs(
-      const Positions& mesh, const Boxes& boxes,
-      const std::function<bool(std::uint32_t)>& may_intersect) const;
+  /// \param is_exempt  Returns whether a triangle is exempt from the search. Pairs of two exempt
+  ///                   triangles are ignored.
+  std::vector<Pair> intersecting_pairs(const Positions& mesh, const Boxes& boxes,
+                                       const std::function<bool(std::uint32_t)>& is_exempt) const;
 
  private:
   /// Bit masks of the candidates in a pair of leaves, or in one leaf that is paired with itself.
@@ -61,7 +61,7 @@ class CrossingSearch {
     std::uint32_t first, second;
     std::uint64_t always_tested_mask;
     /// pairs of triangles that are a few edges apart, tested only if their normals differ
-    std::uint64_t tested_if_folded_mask;
+    std::uint64_t tested_if_normals_differ_mask;
   };
   void find_leaf_pairs(const std::vector<Triangle>& triangles, const Positions& points,
                        double max_distance, double max_facing_distance);

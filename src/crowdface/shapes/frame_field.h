@@ -39,16 +39,18 @@ class FrameField {
  private:
   struct Sample {
     std::uint32_t vertex;
-    Eigen::Vector3d weight;
+    /// The matrix A (see Node) is Σ d·wᵀ over the samples. Here, d is the sample's position in the
+    /// face relative to the node's vertex, and w is this vector.
+    Eigen::Vector3d fit_vector;
   };
   struct Node {
     Eigen::Vector3d centre;
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// The node's map is A + R·F. A is fitted to the samples, R is the rotation and scale of the
-    /// whole skin, and F is this matrix. R·F determines the map in directions in which the samples
-    /// do not extend.
-    Eigen::Matrix3d whole_skin_factor;
+    /// Weight W of the whole skin's motion in the node's map A + R·W. A is fitted to the samples,
+    /// and R is the rotation and scale of the whole skin. R·W determines the map in directions in
+    /// which the samples do not extend.
+    Eigen::Matrix3d whole_skin_weight;
   };
   struct NodeWeight {
     std::uint32_t node;
@@ -60,7 +62,7 @@ class FrameField {
 
   const Positions* neutral_ = nullptr;
   std::vector<std::uint32_t> sampled_skin_;
-  std::vector<double> equal_weights_;  ///< #sampled_skin_: all 1
+  std::vector<double> unit_weights_;  ///< #sampled_skin_: all 1
   std::vector<Node> nodes_;
   /// #vertices: the nodes between which each vertex interpolates, with weights
   CompressedRows<NodeWeight> node_weights_;

@@ -49,7 +49,8 @@ class GapPreserver {
 
  private:
   SkinContacts contacts_;
-  double max_gap_change_ = 0;  ///< largest change of a gap that kNearlyUnchanged adjusts
+  /// With kNearlyUnchanged, `adjust` skips the gaps whose change is larger than this.
+  double max_gap_change_ = 0;
 };
 
 }  // namespace crowdface

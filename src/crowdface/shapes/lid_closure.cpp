@@ -24,14 +24,16 @@ constexpr double kWholeHold = 0.27, kNoHold = 0.6;
 constexpr std::size_t kSections = 52;  // number of sections along the opening
 constexpr double kProfile = 0.35;      // radius of the profile around each section
 constexpr double kBlur = .12;          // width of the kernel that blends sections
-// A shape closes the lids at a section if it narrows the gap by at least this length.
+// A blend shape closes the lids at a section of the eye's opening if it narrows the gap between the
+// lids there by at least this length.
 constexpr double kMinClosed = 0.05;
 /// A shape closes the lids only if at most this fraction of the template's gap at rest remains.
 constexpr double kMaxRemaining = 0.4;
 // Smallest allowed distance between a lid and the eyeball. A lid may be nearer to the eyeball if it
 // is nearer on the template with the blend shape applied, or on the face at rest.
 constexpr double kMargin = 0.004;
-/// Largest allowed depth of skin in the eyeball. Skin that is deeper at rest may stay that deep.
+/// Largest allowed depth of skin in the eyeball, as a fraction of the eyeball's radius. Skin that
+/// is deeper at rest may stay that deep.
 constexpr double kDeepest = 0.0125;
 constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
 /// Corrected lids may close farther than the template's lids, by at most this length, so that the
@@ -73,12 +75,12 @@ void mark_lid_sides(const TemplateEye& eye, const Positions& neutral,
   }
 }
 
-BallMap::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
-  const BallMap::Gap found = ball->gap_at(motion.apply_inverse(point) - ball->centre());
+BallRadii::Gap FaceEye::gap_at(const Eigen::Vector3d& point) const {
+  const BallRadii::Gap found = ball->gap_at(motion.apply_inverse(point) - ball->centre());
   return {motion.scale * found.gap, motion.apply_to_direction(found.normal) / motion.scale};
 }
 
-FaceEye make_face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
+FaceEye make_face_eye(const TemplateEye& eye, const BallRadii& ball, const RigidMotion& motion,
                       const Positions& mesh) {
   FaceEye there{&ball, motion};
   for (const std::uint32_t v : eye.skin_vertices)
@@ -212,12 +214,12 @@ LidClosure::LidTargets LidClosure::mean_targets(std::span<const LidTargets> targ
   for (const ShapeSetShare& of_set : shares) {
     const LidTargets& one = targets[of_set.set];
     for (std::size_t p = 0; p < mean.gaps.size(); ++p) {
-      mean.gaps[p].section_gap += of_set.share * one.gaps[p].section_gap;
-      mean.gaps[p].vertical_gap += of_set.share * one.gaps[p].vertical_gap;
+      mean.gaps[p].section_gap += of_set.blend_weight * one.gaps[p].section_gap;
+      mean.gaps[p].vertical_gap += of_set.blend_weight * one.gaps[p].vertical_gap;
     }
     for (std::size_t i = 0; i < mean.ball_distances.size(); ++i) {
-      mean.ball_distances[i] += of_set.share * one.ball_distances[i];
-      mean.distance_changes[i] += of_set.share * one.distance_changes[i];
+      mean.ball_distances[i] += of_set.blend_weight * one.ball_distances[i];
+      mean.distance_changes[i] += of_set.blend_weight * one.distance_changes[i];
     }
   }
   return mean;
@@ -286,7 +288,7 @@ void LidClosure::keep_off_ball(std::size_t count, const Positions& face, const F
   for (std::size_t i = 0; i < count; ++i) {
     const LidVertex& lid = lid_vertices_[i];
     if (lid.eyeball_weight == 0) continue;
-    const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
+    const BallRadii::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     const double rest = eye.rest_gaps[lid.skin_index];
     const double wanted = std::max(rest + scale * targets.distance_changes[i],
                                    min_ball_distance(i, rest, scale, targets));
@@ -298,20 +300,20 @@ bool LidClosure::move_out_of_eyeball(const Positions& face, const FaceEye& eye,
                                      const RigidMotion& face_motion, const LidTargets& targets,
                                      Positions& moves) const {
   const double tolerance = kSomeDeeper * face_motion.scale * radius_;
-  bool is_out = true;
+  bool is_outside = true;
   for (std::size_t i = 0; i < lid_vertices_.size(); ++i) {
     const LidVertex& lid = lid_vertices_[i];
     if (lid.eyeball_weight == 0) continue;
     const double least =
         min_ball_distance(i, eye.rest_gaps[lid.skin_index], face_motion.scale, targets);
-    const BallMap::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
+    const BallRadii::Gap now = eye.gap_at(row3(face, lid.vertex) + row3(moves, lid.row));
     if (now.gap >= least) continue;
     // The correction below moves the vertex by the missing distance times `eyeball_weight`. So the
-    // vertex counts as too deep only if this product reaches the tolerance.
-    is_out = is_out && lid.eyeball_weight * (least - now.gap) < tolerance;
+    // vertex counts as inside the eyeball only if this product reaches the tolerance.
+    is_outside = is_outside && lid.eyeball_weight * (least - now.gap) < tolerance;
     moves.row(lid.row) += (lid.eyeball_weight * (least - now.gap) * now.normal).transpose();
   }
-  return is_out;
+  return is_outside;
 }
 
 double LidClosure::largest_open_gap(const Positions& face, const RigidMotion& face_motion,
@@ -357,8 +359,9 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
   const Positions carried = moves;
   std::vector<double> gains(sections_.size(), 0.0);
   double sure = 0;
-  // Chord method (Newton with a fixed slope) for the gains. A gain of one is assumed to narrow the
-  // gap at a section as much as the shape does on the template.
+  // Find each section's gain: the relative increase of the lids' vertical movement (see move_lids)
+  // that closes the gap there. Chord method (Newton with a fixed slope): a gain of one is assumed
+  // to narrow the gap as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) move_lids(profile_vertex_count_, axes.up, carried, gains, moves);
     keep_off_ball(profile_vertex_count_, face, eye, face_motion.scale, targets, moves);

@@ -16,7 +16,7 @@ namespace crowdface {
 
 /// An eye of the template.
 struct TemplateEye {
-  BallMap ball;  ///< radius of the eyeball in each direction
+  BallRadii ball;  ///< radius of the eyeball in each direction
   Lids lids;
   std::vector<std::uint32_t> skin_vertices;  ///< vertices around the eye, ascending
 };
@@ -25,16 +25,16 @@ struct TemplateEye {
 /// from the head to the face, and the distances between the surrounding skin and the eyeball at
 /// rest.
 struct FaceEye {
-  const BallMap* ball;
+  const BallRadii* ball;
   RigidMotion motion;
   std::vector<double> rest_gaps =
       {};  ///< #skin_vertices of the TemplateEye: distance from the eyeball
 
-  BallMap::Gap gap_at(const Eigen::Vector3d& point) const;
+  BallRadii::Gap gap_at(const Eigen::Vector3d& point) const;
 };
 /// Makes the FaceEye of one eye of a face.
 /// \param mesh  The face at rest, #V by 3.
-FaceEye make_face_eye(const TemplateEye& eye, const BallMap& ball, const RigidMotion& motion,
+FaceEye make_face_eye(const TemplateEye& eye, const BallRadii& ball, const RigidMotion& motion,
                       const Positions& mesh);
 
 /// Assigns each skin vertex around an eye to the lid with the nearest rim vertex: writes 1 for the
@@ -88,9 +88,10 @@ class LidClosure {
   /// Returns the indices of the rows in the shape's displacements that `fit_lids` may change.
   std::vector<std::uint32_t> adjustable_rows() const;
 
-  /// Returns the largest excess of a gap over its limit, in radii of the eyeball; 0 if no gap
-  /// exceeds its limit. The limit is the larger of two gaps: the target, and the gap that counts as
-  /// closed. Only for shapes that close the lids.
+  /// Returns how far the lids are too far open, in radii of the eyeball: the maximum, over the
+  /// sections, of the gap minus the allowed gap; 0 if no gap is too large. The allowed gap is the
+  /// target gap, or the gap that counts as closed if that is larger. Only for shapes that close the
+  /// lids.
   double largest_open_gap(const Positions& face, const RigidMotion& face_motion,
                           const LidTargets& targets, const Positions& moves) const;
   /// Scales the lids' vertical movement to close lids again that other corrections have opened.
@@ -133,7 +134,7 @@ class LidClosure {
   };
   struct LidVertex {
     std::uint32_t row, vertex;
-    std::uint32_t skin_index;  ///< index among the skin around the eye
+    std::uint32_t skin_index;  ///< index in the list of skin vertices around the eye
     /// how strongly closing moves this vertex: 1 near the eye, less farther away
     double closing_weight;
     double eyeball_weight;  ///< how strongly the vertex is kept off the eyeball: 1 near its surface
@@ -149,6 +150,7 @@ class LidClosure {
   /// Scales the vertical movement of each of the first `count` lid vertices by 1 + the weighted sum
   /// of the sections' gains.
   /// \param carried  displacements before scaling, one row for each vertex of the shape.
+  /// \param gains    #sections: relative increase of the vertical movement at each section.
   void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the

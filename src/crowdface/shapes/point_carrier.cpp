@@ -36,7 +36,7 @@ PointCarrier::PointCarrier(const PointSet& points, const PartList& parts,
       const auto on_surface = point_on_surface(point, points.meshes[m], triangles);
       anchors_[m].push_back(
           on_surface ? Anchor(*on_surface)
-                     : Anchor(find_followed_vertices(point, points.meshes[m], parts, skin)));
+                     : Anchor(find_carrying_vertices(point, points.meshes[m], parts, skin)));
     }
   }
 }
@@ -63,7 +63,7 @@ std::optional<PointCarrier::TrianglePoint> PointCarrier::point_on_surface(
   return found;
 }
 
-Socket PointCarrier::find_followed_vertices(const Eigen::Vector3d& point, const Positions& mesh,
+Socket PointCarrier::find_carrying_vertices(const Eigen::Vector3d& point, const Positions& mesh,
                                             const PartList& parts,
                                             std::span<const std::uint32_t> skin) {
   const auto whole = [](const std::vector<std::uint32_t>& vertices) {

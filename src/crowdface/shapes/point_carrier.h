@@ -59,9 +59,9 @@ class PointCarrier {
   static std::optional<TrianglePoint> point_on_surface(const Eigen::Vector3d& point,
                                                        const Positions& mesh,
                                                        std::span<const Triangle> triangles);
-  /// Finds the vertices whose motion a point follows: the vertices of a rigid part, or the skin
-  /// around the point.
-  static Socket find_followed_vertices(const Eigen::Vector3d& point, const Positions& mesh,
+  /// Finds the vertices that carry a point along when they move: the vertices of a rigid part, or
+  /// the skin around the point.
+  static Socket find_carrying_vertices(const Eigen::Vector3d& point, const Positions& mesh,
                                        const PartList& parts, std::span<const std::uint32_t> skin);
 
   const PointSet& points_;

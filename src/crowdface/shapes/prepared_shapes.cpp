@@ -104,17 +104,17 @@ PreparedShapes::PreparedShapes(const HeadSet& all_heads, const Adjacency& adjace
   });
   std::vector<const CrossingSearch*> searches;
   for (const PreparedShape& shape : shapes) searches.push_back(&shape.searched_skin.search);
-  rest_search = crossings.merge_searches(shape_set.neutral, searches);
+  resting_face_search = crossings.merge_searches(shape_set.neutral, searches);
   add_sets();
 }
 
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
   RigidPart bound{
       part.vertices, evenly_spaced_items(part.vertices, kMaxFitted), {}, Eigen::Vector3d::Zero()};
-  bound.equal_weights.assign(bound.fitted_vertices.size(), 1.0);
+  bound.unit_weights.assign(bound.fitted_vertices.size(), 1.0);
   if (part.is_eyeball) {
     const RigidMotion motion =
-        fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.equal_weights);
+        fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.unit_weights);
     bound.centre = motion.apply(parts.shapes[part.ball_component].centre);
   } else {
     bound.centre = centre_of(shape_set.neutral, part.vertices);
@@ -126,15 +126,15 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
   const RigidPart& bound = rigid_parts.back();
   const auto map_in = [&](const Positions& head) {
     const RigidMotion motion =
-        fit_rigid_motion(mean, head, bound.fitted_vertices, bound.equal_weights);
-    return BallMap(head_set.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
-                   motion.scale * ball.radius, axes);
+        fit_rigid_motion(mean, head, bound.fitted_vertices, bound.unit_weights);
+    return BallRadii(head_set.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
+                     motion.scale * ball.radius, axes);
   };
   PreparedEye eye{rigid_parts.size() - 1, {map_in(shape_set.neutral), {}, {}}, {}};
   eye.balls.resize(head_set.heads.size());
   parallel_for_each(head_set.heads.size(),
                     [&](std::size_t h) { eye.balls[h] = map_in(head_set.heads[h].positions); });
-  const BallMap& here = eye.template_eye.ball;
+  const BallRadii& here = eye.template_eye.ball;
   eye.template_eye.lids = find_lids(shape_set.neutral, PointGrid(shape_set.neutral, part.vertices),
                                     here.centre(), here.radius(), axes, skin);
   for (const std::uint32_t v : skin) {
@@ -150,7 +150,7 @@ void PreparedShapes::find_inner_vertices(const PartList& parts) {
     if (part.is_eyeball) continue;
     std::ranges::copy_if(part.vertices, std::back_inserter(inner_vertices), [&](std::uint32_t v) {
       return std::ranges::none_of(eyes, [&](const PreparedEye& eye) {
-        const BallMap& ball = eye.template_eye.ball;
+        const BallRadii& ball = eye.template_eye.ball;
         return (row3(shape_set.neutral, v) - ball.centre()).norm() < kEyeSkin * ball.radius();
       });
     });
@@ -221,7 +221,7 @@ SkinCrossings::SearchedSkin PreparedShapes::find_searched_skin(
   Positions rest = shape_set.neutral;
   shape_set.shapes[*prepared.prerequisite].moves.add_to(rest);
   SkinCrossings::SearchedSkin found = crossings.find_searched_skin(rest, moves, std::move(side));
-  found.joins_distant_skin = true;
+  found.brings_distant_skin_together = true;
   return found;
 }
 
@@ -268,14 +268,15 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
 PreparedShapes::FaceFrames PreparedShapes::make_face_frames(const Positions& face) const {
   FaceFrames face_frames{
       face, frame_field.frames(face), std::vector<Eigen::Matrix3d>(moved_vertices.size()),
-      contacts.measure_gaps(face), crossings.crossing_at_rest(face, rest_search)};
+      contacts.measure_gaps(face), crossings.crossing_at_rest(face, resting_face_search)};
   for (std::size_t i = 0; i < moved_vertices.size(); ++i)
     face_frames.maps[i] = frame_field.map_at(i, face_frames.frames);
   return face_frames;
 }
 
-Eigen::Matrix3d PreparedShapes::mean_map(const PartMove& part, const PreparedShape& prepared,
-                                         std::span<const Eigen::Matrix3d> maps) const {
+Eigen::Matrix3d PreparedShapes::mean_map_of_part(const PartMove& part,
+                                                 const PreparedShape& prepared,
+                                                 std::span<const Eigen::Matrix3d> maps) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
   for (const std::uint32_t row : part.displacement_rows) map += maps[prepared.vertex_indices[row]];
   return map / static_cast<double>(part.displacement_rows.size());
@@ -304,10 +305,10 @@ void PreparedShapes::add_sets() {
   }
 }
 
-Displacements PreparedShapes::shape_of_set(std::size_t number, std::size_t shape) const {
+Displacements PreparedShapes::shape_of_set(std::size_t set, std::size_t shape) const {
   const Displacements& all = shape_set.shapes[shape].moves;
   if (shape_set.head_shapes.empty()) return all;
-  return {all.vertices, rows_in(all.vertices, shape_set.head_shapes[number][shape])};
+  return {all.vertices, rows_in(all.vertices, shape_set.head_shapes[set][shape])};
 }
 
 void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positions& rest,
@@ -317,7 +318,7 @@ void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positi
   const RigidMotion& face_motion = face_frames.frames.face_motion;
   for (PartMove& part : prepared.parts) {
     const RigidPart& bound = rigid_parts[part.part];
-    const Eigen::Matrix3d map = mean_map(part, prepared, face_frames.maps);
+    const Eigen::Matrix3d map = mean_map_of_part(part, prepared, face_frames.maps);
     const PlacedPart placed(bound, shape_set.neutral, face_frames.mesh, face_motion, map);
     part.turns.push_back(
         find_turn(bound, placed, part.moved_vertices, part.displacement_rows, moves));

@@ -26,7 +26,7 @@ namespace crowdface {
 struct PreparedEye {
   std::size_t part;  ///< index into the rigid parts
   TemplateEye template_eye;
-  std::vector<BallMap> balls;  ///< #heads
+  std::vector<BallRadii> balls;  ///< #heads
 };
 
 /// How a shape moves one rigid part.
@@ -44,8 +44,8 @@ struct LidMove {
   std::vector<LidClosure::LidTargets> targets;  ///< #sets
 };
 
-/// A vertex of a lash or of another part that is bound to the skin. The vertex moves with the
-/// corrections of a lid.
+/// A vertex of a lash or of another part that is bound to the skin. When LidClosure corrects the
+/// lid's position, the vertex moves along.
 struct LidFollower {
   std::uint32_t row;
   /// The vertex is bound to a skin triangle. These are the rows of the triangle's corners in the
@@ -114,8 +114,9 @@ struct PreparedShapes {
   std::vector<std::uint32_t>
       inner_vertices;  ///< vertices of parts away from the eyes: gums and teeth
   SkinCrossings crossings;
-  CrossingSearch
-      rest_search;  ///< search over the skin that at least one shape may bring into contact
+  /// Finds intersections on the face at rest, in the skin that at least one shape may bring into
+  /// contact.
+  CrossingSearch resting_face_search;
   std::vector<PreparedShape> shapes;
 
   /// A face, with the local rotation and stretch of its skin relative to the template's skin.
@@ -129,9 +130,10 @@ struct PreparedShapes {
     std::vector<bool> crosses_at_rest;
   };
   FaceFrames make_face_frames(const Positions& face) const;
-  /// Returns the mean linear map over the vertices of a part that the shape moves.
-  Eigen::Matrix3d mean_map(const PartMove& part, const PreparedShape& prepared,
-                           std::span<const Eigen::Matrix3d> maps) const;
+  /// Returns the mean of `maps` over the vertices of a part that the shape moves.
+  /// \param maps  #moved_vertices: FaceFrames::maps of a face.
+  Eigen::Matrix3d mean_map_of_part(const PartMove& part, const PreparedShape& prepared,
+                                   std::span<const Eigen::Matrix3d> maps) const;
 
  private:
   void find_inner_vertices(const PartList& parts);
@@ -146,7 +148,8 @@ struct PreparedShapes {
   SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
                                                  const PreparedShape& prepared) const;
   void add_sets();
-  Displacements shape_of_set(std::size_t number, std::size_t shape) const;
+  /// Returns the displacements of one shape in one set of shapes.
+  Displacements shape_of_set(std::size_t set, std::size_t shape) const;
   /// Adds to `prepared` the data of one set's shape: motions of parts, lids and lips, and
   /// intersections to ignore.
   /// \param rest  The mesh to which the shape is added.

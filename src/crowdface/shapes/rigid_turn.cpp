@@ -63,14 +63,14 @@ RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
     const std::uint32_t place = index_in_list(vertices, part.fitted_vertices[i]);
     if (place != kNoIndex) shape.row(i) += moves.row(rows[place]);
   }
-  return fit_rigid_motion(rest, shape, all, part.equal_weights);
+  return fit_rigid_motion(rest, shape, all, part.unit_weights);
 }
 
 }  // namespace
 
 PlacedPart::PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& positions,
                        const RigidMotion& motion, const Eigen::Matrix3d& skin)
-    : centre(fit_rigid_motion(neutral, positions, part.fitted_vertices, part.equal_weights)
+    : centre(fit_rigid_motion(neutral, positions, part.fitted_vertices, part.unit_weights)
                  .apply(part.centre)),
       mesh(positions),
       face_motion(motion),
@@ -101,10 +101,11 @@ RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetSh
   mean.residuals.assign(turns.front().residuals.size(), Vector3d::Zero());
   for (const ShapeSetShare& of_set : shares) {
     const RigidTurn& turn = turns[of_set.set];
-    for (std::size_t c = 0; c < 4; ++c) mean.quaternion[c] += of_set.share * turn.quaternion[c];
-    mean.translation += of_set.share * turn.translation;
+    for (std::size_t c = 0; c < 4; ++c)
+      mean.quaternion[c] += of_set.blend_weight * turn.quaternion[c];
+    mean.translation += of_set.blend_weight * turn.translation;
     for (std::size_t i = 0; i < mean.residuals.size(); ++i) {
-      mean.residuals[i] += of_set.share * turn.residuals[i];
+      mean.residuals[i] += of_set.blend_weight * turn.residuals[i];
     }
   }
   normalize(mean.quaternion);

@@ -16,7 +16,7 @@ namespace crowdface {
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> fitted_vertices;  ///< the subset of `vertices` that determines motions
-  std::vector<double> equal_weights;           ///< #fitted_vertices: all 1
+  std::vector<double> unit_weights;            ///< #fitted_vertices: all 1, for fit_rigid_motion
   /// centre of rotation: the centre of an eyeball, or the mean of the teeth
   Eigen::Vector3d centre;
 };
@@ -40,8 +40,9 @@ struct PlacedPart {
   Eigen::Vector3d centre;
   const Positions& mesh;
   const RigidMotion& face_motion;  ///< motion from the template to the face
-  const Eigen::Matrix3d& map;      ///< from the template to the face: mean linear map at the
-                                   ///< part's vertices that the shape moves
+  /// mean, over the vertices that the shape moves in this part, of the local linear map from the
+  /// template to the face
+  const Eigen::Matrix3d& map;
 };
 
 /// Measures how a shape moves a rigid part of a mesh, and transforms this motion to the template.

@@ -55,8 +55,8 @@ Displacements mean_displacements(const std::vector<std::vector<OwnShape>>& head_
 
 /// The weight of one set of shapes in a blend of several sets.
 struct ShapeSetShare {
-  std::uint32_t set;
-  double share;
+  std::uint32_t set;    ///< index of the set
+  double blend_weight;  ///< 0 to 1
 };
 using ShapeSetShares = std::vector<ShapeSetShare>;
 
@@ -73,7 +73,7 @@ inline ShapeSetShares shape_set_weights_at(std::span<const double> alpha,
   for (std::size_t k = 0; k < region_shares.size(); ++k) {
     if (alpha[k] == 0) continue;
     for (const ShapeSetShare& of_set : region_shares[k]) {
-      shares.push_back({of_set.set, alpha[k] * of_set.share});
+      shares.push_back({of_set.set, alpha[k] * of_set.blend_weight});
     }
   }
   return shares;

@@ -28,7 +28,7 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
   for (const auto& [number, eye, balls] : prepared.eyes) {
     const RigidPart& part = prepared.rigid_parts[number];
     const RigidMotion motion = fit_rigid_motion(prepared.head_set.heads[target].positions, face,
-                                                part.fitted_vertices, part.equal_weights);
+                                                part.fitted_vertices, part.unit_weights);
     there.push_back(make_face_eye(eye, balls[target], motion, face));
   }
   return there;
@@ -113,7 +113,7 @@ Positions CarriedShape::mixed_moves() const {
         const double part = prepared_.vertex_region_weights(
             shape_.vertex_indices[static_cast<std::size_t>(i)], static_cast<Index>(k));
         if (part == 0) continue;
-        const double share = part * of_set.share;
+        const double share = part * of_set.blend_weight;
         for (Index c = 0; c < 3; ++c) moves(i, c) += share * static_cast<double>(own(i, c));
       }
     }
@@ -131,7 +131,7 @@ void CarriedShape::move_skin(const Positions& moves) {
 
 void CarriedShape::move_parts() {
   for (const PartMove& part : shape_.parts) {
-    const Eigen::Matrix3d map = prepared_.mean_map(part, shape_, face_frames_.maps);
+    const Eigen::Matrix3d map = prepared_.mean_map_of_part(part, shape_, face_frames_.maps);
     const PlacedPart placed(prepared_.rigid_parts[part.part], prepared_.shape_set.neutral,
                             face_frames_.mesh, face_frames_.frames.face_motion, map);
     carry_turn(mean_turn(part.turns, shares_of_part(part.part)), placed, part.moved_vertices,
@@ -179,8 +179,8 @@ void CarriedShape::keep_contacts() {
           {&weights(static_cast<Index>(p), 0), static_cast<std::size_t>(weights.cols())}, shares_);
     }
     for (const ShapeSetShare& of_set : here) {
-      gap_changes[p] +=
-          of_set.share * face_frames_.frames.face_motion.scale * shape_.gap_changes[of_set.set][p];
+      gap_changes[p] += of_set.blend_weight * face_frames_.frames.face_motion.scale *
+                        shape_.gap_changes[of_set.set][p];
     }
   }
   // Apply the displacements to the mesh, adjust the gaps of this mesh, and convert the adjusted

@@ -29,8 +29,8 @@ constexpr double kGrowth = 0.08;  // growth of these lengths per round
 // arrange_as_template, which gives skin the template's front-to-back order, multiplies kEvened,
 // kNotEvened and kCell by this factor.
 constexpr double kSameLayoutFactor = 0.7;
-/// Averaging applies only this fraction of its vertical change to the lids, so that the eye stays
-/// closed.
+/// Averaging the displacements also changes the displacements of the lids. The vertical component
+/// of this change is multiplied by kClosing, so that the eye stays closed.
 constexpr double kClosing = 0.3;
 // kPush: length of the push in each round. kPushed: skin is pushed up to this distance from
 // intersections, measured at rest.
@@ -91,8 +91,9 @@ class SkinCrossings::Repair {
   void remove_crossings(const ExtraCost& extra_cost) {
     if (pairs_.empty()) return;
     const Positions start = shape_.moves;
-    remove_crossings(extra_cost, searched_skin_.joins_distant_skin ? &Repair::arrange_as_template
-                                                                   : &Repair::push_lids);
+    remove_crossings(extra_cost, searched_skin_.brings_distant_skin_together
+                                     ? &Repair::arrange_as_template
+                                     : &Repair::push_lids);
     if (!searched_skin_.lid_sides.empty() && best_ > 0) {
       shape_.moves = start;
       changed_.assign(changed_.size(), true);
@@ -114,7 +115,8 @@ class SkinCrossings::Repair {
       since_best = is_best(extra_cost) ? 0 : since_best + 1;
       if (pairs_.empty() || since_best == patience || round == kRounds) return;
       const auto lids = std::stable_partition(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-        return !searched_skin_.joins_distant_skin && side_of(pair[0]) * side_of(pair[1]) >= 0;
+        return !searched_skin_.brings_distant_skin_together &&
+               side_of(pair[0]) * side_of(pair[1]) >= 0;
       });
       const std::vector<Pair> before = pairs_, meeting(lids, pairs_.end());
       pairs_.erase(lids, pairs_.end());
@@ -227,7 +229,7 @@ class SkinCrossings::Repair {
     std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
       const DisplacementRow& row = searched_skin_.rows[i];
-      if (!searched_skin_.joins_distant_skin && side(row.vertex) == 0) continue;
+      if (!searched_skin_.brings_distant_skin_together && side(row.vertex) == 0) continue;
       if (!field.affects(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.face_motion.apply(shaped(i))});
     }

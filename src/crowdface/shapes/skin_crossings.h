@@ -38,10 +38,11 @@ class SkinCrossings {
     /// skin; empty if the shape closes no eye.
     std::vector<signed char> lid_sides;
     std::vector<DisplacementRow> rows;  ///< rows of the shape that are skin
-    Positions shaped_positions;         ///< #rows by 3: these vertices of the template in the shape
+    /// #rows by 3: positions of the vertices of `rows` on the template with the shape applied
+    Positions shaped_positions;
     /// Whether the shape brings together skin that is far apart at rest. If so, intersecting skin
     /// gets the same front-to-back order as on the template.
-    bool joins_distant_skin = false;
+    bool brings_distant_skin_together = false;
   };
   /// Finds the skin in which to search for intersections of a shape.
   /// \param neutral  The mesh to which the shape is added, #V by 3.

@@ -147,8 +147,8 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
   const int rings = static_cast<int>(std::clamp(kMaxSlide * extent / edge, kMinRings, kMaxRings));
   const FrontView view(shaped, around, axes, kFrontReach * extent / 4);
   std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
-  // Find the vertices that the skin covers on the template with the blend shape applied, at most
-  // one per cell.
+  // Find the vertices that the skin covers on the template with the blend shape applied. Take at
+  // most one vertex from each cell of a grid, so that the vertices are spread evenly.
   for (const std::uint32_t v : inner) {
     const Eigen::Vector3d point = row3(shaped, v);
     const auto cell = [&](Index c) {
@@ -230,7 +230,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
     }
     const double facing = axes.front.dot(normal);
     if (!foremost || facing < kFacesFront) continue;
-    // Push this skin if it is too near to the vertex, or behind the vertex.
+    // Push this skin forward if it is behind the covered vertex, or too close in front of it.
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
     const double by = std::min(missing, max_push[i]);

@@ -19,7 +19,8 @@ constexpr std::size_t kPatchesPerTask = 16;
 /// Returns weights w_p that bound the error of a sum: |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each
 /// of the levels L and any error vectors e_p. w_p is the largest |φ_p| over the levels, times the
 /// factor from the Cauchy–Schwarz inequality.
-std::vector<double> error_weights(const HeadLevels& head, std::span<const std::uint64_t> levels) {
+std::vector<double> error_weights(const HeadSmoothing& head,
+                                  std::span<const std::uint64_t> levels) {
   std::vector<std::vector<double>> functions;
   functions.reserve(levels.size());
   for (const std::uint64_t level : levels) functions.push_back(head.functions(level));
@@ -54,7 +55,7 @@ class PatchMaker {
  public:
   /// \param heads, weights  must outlive this object.
   /// \param weights         for each head, the result of error_weights.
-  PatchMaker(std::span<const HeadLevels> heads, const std::vector<std::vector<double>>& weights,
+  PatchMaker(std::span<const HeadSmoothing> heads, const std::vector<std::vector<double>>& weights,
              double tolerance)
       : heads_(heads), error_weights_(weights), tolerance_(tolerance) {}
 
@@ -170,7 +171,8 @@ class PatchMaker {
     }
   }
 
-  /// Quantizes the fields at the vertices of the skeleton, and appends them.
+  /// Quantizes the fields at the skeleton vertices, from which the fields at the other vertices of
+  /// the patch are interpolated. Appends the quantized values to `made`.
   void add_quantized_values(std::span<const std::uint32_t> vertices, MadePatches& made) {
     const std::size_t size = skeleton_.size(), values = FieldPatch::values_per_field(size);
     for (std::size_t h = 0; h < heads_.size(); ++h) {
@@ -196,7 +198,7 @@ class PatchMaker {
     }
   }
 
-  std::span<const HeadLevels> heads_;
+  std::span<const HeadSmoothing> heads_;
   const std::vector<std::vector<double>>& error_weights_;
   double tolerance_;
   std::vector<std::uint32_t> counts_;
@@ -301,7 +303,8 @@ std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
                                                     double max_distance) {
   constexpr std::uint32_t kLongest = 32;
   const auto vertices = static_cast<std::uint32_t>(positions.rows());
-  // The first vertex of each run. At the end, the number of all vertices is appended.
+  // Cut the sequence of vertices where two successive vertices are far apart. `firsts` holds the
+  // first vertex of each piece, and at the end the number of all vertices.
   std::vector<std::uint32_t> firsts;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     const bool goes_on = !firsts.empty() && v - firsts.back() < kLongest &&
@@ -321,13 +324,13 @@ std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
   return order;
 }
 
-FieldPatches interpolate_fields(std::span<const HeadLevels> heads,
+FieldPatches interpolate_fields(std::span<const HeadSmoothing> heads,
                                 std::span<const std::uint64_t> levels,
                                 std::span<const std::uint32_t> order, double tolerance,
                                 const std::function<void(std::size_t)>& progress) {
   require(!heads.empty(), "patches of no head");
   std::vector<Index> ranks;
-  for (const HeadLevels& head : heads) {
+  for (const HeadSmoothing& head : heads) {
     const LevelFields& fields = head.fields;
     const std::size_t tiles = LevelFields::tile_count(order.size());
     require(static_cast<std::size_t>(fields.vertex_count) == order.size() &&

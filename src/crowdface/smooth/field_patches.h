@@ -14,11 +14,13 @@
 
 namespace crowdface {
 
-/// The fitted levels of one head: S̃_L x = x + Σ_p φ_p(L)·c_p, with vector fields c_p and level
-/// functions φ_p, which come from a LevelBasis or the paper's CubicFit.
-struct HeadLevels {
-  LevelFields fields;                                                 ///< c_p
-  std::function<std::vector<double>(std::uint64_t level)> functions;  ///< φ_0(L), φ_1(L), …
+/// Approximates one head at all smoothing levels L (numbers of smoothing iterations):
+/// S̃_L x = x + Σ_p φ_p(L)·c_p. The vector fields c_p and the level functions φ_p come from a
+/// LevelBasis or the paper's CubicFit.
+struct HeadSmoothing {
+  LevelFields fields;  ///< the vector fields c_p: an offset for each vertex
+  /// returns φ_0(L), φ_1(L), … for a level L
+  std::function<std::vector<double>(std::uint64_t level)> functions;
 };
 
 /// The fields of all heads at the vertices of one patch. A patch is a group of nearby vertices.
@@ -42,8 +44,8 @@ struct FieldPatch {
 
   /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
   bool is_whole() const { return stored_vertex_count == vertices.size(); }
-  /// Count of 16-bit numbers stored for each field: 3·#skeleton, rounded up to a multiple of
-  /// kPatchPadding.
+  /// Count of 16-bit numbers stored for each field: 3 coordinates at each of the
+  /// `stored_vertex_count` vertices, rounded up to a multiple of kPatchPadding.
   std::size_t values_per_field() const { return values_per_field(stored_vertex_count); }
   static std::size_t values_per_field(std::size_t stored_vertex_count) {
     return (3 * stored_vertex_count + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
@@ -119,7 +121,7 @@ std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
 /// \param progress   any thread calls this function with the number of patches that the thread has
 ///                   just finished. If the function throws an exception, the work stops.
 FieldPatches interpolate_fields(
-    std::span<const HeadLevels> heads, std::span<const std::uint64_t> levels,
+    std::span<const HeadSmoothing> heads, std::span<const std::uint64_t> levels,
     std::span<const std::uint32_t> order, double tolerance,
     const std::function<void(std::size_t patches)>& progress = [](std::size_t) {});
 

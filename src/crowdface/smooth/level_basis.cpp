@@ -92,7 +92,7 @@ class TileFitter {
   /// The fields that a sequence of tiles keeps, and the largest error of the tiles' vertices at any
   /// level.
   struct FittedTiles {
-    FieldTiles fields;
+    QuantizedTiles fields;
     double max_error = 0;
     std::size_t level = 0;  ///< index of the worst level in the list of tested levels
   };
@@ -143,8 +143,8 @@ class TileFitter {
   /// 1/8, normals are as close to the exact normals as when all tiles keep the same fields
   /// (docs/method.md).
   static constexpr double kTruncationShare = 0.125;
-  /// Trailing fields are omitted without a test at each level if the sum of their error bounds is
-  /// at most this fraction of the tolerance.
+  /// If the sum of the error bounds of trailing fields is at most this fraction of the tolerance,
+  /// these fields are omitted, and their exact error at each level is not computed.
   static constexpr double kSkippedShare = 0.01;
 
   static double longest(std::span<const float> vectors) {
@@ -217,9 +217,10 @@ struct ProbeError {
   double max = 0, rms = 0;
 };
 
-/// Largest and root-mean-square distance between Σ_p functions(l, p) fields_p and the exact filter
-/// at the probes.
-/// \param field_at  field_at(probe, p, coordinate): the value of a field.
+/// Compares fitted displacements Σ_p functions(l, p)·c_p with the exact displacements of the
+/// filter, at all levels l and at the probes (some vertices). Returns the largest and the root mean
+/// square distance between both.
+/// \param field_at  field_at(probe, p, coordinate): the value of the vector field c_p.
 template <class FieldAt>
 ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
                        const FieldAt& field_at) {
@@ -243,13 +244,15 @@ ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
 
 }  // namespace
 
-std::vector<double> level_function_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
+std::vector<double> level_function_values(const LevelNodes& nodes,
+                                          const Eigen::MatrixXd& coefficients,
                                           std::uint64_t level) {
   const std::vector<double> weights = nodes.weights(level);
-  std::vector<double> functions(static_cast<std::size_t>(mixing.cols()), 0.0);
-  for (Index p = 0; p < mixing.cols(); ++p) {
-    for (Index n = 0; n < mixing.rows(); ++n) {
-      functions[static_cast<std::size_t>(p)] += weights[static_cast<std::size_t>(n)] * mixing(n, p);
+  std::vector<double> functions(static_cast<std::size_t>(coefficients.cols()), 0.0);
+  for (Index p = 0; p < coefficients.cols(); ++p) {
+    for (Index n = 0; n < coefficients.rows(); ++n) {
+      functions[static_cast<std::size_t>(p)] +=
+          weights[static_cast<std::size_t>(n)] * coefficients(n, p);
     }
   }
   return functions;
@@ -268,16 +271,16 @@ NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
   }
   NodeFields fields;
   for (const std::uint32_t r : strided_rows(input.values.size(), kProbes)) {
-    fields.probes.vertices.push_back(filter.vertex_of_row()[r]);
+    fields.probe_terms.vertices.push_back(filter.vertex_of_row()[r]);
   }
-  fields.displacements = std::move(filter.run<float>({&input, 1}, &fields.probes).front());
+  fields.displacements = std::move(filter.run<float>({&input, 1}, &fields.probe_terms).front());
   return fields;
 }
 
 LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& nodes,
                            const NodeFields& node_fields, double tolerance) {
   const std::vector<FieldRows>& displacements = node_fields.displacements;
-  const RecordedTerms& probes = node_fields.probes;
+  const RecordedTerms& probes = node_fields.probe_terms;
   const TestedLevels tested = make_tested_levels(nodes);
   const Columns exact = exact_displacements(probes, filter.kind(), tested.levels);
   // Measure the error of interpolation between nodes. The fields may use the rest of the tolerance.
@@ -301,7 +304,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   LevelBasis basis;
   basis.max_level = nodes.max_level();
   std::uint32_t rank = 0;
-  std::vector<FieldTiles> fields;
+  std::vector<QuantizedTiles> fields;
   TileFitter::FittedTiles worst;
   for (TileFitter::FittedTiles& part : parts) {
     for (const std::uint32_t count : part.fields.field_counts) rank = std::max(rank, count);
@@ -314,7 +317,7 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
                               " with ", nodes.levels().size(), " fields"));
   }
   basis.error.level = tested.levels[worst.level];
-  basis.mixing = directions.mixing.leftCols(rank);
+  basis.function_coefficients = directions.function_coefficients.leftCols(rank);
   basis.fields = concatenate(filter.vertex_count(), rank, std::move(fields));
   basis.error.rms =
       probe_error(exact, directions.level_functions.leftCols(rank), [&](Index v, Index p, Index c) {

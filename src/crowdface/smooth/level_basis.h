@@ -21,26 +21,29 @@ struct BasisError {
 /// Level L is the head after L smoothing iterations; level 0 is the head itself.
 struct LevelBasis {
   std::uint64_t max_level = 1;
-  /// #nodes by rank: coefficients of the level functions, φ_p(L) = Σ_n w_n(L) mixing(n, p), where
-  /// w_n are the interpolation weights of LevelNodes
-  Eigen::MatrixXd mixing;
-  LevelFields fields;  ///< c_p
+  /// #nodes by rank, coefficients of the level functions:
+  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the interpolation weights of
+  /// LevelNodes
+  Eigen::MatrixXd function_coefficients;
+  LevelFields fields;  ///< the vector fields c_p, with a vector at each vertex of the mesh
   BasisError error;
 
-  Index rank() const { return mixing.cols(); }
+  Index rank() const { return function_coefficients.cols(); }
 };
 
 /// Returns the level functions φ_p(L) of a LevelBasis for all p.
-/// \param mixing  see LevelBasis::mixing.
-std::vector<double> level_function_values(const LevelNodes& nodes, const Eigen::MatrixXd& mixing,
-                                          std::uint64_t level);
+/// \param coefficients  see LevelBasis::function_coefficients.
+std::vector<double> level_function_values(const LevelNodes& nodes,
+                                          const Eigen::MatrixXd& coefficients, std::uint64_t level);
 
 /// The result of one filter pass over a head.
 struct NodeFields {
   /// For each node n, which is the level N_n: the displacements S_{N_n} x − x that N_n smoothing
   /// iterations cause, in the filter's row order.
   std::vector<RowArray<float>> displacements;
-  RecordedTerms probes;  ///< exact Chebyshev terms at some vertices, to measure errors
+  /// Chebyshev terms at a few vertices (the probes). They give the exact levels at the probes, with
+  /// which the error of a LevelBasis is measured.
+  RecordedTerms probe_terms;
 };
 
 /// Filters one head to the levels of all nodes in one pass, in single precision.

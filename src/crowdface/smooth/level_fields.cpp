@@ -45,7 +45,7 @@ float quantize(std::span<const float> values, std::int16_t* quantized) {
   return step;
 }
 
-void FieldTiles::add(std::span<const float> values, std::size_t count) {
+void QuantizedTiles::add(std::span<const float> values, std::size_t count) {
   field_counts.push_back(static_cast<std::uint32_t>(count));
   quantized_values.resize(quantized_values.size() + count * kTileValues);
   std::int16_t* to = quantized_values.data() + quantized_values.size() - count * kTileValues;
@@ -55,20 +55,20 @@ void FieldTiles::add(std::span<const float> values, std::size_t count) {
   }
 }
 
-LevelFields concatenate(Index vertex_count, Index rank, std::vector<FieldTiles> tiles) {
+LevelFields concatenate(Index vertex_count, Index rank, std::vector<QuantizedTiles> tiles) {
   auto all = std::make_shared<OwnedFields>();
   all->first_field_of_tile.push_back(0);
-  for (FieldTiles& part : tiles) {
+  for (QuantizedTiles& part : tiles) {
     for (const std::uint32_t count : part.field_counts)
       all->first_field_of_tile.push_back(all->first_field_of_tile.back() + count);
     all->quantization_steps.insert(all->quantization_steps.end(), part.quantization_steps.begin(),
                                    part.quantization_steps.end());
   }
   all->quantized_values.reserve(all->quantization_steps.size() * kTileValues);
-  for (FieldTiles& part : tiles) {
+  for (QuantizedTiles& part : tiles) {
     all->quantized_values.insert(all->quantized_values.end(), part.quantized_values.begin(),
                                  part.quantized_values.end());
-    part = FieldTiles();
+    part = QuantizedTiles();
   }
   return {vertex_count,          rank, all->first_field_of_tile, all->quantization_steps,
           all->quantized_values, all};
@@ -77,7 +77,8 @@ LevelFields concatenate(Index vertex_count, Index rank, std::vector<FieldTiles> 
 LevelFields quantize(std::span<const float> fields, Index vertex_count) {
   const std::size_t values = 3 * static_cast<std::size_t>(vertex_count);
   const std::size_t rank = values == 0 ? 0 : fields.size() / values;
-  std::vector<FieldTiles> tiles(LevelFields::tile_count(static_cast<std::size_t>(vertex_count)));
+  std::vector<QuantizedTiles> tiles(
+      LevelFields::tile_count(static_cast<std::size_t>(vertex_count)));
   parallel_for_each(tiles.size(), [&](std::size_t tile) {
     const std::size_t first = tile * kTileValues;
     std::vector<float> of_tile(rank * kTileValues, 0.0F);

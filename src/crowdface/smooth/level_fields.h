@@ -48,8 +48,8 @@ struct LevelFields {
   double value(Index field, Index vertex, Index coordinate) const;
 };
 
-/// The fields of a sequence of tiles.
-struct FieldTiles {
+/// The quantized fields of a sequence of tiles, stored one tile after another.
+struct QuantizedTiles {
   std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
   std::vector<float> quantization_steps;    ///< one for each stored field of a tile
   std::vector<std::int16_t> quantized_values;
@@ -70,9 +70,9 @@ float quantize(std::span<const float> values, std::int16_t* quantized);
 
 /// Concatenates the fields of all tiles of a mesh.
 /// \param tiles  all tiles, in order.
-LevelFields concatenate(Index vertex_count, Index rank, std::vector<FieldTiles> tiles);
+LevelFields concatenate(Index vertex_count, Index rank, std::vector<QuantizedTiles> tiles);
 
-/// Quantizes complete fields: unlike FieldTiles, every tile stores all R fields.
+/// Quantizes complete fields: unlike QuantizedTiles, every tile stores all R fields.
 /// \param fields  #R by #V by 3, finite.
 LevelFields quantize(std::span<const float> fields, Index vertex_count);
 

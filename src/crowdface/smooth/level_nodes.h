@@ -41,8 +41,8 @@ class LevelNodes {
   std::uint64_t max_level_;
   std::vector<double> eigenvalues_, grid_weights_;
   std::vector<std::uint64_t> levels_;
-  /// orthonormal basis of the displacements at the nodes, by Gram-Schmidt; one spectrum for each
-  /// node, in the order of choice
+  /// Gram-Schmidt basis of the nodes' displacements. Element q is the part of the displacement at
+  /// the node chosen as number q that is orthogonal to elements 0 … q − 1, normalized.
   std::vector<Spectrum> orthonormal_basis_;
   std::vector<std::size_t> choice_order_;  ///< indices into levels_, in the order in which
                                            ///< choose_nodes chose the nodes

@@ -83,9 +83,9 @@ PrincipalDirections weighted_directions(const TestedLevels& tested,
   const Eigen::MatrixXd u =
       symmetric_eigen(product(product(t, moments), t.transpose())).eigenvectors;
   PrincipalDirections directions;
-  directions.mixing = solve_triangle(t, u);
+  directions.function_coefficients = solve_triangle(t, u);
   directions.field_coefficients = product(t.transpose(), u);
-  directions.level_functions = product(tested.node_weights, directions.mixing);
+  directions.level_functions = product(tested.node_weights, directions.function_coefficients);
   return directions;
 }
 
@@ -94,7 +94,8 @@ PrincipalDirections weighted_directions(const TestedLevels& tested,
 constexpr Index kLanes = 16;
 using Lanes = std::array<float, kLanes>;
 
-/// Computes c_p for all p at the kLanes vertices from `begin`. Vertices from `end` on get zeros.
+/// Computes all vector fields c_p (see PrincipalDirections::field_coefficients) at the kLanes
+/// vertices from `begin`. Vertices from `end` on get zeros.
 /// \param fields  receives 3·#nodes by kLanes.
 void combine_fields(const PrincipalDirections& directions, const NodeDisplacements& sample,
                     Index begin, Index end, std::vector<Lanes>& fields) {

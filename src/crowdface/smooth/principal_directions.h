@@ -29,7 +29,9 @@ struct NodeDisplacements {
 /// the displacement of a vertex as a function of the level. All directions together reproduce the
 /// displacements at the nodes exactly; the first few directions reproduce them approximately.
 struct PrincipalDirections {
-  Eigen::MatrixXd mixing;  ///< #nodes by #nodes: φ_p(L) = Σ_n w_n(L) mixing(n, p)
+  /// #nodes by #nodes, coefficients of the level functions:
+  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the weights of LevelNodes
+  Eigen::MatrixXd function_coefficients;
   /// #nodes by #nodes: c_p = Σ_n field_coefficients(n, p) (S_{N_n} x − x)
   Eigen::MatrixXd field_coefficients;
   Eigen::MatrixXd level_functions;  ///< #levels by #nodes: φ_p at the tested levels

@@ -23,13 +23,13 @@ struct ValenceRun {
 /// ring 1 (the outside neighbours of own rows), ring 2, … Each step invalidates the outermost valid
 /// ring, so with n rings the tile's own rows are correct after n steps.
 struct Tile {
-  std::uint32_t first_row = 0;      ///< first own row, in the tiling's order
-  std::uint32_t row_count = 0;      ///< number of own rows
-  std::vector<std::uint32_t> halo;  ///< rows (tiling's order) of the local rows from row_count on
+  std::uint32_t first_row = 0;  ///< first own row, in the tiling's order
+  std::uint32_t row_count = 0;  ///< number of own rows; the halo does not count
+  /// local row `row_count + i` is row `halo[i]` of the tiling's order
+  std::vector<std::uint32_t> halo;
   /// runs of rows whose vertices are not fixed: first runs of own rows, then of ring 1, ring 2, …
   std::vector<ValenceRun> runs;
-  /// run_counts[r] is the number of runs, counted from the first, that cover the own rows and rings
-  /// 1 to r.
+  /// The first run_counts[r] entries of `runs` cover the tile's own rows and rings 1 to r.
   std::vector<std::uint32_t> run_counts;
   std::vector<std::uint32_t>
       neighbours;  ///< neighbour lists (local rows), each in the operator's order

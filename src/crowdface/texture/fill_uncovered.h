@@ -16,8 +16,9 @@ namespace crowdface {
 /// \param values  height by width by #channels.
 template <class Value>
 void fill_uncovered(const SurfaceTexels& texels, std::span<const Value> fill, Value* values) {
+  // Sizes of the blocks of work that threads take.
   constexpr int kRowsPerBlock = 16;
-  constexpr std::size_t kGutterPerBlock = 1 << 14;
+  constexpr std::size_t kGutterTexelsPerBlock = 1 << 14;
   const std::size_t channels = fill.size();
   const auto width = static_cast<std::size_t>(texels.width());
   parallel_for_each(texels.height(), kRowsPerBlock, [&](int y) {
@@ -33,7 +34,7 @@ void fill_uncovered(const SurfaceTexels& texels, std::span<const Value> fill, Va
     fill_to(end);
   });
   const auto& gutter = texels.gutter();
-  parallel_for_each(gutter.size(), kGutterPerBlock, [&](std::size_t i) {
+  parallel_for_each(gutter.size(), kGutterTexelsPerBlock, [&](std::size_t i) {
     std::copy_n(values + channels * std::size_t{gutter[i].source}, channels,
                 values + channels * std::size_t{gutter[i].target});
   });

@@ -30,7 +30,8 @@ struct SurfaceStatistics {
   std::vector<float> covariances;  ///< #V by #pairs
 };
 
-/// Smoothing scales of the statistics, in iterations of the filter's lazy operator.
+/// Smoothing scales of the statistics, as numbers of iterations with the operator
+/// OperatorKind::kLazy.
 struct StatisticsScale {
   /// Iterations that remove detail from `coarse_values`.
   std::uint64_t detail_iterations = 4;

@@ -68,7 +68,7 @@ HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> ch
 
 /// The heads' weights in one texture image of one face.
 struct FaceWeights {
-  HeadWeights of_target;               ///< τ, for vertices that only the target colours
+  HeadWeights of_target;               ///< τ, for vertices that get only the target's colour
   HeadWeights of_face;                 ///< W
   std::vector<HeadWeights> of_region;  ///< v at vertices of this region only
 };
@@ -208,7 +208,7 @@ PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& 
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
     // Keep the head only if it has a positive weight at one vertex or more.
-    double most = options_.is_target_only.empty() ? 0.0 : weights.of_target[h];
+    double most = options_.uses_target_colours_only.empty() ? 0.0 : weights.of_target[h];
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
     if (most > 0) fields.heads.push_back(h);
   }
@@ -220,7 +220,8 @@ PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& 
         std::vector<double> lent(fields.heads.size());
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
           const std::size_t vertex = vertices[i];
-          const bool is_part = !options_.is_target_only.empty() && options_.is_target_only[vertex];
+          const bool is_part = !options_.uses_target_colours_only.empty() &&
+                               options_.uses_target_colours_only[vertex];
           for (std::size_t s = 0; s < lent.size(); ++s) {
             const std::size_t head = fields.heads[s];
             lent[s] = is_part ? weights.of_target[head] : 0.0;

@@ -18,7 +18,7 @@ struct TextureBlendOptions {
   /// #V: weight of each vertex in means over the face; not all zero.
   std::vector<double> vertex_areas;
   /// #V, or empty: whether the vertex has the colours of the target alone (eyes, teeth).
-  std::vector<bool> is_target_only;
+  std::vector<bool> uses_target_colours_only;
 };
 
 /// Blends a texture for each face from the textures of the heads (docs/textures.md). Let D_h be the
@@ -39,7 +39,8 @@ struct TextureBlendOptions {
 /// are bit-identical on any number of threads.
 class TextureBlender {
  public:
-  /// Returns the result of `make()`, possibly from a cache.
+  /// Returns the statistics that the argument `make` computes; may take them from a cache instead
+  /// of calling `make`.
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param filter             a filter of the mesh, with the umbrella or the lazy operator.

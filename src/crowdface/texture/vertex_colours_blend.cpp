@@ -31,7 +31,7 @@ std::vector<double> normalized_over_coloured(std::vector<double> weights,
 
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,
-                                const std::vector<bool>& is_target_only) {
+                                const std::vector<bool>& uses_target_colours_only) {
   const std::vector<double> whole = normalized_over_coloured(weights.face, heads),
                             target = normalized_over_coloured(weights.target, heads);
   const auto first = std::ranges::find_if(heads, [](const auto& rows) { return rows.rows() > 0; });
@@ -40,7 +40,8 @@ ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
   const std::vector<std::uint8_t>& bytes = srgb8_of_densities();
   parallel_blocks(blended.rows(), kColouredPerBlock, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) {
-      const bool is_part = !is_target_only.empty() && is_target_only[static_cast<std::size_t>(v)];
+      const bool is_part = !uses_target_colours_only.empty() &&
+                           uses_target_colours_only[static_cast<std::size_t>(v)];
       const std::vector<double>& lent = is_part ? target : whole;
       for (Index c = 0; c < 3; ++c) {
         double density = 0;

@@ -11,12 +11,12 @@ namespace crowdface {
 /// Blends vertex colours: computes the weighted mean of the heads' optical densities. The weights
 /// are constant over the face, so that forehead and chin match in colour. Heads without colours get
 /// no weight.
-/// \param heads      #heads, each #V by 3 or without rows; at least one has rows.
-/// \param is_target_only  #V, or empty: vertices that use weights.target instead of weights.face,
-///                     such as eyes.
-/// \return           #V by 3.
+/// \param heads  #heads, each #V by 3 or without rows; at least one has rows.
+/// \param uses_target_colours_only  #V, or empty: vertices that use weights.target instead of
+///                                  weights.face, such as eyes.
+/// \return #V by 3.
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,
-                                const std::vector<bool>& is_target_only);
+                                const std::vector<bool>& uses_target_colours_only);
 
 }  // namespace crowdface

@@ -65,7 +65,7 @@ std::string format_trait(const Measurement& measurement, double value) {
   return concat(format_fixed(value, unit.empty() ? 3 : 1), unit);
 }
 
-double normal_fraction_below(const TraitTarget& target, double value) {
+double normal_cdf(const TraitTarget& target, double value) {
   constexpr double kSteps = 1e9;
   const double z = (value - target.mean) / target.deviation;
   return std::round(0.5 * std::erfc(-z / std::numbers::sqrt2) * kSteps) / kSteps;
@@ -77,7 +77,7 @@ double normal_quantile(const TraitTarget& target, double fraction) {
   double low = -kFarthest, high = kFarthest;
   while (high - low > 0.1 / kSteps) {
     const double middle = (low + high) / 2;
-    (normal_fraction_below(standard, middle) < fraction ? low : high) = middle;
+    (normal_cdf(standard, middle) < fraction ? low : high) = middle;
   }
   return target.mean + target.deviation * std::round(high * kSteps) / kSteps;
 }
@@ -87,7 +87,7 @@ double kolmogorov_smirnov_distance(const TraitTarget& target, std::vector<double
   const auto count = static_cast<double>(values.size());
   double most = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double asked = normal_fraction_below(target, values[i]);
+    const double asked = normal_cdf(target, values[i]);
     most = std::max({most, std::abs(asked - static_cast<double>(i) / count),
                      std::abs(asked - static_cast<double>(i + 1) / count)});
   }

@@ -79,9 +79,10 @@ class TraitDistributions {
 /// Returns a value with its unit, such as "38.2 mm", "104.1 degrees" or "0.672".
 std::string format_trait(const Measurement& measurement, double value);
 
-/// Returns the fraction of a normal distribution that is below a value. The fraction is rounded to
-/// 10⁻⁹, because error functions differ between C libraries.
-double normal_fraction_below(const TraitTarget& target, double value);
+/// Cumulative distribution function: returns the fraction of the target's normal distribution that
+/// is below a value. The fraction is rounded to 10⁻⁹, because error functions differ between C
+/// libraries.
+double normal_cdf(const TraitTarget& target, double value);
 
 /// Returns the value below which the given fraction of a normal distribution lies. The value is
 /// rounded to 10⁻⁶ standard deviations. For the fractions 0 and 1, returns the mean minus and plus

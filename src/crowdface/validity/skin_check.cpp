@@ -169,7 +169,7 @@ std::uint64_t SkinCheck::memory_bytes() const {
   return bytes;
 }
 
-std::uint64_t SkinCheck::compare_memory_bytes() const {
+std::uint64_t SkinCheck::comparison_memory_bytes() const {
   // A comparison of 2.4 million triangles used 120 bytes per triangle; add a margin.
   constexpr std::uint64_t kBytesPerTriangle = 150;
   return kBytesPerTriangle * triangles_.size();

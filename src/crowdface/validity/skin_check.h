@@ -54,7 +54,7 @@ class SkinCheck {
   std::uint64_t memory_bytes() const;
   /// Returns an upper bound of the temporary memory that one `compare` uses (for boxes and pairs),
   /// in bytes.
-  std::uint64_t compare_memory_bytes() const;
+  std::uint64_t comparison_memory_bytes() const;
 
  private:
   struct Target {

@@ -61,15 +61,15 @@ class Bending {
         areas_(vertex_areas(skin.triangles, base)),
         laplacian_(laplacian(skin.triangles, base)),
         scan_areas_(vertex_areas(scan.scan().triangles, scan.scan().positions)) {
-    visible_.resize(skin.ambient_visibility.size());
-    for (std::size_t v = 0; v < visible_.size(); ++v) {
-      visible_[v] = std::clamp((skin.ambient_visibility[v] - kMinBendVisibility) /
-                                   (kFullBendVisibility - kMinBendVisibility),
-                               0.0, 1.0);
+    visibility_weights_.resize(skin.ambient_visibility.size());
+    for (std::size_t v = 0; v < visibility_weights_.size(); ++v) {
+      visibility_weights_[v] = std::clamp((skin.ambient_visibility[v] - kMinBendVisibility) /
+                                              (kFullBendVisibility - kMinBendVisibility),
+                                          0.0, 1.0);
     }
     choose_scan_points();
     choose_rims();
-    found_on_scan_.assign(visible_.size(), kNoIndex);
+    found_on_scan_.assign(visibility_weights_.size(), kNoIndex);
     found_on_skin_.resize(scan_points_.size());
   }
 
@@ -98,7 +98,7 @@ class Bending {
     }
     scan_points_ = evenly_spaced_items(inside, kMaxScanPoints);
     const auto count = static_cast<double>(scan_points_.size());
-    scan_weight_ = count == 0 ? 0 : static_cast<double>(inside.size()) / count;
+    scan_vertices_per_sample_ = count == 0 ? 0 : static_cast<double>(inside.size()) / count;
   }
 
   /// Selects the outer boundaries of skin and scan; ignores the boundaries of small holes.
@@ -107,7 +107,7 @@ class Bending {
     if (ends.empty()) return;
     scan_end_grid_.emplace(scan_.scan().positions, ends);
     for (const std::uint32_t v : long_boundaries(skin_.triangles, base_, kEndMm)) {
-      if (visible_[v] > 0) skin_end_.push_back(v);
+      if (visibility_weights_[v] > 0) skin_end_.push_back(v);
     }
   }
 
@@ -129,7 +129,7 @@ class Bending {
     const double fourth = std::pow(length, 4);
     Eigen::VectorXd factors(areas_.size()), typical(areas_.size());
     for (Index v = 0; v < areas_.size(); ++v) {
-      const double seen = visible_[static_cast<std::size_t>(v)];
+      const double seen = visibility_weights_[static_cast<std::size_t>(v)];
       const double hidden = std::pow(std::max(length, kHiddenStiffnessMm), 4);
       factors(v) = seen * fourth + (1 - seen) * hidden;
       typical(v) = areas_(v) * (0.8 * seen + 1e-4);
@@ -156,10 +156,10 @@ class Bending {
   void add_scan_terms(const Positions& current, double reach, double tangential,
                       DataTerms& data_terms) {
     const Positions normals = vertex_normals_or_zero(skin_.triangles, current);
-    std::vector<Correspondence> correspondences(visible_.size());
+    std::vector<Correspondence> correspondences(visibility_weights_.size());
     parallel_for_each(
         static_cast<std::uint32_t>(correspondences.size()), 128, [&](std::uint32_t v) {
-          const double seen = visible_[v];
+          const double seen = visibility_weights_[v];
           if (seen == 0) return;
           const Eigen::Vector3d point = row3(current, v);
           const auto place =
@@ -191,7 +191,8 @@ class Bending {
       const SurfaceHit hit = hits[i] =
           tree.nearest_facing(point, normal, kMinNormalCosine, reach, hits[i].triangle);
       if (hit.triangle == kNoIndex || at_rim(hit)) return;
-      correspondences[i] = {true, normal, point - hit.point, scan_weight_ * scan_areas_(s)};
+      correspondences[i] = {true, normal, point - hit.point,
+                            scan_vertices_per_sample_ * scan_areas_(s)};
     });
     const double spread = spread_of(correspondences, reach);
     for (std::size_t i = 0; i < correspondences.size(); ++i) {
@@ -200,7 +201,7 @@ class Bending {
       const double weight = correspondence.weight * robust(correspondence.offset.norm(), spread);
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = skin_.triangles[hits[i].triangle][k];
-        const double share = weight * hits[i].shares[k] * visible_[v];
+        const double share = weight * hits[i].shares[k] * visibility_weights_[v];
         if (share == 0) continue;
         data_terms.add(v, correspondence.normal, share * (1 - tangential), share * tangential,
                        correspondence.offset + row3(displacements_, v));
@@ -224,13 +225,16 @@ class Bending {
   Eigen::VectorXd areas_;
   SparseMatrix laplacian_;
   Eigen::VectorXd scan_areas_;
-  std::vector<double> visible_;  ///< 0 … 1: weight of the scan
+  /// #skin, 0 … 1: weight of the scan at each skin vertex; grows with the ambient visibility, and
+  /// is 0 inside mouth, nose and eye sockets
+  std::vector<double> visibility_weights_;
   std::vector<std::uint32_t> scan_points_;
   std::vector<std::uint32_t> found_on_scan_;  ///< #skin: triangle found in the last query
   std::vector<SurfaceHit> found_on_skin_;     ///< #scan_points_
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;
-  double scan_weight_ = 0;  ///< number of scan vertices per sampled point
+  /// Only some scan vertices are sampled; each sampled point stands for this many scan vertices.
+  double scan_vertices_per_sample_ = 0;
 };
 
 }  // namespace

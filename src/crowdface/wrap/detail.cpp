@@ -20,7 +20,7 @@ namespace {
 constexpr double kReachMm = 3;
 /// Smoothing scale, as a multiple of the skin's edge length. Relief finer than this scale is
 /// treated as noise.
-constexpr double kStiffnessEdges = 0.5;
+constexpr double kSmoothingScaleEdges = 0.5;
 constexpr int kDetailRounds = 2;
 constexpr double kMinNormalCosine = 0.7;  // least cosine between the normals of scan and skin
 constexpr double kMinDetailVisibility = 0.15;
@@ -243,7 +243,7 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest_positions,
   }
   // On a regular mesh with edge length h, the mean of the neighbours differs from the value by h²/4
   // times the Laplacian.
-  const SmoothFit fit(skin.adjacency, 16 * std::pow(kStiffnessEdges, 4));
+  const SmoothFit fit(skin.adjacency, 16 * std::pow(kSmoothingScaleEdges, 4));
   for (int round = 0; round < kDetailRounds; ++round) {
     if (smoothing_steps == 0) normals = vertex_normals_or_zero(skin.triangles, result);
     const TargetOffsets asked = ask_scan(skin, result, normals, scan);

@@ -61,8 +61,9 @@ double share_far(const std::vector<double>& distances) {
   return distances.empty() ? 0 : static_cast<double>(far) / static_cast<double>(distances.size());
 }
 
-/// Returns a clause that names the region farthest from the scan, such as ", most of all of the
-/// brow (12.5 %)"; or an empty text.
+/// Returns the end of a sentence that names the region with the largest fraction of skin far from
+/// the scan, and this fraction: for example ", most of it on the brow (12.5 %)". Empty if no region
+/// has such skin.
 std::string farthest_region(const WrapTemplate& wrap_template, const WrapResult& result,
                             const SkinRegions& regions) {
   double most = 0;
@@ -160,7 +161,7 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const Wr
   }
   for (const LandmarkResidual& landmark : result.landmarks) {
     if (!landmark.is_outlier) continue;
-    if (landmark.is_found_by_shape) {
+    if (landmark.is_found_by_program) {
       warnings.push_back(concat("landmark ", quoted(landmark.name),
                                 ", detected from the shape, ends ",
                                 format_fixed(landmark.final_distance_mm, 1),
@@ -173,8 +174,8 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const Wr
         " mm from where it was picked, far more than the others: check it on template and scan"));
   }
   const auto picked =
-      std::ranges::count(result.landmarks, false, &LandmarkResidual::is_found_by_shape);
-  if (!result.face_distance_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
+      std::ranges::count(result.landmarks, false, &LandmarkResidual::is_found_by_program);
+  if (!result.eye_midpoint_difference_mm && picked < static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     warnings.push_back(concat(
         "no face was recognised on the ",
         wrap_template.face_match
@@ -241,9 +242,9 @@ void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result
                                                        : ": check the landmarks, pick more of them",
                               ", or exclude with --ignore what is not skin on the scan"));
   }
-  if (result.face_distance_mm && *result.face_distance_mm > kMaxFaceOffMm) {
+  if (result.eye_midpoint_difference_mm && *result.eye_midpoint_difference_mm > kMaxFaceOffMm) {
     throw InvalidInput(concat("the template's face ended ",
-                              format_fixed(*result.face_distance_mm, 0),
+                              format_fixed(*result.eye_midpoint_difference_mm, 0),
                               " mm from the face of the scan: pick four landmarks or more "
                               "(crowdface wrap --pick), or check --scan-up and --scan-front"));
   }
@@ -276,7 +277,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_
                                    {"pose_mm", rounded(landmark.pose_distance_mm)},
                                    {"final_mm", rounded(landmark.final_distance_mm)},
                                    {"outlier", landmark.is_outlier}});
-    if (landmark.is_found_by_shape) {
+    if (landmark.is_found_by_program) {
       report["landmarks"].back()["detected_within_mm"] = rounded(landmark.error_mm);
     }
     for (const auto& [key, all] : {std::pair{"left_out_mm", &facts.leave_out_pose_errors_mm},

@@ -77,11 +77,12 @@ void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept)
   for (std::size_t i = 0; i < scan.triangles.size(); ++i) {
     if (!is_kept(i)) continue;
     scan.triangles[kept] = scan.triangles[i];
-    if (!scan.file_triangles.empty()) scan.file_triangles[kept] = scan.file_triangles[i];
+    if (!scan.file_triangle_indices.empty())
+      scan.file_triangle_indices[kept] = scan.file_triangle_indices[i];
     ++kept;
   }
   scan.triangles.resize(kept);
-  if (!scan.file_triangles.empty()) scan.file_triangles.resize(kept);
+  if (!scan.file_triangle_indices.empty()) scan.file_triangle_indices.resize(kept);
 }
 
 std::vector<bool> used_vertices(const Scan& scan) {

@@ -17,7 +17,7 @@ struct Scan {
   std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
   /// #triangles: index of each triangle among all triangles into which `triangles_of` divides the
   /// file's polygons; empty if the scan does not come from a file
-  std::vector<std::uint32_t> file_triangles = {};
+  std::vector<std::uint32_t> file_triangle_indices = {};
 };
 
 /// Removes the triangles for which `is_kept` is false.

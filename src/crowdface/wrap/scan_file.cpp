@@ -89,8 +89,8 @@ Scan read_scan(const std::filesystem::path& path) {
 Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
   reverse_inward_faces(mesh);
   Scan scan{std::move(mesh.positions), triangles_of(mesh.topology), std::move(mesh.notes)};
-  scan.file_triangles.resize(scan.triangles.size());
-  std::iota(scan.file_triangles.begin(), scan.file_triangles.end(), 0U);
+  scan.file_triangle_indices.resize(scan.triangles.size());
+  std::iota(scan.file_triangle_indices.begin(), scan.file_triangle_indices.end(), 0U);
   leave_out_unplaced(scan);
   if (scan.triangles.empty()) {
     refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),

@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t kMaxProbes = 3000;  ///< vertices sampled in each step
 constexpr double kKept = 0.8;  ///< fraction of the correspondences (the closest) that is used
 constexpr Index kPoseUnknowns = 7;
-constexpr double kGrowth = 0.02;  ///< standard deviation of the scale once a model is fitted
+/// Standard deviation of the pose's scale, relative to its first estimate, if a model is fitted.
+constexpr double kScaleDeviation = 0.02;
 
 /// A vertex and its closest point on the scan. Lengths are in the scan's unit.
 struct Match {
@@ -154,7 +155,7 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   const auto modes = static_cast<Index>(model.modes.size());
   Equations equations(modes);
   const double weight =
-      options.effective_measurements / (static_cast<double>(matches.size()) * mm * mm);
+      options.independent_measurement_count / (static_cast<double>(matches.size()) * mm * mm);
   for (const Match& match : matches) {
     const Eigen::Vector3d arm = placed.row(match.vertex).transpose() - middle;
     const double along = std::sqrt(options.tangential_weight);
@@ -163,10 +164,10 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                              (1 - along) * match.normal * match.normal.transpose());
     equations.add(jacobian_of(model, fit, match.vertex, arm), match.offset, root);
   }
-  const double for_landmarks = landmarks.empty()
-                                   ? 0
-                                   : options.landmark_weight * options.effective_measurements /
-                                         (static_cast<double>(landmarks.size()) * mm * mm);
+  const double for_landmarks =
+      landmarks.empty() ? 0
+                        : options.landmark_weight * options.independent_measurement_count /
+                              (static_cast<double>(landmarks.size()) * mm * mm);
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = placed.row(landmark.vertex).transpose();
     equations.add(jacobian_of(model, fit, landmark.vertex, point - middle),
@@ -175,7 +176,7 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   }
   for (Index k = 0; k < modes; ++k) equations.hold(kPoseUnknowns + k, -fit.coefficients(k), 1);
   if (modes > 0) {  // the model, not the pose, explains differences in size
-    equations.hold(6, 1 - fit.pose.scale / first_scale, 1 / (kGrowth * kGrowth));
+    equations.hold(6, 1 - fit.pose.scale / first_scale, 1 / (kScaleDeviation * kScaleDeviation));
   }
   // Pull all pose unknowns towards zero with a tiny weight. Otherwise the equations have no unique
   // solution if the surface does not determine an unknown, such as the rotation of a sphere.

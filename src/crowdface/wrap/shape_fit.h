@@ -18,10 +18,12 @@ inline constexpr double kPickedErrorMm = 3;
 /// A landmark with known positions on both template and scan.
 struct WrapLandmark {
   std::string name;
-  std::uint32_t vertex = 0;  ///< row of the skin; before wrapping, row of the template
+  /// Vertex of the landmark. In the caller's landmarks: index into the template's vertices. During
+  /// the wrap: index into the vertices of the template's skin.
+  std::uint32_t vertex = 0;
   Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();  ///< position on the scan
-  /// true: the program found the landmark from the surface's shape; false: the user picked it
-  bool is_found_by_shape = false;
+  /// true: the program found the landmark by the shape of the surface; false: the user picked it
+  bool is_found_by_program = false;
   /// Uncertainty of `scan_position`: standard deviation along each axis. The squared distance of a
   /// landmark has the weight 1/error_mm².
   double error_mm = kPickedErrorMm;
@@ -51,7 +53,7 @@ struct ShapeFitOptions {
   int steps_per_round = 4;                                     ///< number of steps in each round
   /// The whole scan has the weight of this many independent measurements with an error of 1 mm.
   /// With larger values, the prior pulls the coefficients less strongly towards 0.
-  double effective_measurements = 7;
+  double independent_measurement_count = 7;
   /// Weight of offsets along the surface; offsets along the normal have weight 1.
   double tangential_weight = 0.1;
   double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface

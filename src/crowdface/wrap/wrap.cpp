@@ -26,7 +26,9 @@ namespace {
 
 /// A head counts as symmetric if at least this fraction of its vertices have a mirror vertex.
 constexpr double kMirroredShare = 0.9;
-constexpr double kMinOutlierMm = 4, kOutlier = 3.5;  ///< kOutlier: × median
+/// A landmark is an outlier if its final distance is larger than kMinOutlierMm, and larger than
+/// kOutlierFactor times the median of all landmarks' final distances.
+constexpr double kMinOutlierMm = 4, kOutlierFactor = 3.5;
 
 /// Converts landmarks from rows of the template to rows of the skin; drops landmarks outside the
 /// skin.
@@ -51,7 +53,7 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
     result.push_back(
         {landmark.name,
          (apply_similarity(pose, point) - landmark.scan_position).norm() / pose.scale});
-    result.back().is_found_by_shape = landmark.is_found_by_shape;
+    result.back().is_found_by_program = landmark.is_found_by_program;
     result.back().error_mm = landmark.error_mm;
   }
   return result;
@@ -69,7 +71,7 @@ void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landma
     all.push_back(residuals[i].final_distance_mm);
   }
   if (all.empty()) return;
-  const double most = std::max(kMinOutlierMm, kOutlier * nth_smallest(all, all.size() / 2));
+  const double most = std::max(kMinOutlierMm, kOutlierFactor * nth_smallest(all, all.size() / 2));
   for (LandmarkResidual& residual : residuals)
     residual.is_outlier = residual.final_distance_mm > most;
 }
@@ -191,7 +193,7 @@ static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeMod
       used = small ? &*small->model : model;
       fit = fit_shape(bent, *used, surface, marks, fit,
                       {.search_radii_mm = {20, 16, 12, 8, 6, 4},
-                       .effective_measurements = 6,
+                       .independent_measurement_count = 6,
                        .landmark_weight = 0.1});
     }
   }
@@ -231,7 +233,7 @@ static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeMod
         .rowwise()
         .squaredNorm()
         .minCoeff(&between);
-    result.face_distance_mm =
+    result.eye_midpoint_difference_mm =
         (row3(wrapped, between) - apply_similarity(back, face->eye_midpoint)).norm();
   }
 
@@ -248,7 +250,7 @@ WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, cons
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint) {
   const CentredScan moved = centre_scan(scan, landmarks);
   std::optional<PoseHint> standing = hint;
-  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_shape);
+  const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_program);
   if (standing && picked >= static_cast<std::ptrdiff_t>(kMinLandmarks)) {
     standing->face.reset();
   } else if (standing && !standing->face) {
@@ -295,7 +297,7 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
   for (const bool drops_all : {false, true}) {
     if (worst(best).is_high()) break;
     const std::size_t dropped = std::erase_if(landmarks, [&](const WrapLandmark& landmark) {
-      return landmark.is_found_by_shape && (drops_all || is_of_questioned_feature(landmark));
+      return landmark.is_found_by_program && (drops_all || is_of_questioned_feature(landmark));
     });
     if (dropped == 0) continue;
     WrapResult other = wrapped_with(landmarks);

@@ -18,9 +18,9 @@ namespace crowdface {
 /// stages of the wrap.
 struct LandmarkResidual {
   std::string name;
-  double pose_distance_mm = 0;     ///< distance after the similarity
+  double pose_distance_mm = 0;     ///< distance when only the pose (a similarity) is fitted
   double final_distance_mm = 0;    ///< distance after the wrap
-  bool is_found_by_shape = false;  ///< see `WrapLandmark::is_found_by_shape`
+  bool is_found_by_program = false;  ///< see `WrapLandmark::is_found_by_program`
   /// whether the final distance is far above the other landmarks' distances; then the landmark is
   /// probably misplaced
   bool is_outlier = false;
@@ -42,7 +42,9 @@ struct WrapResult {
   /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
   /// without them agrees better.
   std::vector<std::string> dropped_landmarks;
-  double pose_residual_mm = 0;  ///< median distance after the similarity
+  /// median distance from the template to the scan, after the template is moved, rotated and scaled
+  /// but not yet bent
+  double pose_residual_mm = 0;
   Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
   /// #skin: true if the scan has no data near the vertex, or if only the scan's boundary is near
   std::vector<bool> lacks_data;
@@ -50,7 +52,7 @@ struct WrapResult {
   /// Distance in mm between two estimates of the point between the eyes: on the wrapped template,
   /// and on the face found by the scan's relief. Nothing if a face was not found, or if enough
   /// landmarks were picked.
-  std::optional<double> face_distance_mm;
+  std::optional<double> eye_midpoint_difference_mm;
 };
 
 /// Restricts a model of whole heads to the vertices of the template's skin. If the template is

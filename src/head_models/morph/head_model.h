@@ -34,8 +34,8 @@ class HeadModel {
   virtual std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 
-/// Heights (y) of eyes and mouth in the neutral head.
-struct FaceHeights {
+/// Heights (y coordinates) of the eyes and of the mouth in the neutral head.
+struct FeatureHeights {
   double eye_height = 0, mouth_height = 0;
 };
 

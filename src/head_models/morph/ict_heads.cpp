@@ -63,7 +63,7 @@ std::optional<HeadPerson> IctHeads::person(std::uint64_t /*seed*/, std::uint64_t
   return std::nullopt;
 }
 
-FaceHeights IctHeads::heights() const {
+FeatureHeights IctHeads::heights() const {
   const auto height = [&](const std::vector<std::string>& words) {
     const auto vertices = vertices_of_material(neutral_.topology, file_.materials, words);
     if (vertices.empty()) {

@@ -29,7 +29,7 @@ class IctHeads : public HeadModel {
   const ObjFile& file() const { return file_; }
   std::size_t mode_count() const { return modes_.size(); }
   /// \throws InvalidInput if the neutral mesh has no eyeballs or no teeth.
-  FaceHeights heights() const;
+  FeatureHeights heights() const;
 
  private:
   ObjFile file_;

@@ -20,7 +20,7 @@ struct MakeHumanMesh {
   Mesh body;                 ///< the skin below the cut, decimetres
   std::vector<std::uint32_t> head_rows;  ///< #V: row of each vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
-  FaceHeights heights;                   ///< decimetres
+  FeatureHeights heights;                ///< decimetres
 };
 
 /// Reads public/data/models/human_full_size.json (JSON format of three.js, version 3).
@@ -60,7 +60,7 @@ class MakeHumanHeads : public HeadModel {
   const std::vector<MaterialRange>& materials() const override { return materials_; }
   Positions positions(std::uint64_t seed, std::uint64_t index) const override;
   std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const override;
-  FaceHeights heights() const { return heights_; }
+  FeatureHeights heights() const { return heights_; }
 
  private:
   Positions to_head_frame(const Positions& decimetres, const Positions& base) const;
@@ -73,7 +73,7 @@ class MakeHumanHeads : public HeadModel {
   std::vector<FittedPart> parts_;
   Mesh neutral_;
   std::vector<MaterialRange> materials_;
-  FaceHeights heights_;
+  FeatureHeights heights_;
 };
 
 }  // namespace crowdface

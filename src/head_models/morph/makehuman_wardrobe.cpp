@@ -102,8 +102,8 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
       refuse_file(file, concat("expected an eyeball on either side, found none on the ",
                                right ? "right" : "left"));
     }
-    parts.clothing.push_back({right ? "eyeball_r" : "eyeball_l", eyes});
-    parts.clothing.back().mesh.keep_faces(kept);
+    parts.fitted_parts.push_back({right ? "eyeball_r" : "eyeball_l", eyes});
+    parts.fitted_parts.back().mesh.keep_faces(kept);
   }
 }
 
@@ -181,16 +181,18 @@ std::string prevailing_ancestry(const MakeHumanPerson& person) {
   return {};
 }
 
-std::vector<SkinShare> makehuman_skin_shares(const fs::path& package, const MakeHumanPerson& person,
-                                             std::uint64_t seed, std::uint64_t index) {
-  std::vector<SkinShare> out;
+std::vector<WeightedSkin> makehuman_skin_shares(const fs::path& package,
+                                                const MakeHumanPerson& person, std::uint64_t seed,
+                                                std::uint64_t index) {
+  std::vector<WeightedSkin> out;
   const std::string_view sex = person.is_male ? "male" : "female";
   for (const AgeShare& age : age_shares(person.age_years)) {
     for (std::size_t a = 0; a < 3; ++a) {
       const double share = age.share * person.ancestry[a];
       if (share == 0) continue;
       const std::string folder = concat(age.name, '_', kAncestries[a], '_', sex);
-      // The package has two skins for young Caucasians only.
+      // The package has two skins for each sex of young Caucasians, and one skin for each other
+      // combination of age, ancestry and sex.
       const bool second = folder.starts_with("young_caucasian") &&
                           random_unit({seed, index, "makehuman/skin"}) < 0.5;
       out.push_back({skin_picture(package / "public/data/skins" / folder /
@@ -236,10 +238,10 @@ MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& ba
     FittedMesh mesh = read_free(file, base.rows());
     picture = only_picture(mesh, file);
     licence = mesh.licence;
-    parts.clothing.push_back({material, std::move(mesh)});
+    parts.fitted_parts.push_back({material, std::move(mesh)});
   };
   add("eyelashes", "Eyelashes01", "eyelashes", parts.lashes, parts.lashes_licence);
-  parts.clothing.back().mesh.anchor_to(skin, base);
+  parts.fitted_parts.back().mesh.anchor_to(skin, base);
   add("teeth", "Teeth_Base", "teeth", parts.teeth, parts.teeth_licence);
   add("tongue", "tongue01", "tongue", parts.tongue, parts.tongue_licence);
   return parts;

@@ -12,16 +12,16 @@
 namespace crowdface {
 
 /// A skin texture of the package, and its weight in a person's blended skin.
-struct SkinShare {
+struct WeightedSkin {
   std::filesystem::path picture;
   double share = 0;  ///< weight of `picture` in the blended skin, 0 … 1
 };
 
 /// Returns the skin textures that are blended for a person, by sex, age and ancestry. The shares
 /// sum to 1. \throws MissingInput, InvalidInput if a skin's file is missing or invalid.
-std::vector<SkinShare> makehuman_skin_shares(const std::filesystem::path& package,
-                                             const MakeHumanPerson& person, std::uint64_t seed,
-                                             std::uint64_t index);
+std::vector<WeightedSkin> makehuman_skin_shares(const std::filesystem::path& package,
+                                                const MakeHumanPerson& person, std::uint64_t seed,
+                                                std::uint64_t index);
 
 /// Returns a random factor, 0.75 to 1.25, on the optical density of a person's skin textures.
 double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t index);
@@ -38,7 +38,7 @@ std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t s
 
 /// The parts that all heads have in addition to skin.
 struct MakeHumanParts {
-  std::vector<FittedPart> clothing;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
+  std::vector<FittedPart> fitted_parts;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
   std::vector<FittedMesh::Picture> eye_colours;
   std::filesystem::path lashes, teeth, tongue;  ///< textures
   AssetLicence eyes_licence, lashes_licence, teeth_licence, tongue_licence;

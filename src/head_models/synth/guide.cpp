@@ -92,8 +92,8 @@ struct GuideRays {
     if (k <= kBackColumn) {
       ray.guide = point(k);
     } else {
-      const double from = units_to_column(kBackColumn), to = units_to_column(kColumns - 1);
-      const double f = (units_to_column(k) - from) / (to - from), g = f * (2 - f);
+      const double from = column_distance(kBackColumn), to = column_distance(kColumns - 1);
+      const double f = (column_distance(k) - from) / (to - from), g = f * (2 - f);
       const Vector3d corner = point(kBackColumn), back = point(kPlaced - 1);
       ray.guide = {corner.x() * (1 - f), corner.y() + (back.y() - corner.y()) * g,
                    corner.z() + (back.z() - corner.z()) * g};
@@ -130,12 +130,12 @@ const GuideRays& guide_rays() {
   return instance;
 }
 
-/// Like units_to_column, but continues beyond the midline of the back.
-double wide_units_to_column(int k) {
+/// Like column_distance, but continues beyond the midline of the back.
+double wide_column_distance(int k) {
   const int last = kColumns - 1;
-  if (k > last) return 2 * units_to_column(last) - units_to_column(2 * last - k);
-  if (k < -last) return -wide_units_to_column(-k);
-  return units_to_column(k);
+  if (k > last) return 2 * column_distance(last) - column_distance(2 * last - k);
+  if (k < -last) return -wide_column_distance(-k);
+  return column_distance(k);
 }
 
 /// Weights of the four knots u at x in [u[1], u[2]]: cubic Hermite interpolation with
@@ -156,20 +156,20 @@ struct Interval {
 
 Interval columns_around(double a) {
   int k = -(kColumns - 1);
-  while (k < kColumns - 2 && units_to_column(k + 1) <= a) ++k;
+  while (k < kColumns - 2 && column_distance(k + 1) <= a) ++k;
   return {{k - 1, k, k + 1, k + 2},
-          cubic_weights({wide_units_to_column(k - 1), units_to_column(k), units_to_column(k + 1),
-                         wide_units_to_column(k + 2)},
+          cubic_weights({wide_column_distance(k - 1), column_distance(k), column_distance(k + 1),
+                         wide_column_distance(k + 2)},
                         a)};
 }
 
 Interval rows_around(double b) {
   int j = 0;
-  while (j < kRows - 2 && units_to_row(j + 1) <= b) ++j;
+  while (j < kRows - 2 && row_distance(j + 1) <= b) ++j;
   const int above = std::max(j - 1, 0), below = std::min(j + 2, kRows - 1);
   return {{above, j, j + 1, below},
           cubic_weights(
-              {units_to_row(above), units_to_row(j), units_to_row(j + 1), units_to_row(below)}, b)};
+              {row_distance(above), row_distance(j), row_distance(j + 1), row_distance(below)}, b)};
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ GuideRay strip_ray(double a, double b) {
 
 GuideRay cap_ray(double a, double b) {
   // A Coons patch between the four sides of the cap's rim, plus a bulge of 2.5 cm.
-  const double front = units_to_column(kFrontColumn), deep = units_to_column(kBackColumn) - front;
+  const double front = column_distance(kFrontColumn), deep = column_distance(kBackColumn) - front;
   const double s = (a / front + 1) / 2, t = b / deep;
   const double behind = 2 * front + deep;
   const auto rim = [](double unit) { return strip_ray(unit, 0); };
@@ -210,8 +210,8 @@ GuideRay cap_ray(double a, double b) {
 }
 
 GuideRay opening_ray(const Opening& opening, double around) {
-  const double x0 = units_to_column(opening.column0), x1 = units_to_column(opening.column1);
-  const double y0 = units_to_row(opening.row0), y1 = units_to_row(opening.row1);
+  const double x0 = column_distance(opening.column0), x1 = column_distance(opening.column1);
+  const double y0 = row_distance(opening.row0), y1 = row_distance(opening.row1);
   if (around < 1) return strip_ray(x0, y0 + (y1 - y0) * around);
   if (around < 2) return strip_ray(x0 + (x1 - x0) * (around - 1), y1);
   if (around < 3) return strip_ray(x1, y1 + (y0 - y1) * (around - 2));

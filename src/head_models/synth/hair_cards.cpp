@@ -165,7 +165,7 @@ class Grower {
   /// of a fringe.
   static Vector3d beside_face(Vector3d p, double fringe) {
     const double wide = 5.5 * smooth_step(0.5, 4, p.z()) * smooth_step(6.2, 1.5, p.y());
-    if (fringe < 99 && p.y() > fringe) return p;
+    if (fringe < HairCut::kNoFringe && p.y() > fringe) return p;
     if (std::abs(p.x()) < wide) p.x() = p.x() < 0 ? -wide : wide;
     return p;
   }
@@ -197,7 +197,7 @@ void add_card(const Card& card, double width, int strip, bool turned, HairMesh& 
     const double half = width / 2 * (0.7 + 0.3 * smooth_step(0, 0.3, t)) * (1 - 0.35 * t * t);
     for (const double side : {-1.0, 1.0}) {
       hair.points.emplace_back(card.middle[i] + side * half * card.across[i]);
-      hair.uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kHairStrips,
+      hair.uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kTextureStripCount,
                             0.998 - 0.996 * t);
     }
   }
@@ -217,7 +217,7 @@ void add_hair_cards(const HairCut& cut, HairMesh& hair) {
   for (std::size_t r = 0; r < roots.size(); ++r) {
     for (int layer = 0; layer < cut.layers; ++layer) {
       const std::uint64_t number = r * 16 + static_cast<std::uint64_t>(layer);
-      const double strip = kCardStrips * random_unit({17, number, "strip"});
+      const double strip = kCardStripCount * random_unit({17, number, "strip"});
       const bool turned = random_unit({17, number, "turned"}) < 0.5;
       add_card(grower.grow(roots[r], number, layer), width, static_cast<int>(strip), turned, hair);
     }

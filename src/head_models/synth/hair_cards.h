@@ -7,8 +7,8 @@
 namespace crowdface::synth {
 
 /// Adds hair cards (narrow, two-sided strips of quads) on the average head. Each card shows one of
-/// the first kCardStrips strips of hair_picture from its root (v = 1) to its tip. The result has
-/// the same bits on every machine.
+/// the first kCardStripCount strips of hair_picture from its root (v = 1) to its tip. The result
+/// has the same bits on every machine.
 void add_hair_cards(const HairCut& cut, HairMesh& hair);
 
 /// Returns a mesh of the hair cards and of the cap below the cards (add_hair_cap).

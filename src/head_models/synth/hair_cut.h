@@ -10,6 +10,8 @@ namespace crowdface::synth {
 
 /// A haircut: how hair is cut and combed on the average head. Lengths are in cm.
 struct HairCut {
+  static constexpr double kNoFringe = 99;  ///< value of fringe_y for a cut without a fringe
+
   std::string_view name;
   bool is_for_women = false;
   bool is_curly = false;
@@ -21,7 +23,7 @@ struct HairCut {
   double top_length = 5;        ///< length on top
   double side_length = 5;       ///< length above and behind the ears; 0: no hair there
   double hem_y = -30;           ///< height y at which hair is cut
-  double fringe_y = 99;         ///< height y of the fringe over the forehead; 99: no fringe
+  double fringe_y = kNoFringe;  ///< height y of the fringe over the forehead, or kNoFringe
   double volume_factor = 1;     ///< factor of the distance from the scalp
   double wave_amplitude = 0;    ///< amplitude of waves in the locks
   /// 1: combed locks. Larger numbers: the number of layers of curls, which have random directions
@@ -29,7 +31,7 @@ struct HairCut {
   bool is_tied = false;              ///< tied at the back: lies on the head until behind the ears
   bool excludes_old_people = false;  ///< whether old people do not wear the cut
 
-  bool has_fringe() const { return fringe_y < 99; }
+  bool has_fringe() const { return fringe_y < kNoFringe; }
 };
 /// Returns all haircuts.
 std::span<const HairCut> hair_cuts();

@@ -114,7 +114,7 @@ void add_hair_cap(const HairCut& cut, HairMesh& hair) {
     hair.points.emplace_back(skin.position +
                              (0.03 + hair_stand_off(cut, skin.position)) * skin.normal);
     const double u = 0.03 + 0.94 * triangle_wave(across_hair(cut, skin.position) / kStripWidth);
-    hair.uvs.emplace_back((kCardStrips + u) / kHairStrips,
+    hair.uvs.emplace_back((kCardStripCount + u) / kTextureStripCount,
                           v_at_distance_from_hairline(cut, within));
   }
   for (Index f = 0; f < layout.topology.face_count(); ++f) {

@@ -30,7 +30,7 @@ struct Strand {
 
 std::vector<Strand> draw_strands() {
   std::vector<Strand> strands;
-  for (std::uint64_t s = 0; s < kHairStrips * kStrands; ++s) {
+  for (std::uint64_t s = 0; s < kTextureStripCount * kStrands; ++s) {
     const auto unit = [&](const char* purpose) { return random_unit({29, s, purpose}); };
     const std::uint64_t strip = s / kStrands;
     const auto within = static_cast<double>(s % kStrands);
@@ -54,14 +54,15 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
   for (std::size_t y = 0; y < side; ++y) {
     // Centre of each strand in this row.
     const double t = (static_cast<double>(y) + 0.5) / size;
-    std::array<double, kHairStrips * kStrands> middles{};
+    std::array<double, kTextureStripCount * kStrands> middles{};
     for (std::size_t s = 0; s < middles.size(); ++s)
       middles[s] = strands[s].place + swing * bends.at({0.6 * static_cast<double>(s), t, 0});
     for (std::size_t x = 0; x < side; ++x) {
-      const double u = (static_cast<double>(x) + 0.5) / size * kHairStrips;
+      const double u = (static_cast<double>(x) + 0.5) / size * kTextureStripCount;
       const auto strip = static_cast<std::size_t>(u);
-      const bool below = strip >= kCardStrips;
-      // The cap ends in single roots that become sparse, because a hard edge would look like a wig.
+      const bool below = strip >= kCardStripCount;
+      // The hair cap ends in single hair roots that become sparse, because a hard edge would look
+      // like a wig.
       const double root = below ? roots.at({u, t, 0}) : 0;
       double cover = below ? smooth_step(0.98, 0.52, t + 0.13 * root) : 0;
       double light = below ? 0.8 : 0.7;

@@ -8,9 +8,9 @@
 
 namespace crowdface::synth {
 
-/// Number of vertical strips in hair_picture: first kCardStrips strips for hair cards, then one
-/// strip for the cap below the cards.
-inline constexpr int kCardStrips = 4, kHairStrips = 5;
+/// The texture of hair_picture has kTextureStripCount vertical strips: kCardStripCount strips for
+/// hair cards, then one strip for the hair cap below the cards.
+inline constexpr int kCardStripCount = 4, kTextureStripCount = 5;
 
 /// sRGB value of hair in neutral textures. Neutral textures are tinted with each face's hair colour
 /// (see Tint).

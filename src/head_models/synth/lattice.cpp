@@ -20,13 +20,13 @@ constexpr std::array<Opening, 4> kOpenings = {{{SkinPatch::kEye, 2, 4, 2, 3},
 
 }  // namespace
 
-double units_to_column(int column) {
+double column_distance(int column) {
   const auto first = kColumnWeights.begin();
   const double sum = std::accumulate(first, first + std::abs(column), 0.0);
   return column < 0 ? -sum : sum;
 }
 
-double units_to_row(int row) {
+double row_distance(int row) {
   return std::accumulate(kRowWeights.begin(), kRowWeights.begin() + row, 0.0);
 }
 

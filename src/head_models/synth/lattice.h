@@ -34,10 +34,10 @@ inline constexpr int kBackColumn = 8;   ///< between side and back: rear corners
 
 /// Returns the distance, in units, from the midline to a lattice column.
 /// \param column  −13 … 13, negative at x < 0.
-double units_to_column(int column);
+double column_distance(int column);
 /// Returns the distance, in units, from the cap to a lattice row.
 /// \param row  0 … 11.
-double units_to_row(int row);
+double row_distance(int row);
 
 /// A rectangle of the lattice that is cut out of the strip: an eye, an ear, a nostril or the mouth.
 struct Opening {

@@ -25,10 +25,10 @@ class Sewing {
 
   Layout sew() {
     for (int k = 0; k + 1 < kColumns; ++k)
-      spread(counts_.columns, k, units_to_column, column_units_);
-    column_units_.push_back(units_to_column(kColumns - 1));
-    for (int k = 0; k + 1 < kRows; ++k) spread(counts_.rows, k, units_to_row, row_units_);
-    row_units_.push_back(units_to_row(kRows - 1));
+      spread(counts_.columns, k, column_distance, column_units_);
+    column_units_.push_back(column_distance(kColumns - 1));
+    for (int k = 0; k + 1 < kRows; ++k) spread(counts_.rows, k, row_distance, row_units_);
+    row_units_.push_back(row_distance(kRows - 1));
     add_strip();
     add_cap();
     for (const Opening& opening : openings()) {

@@ -11,8 +11,8 @@ namespace {
 
 /// Consecutive rings of an opening.
 struct RingSpan {
-  double from, to;  ///< range of the ring coordinate b
-  double weight;    ///< number of rings at a density of one quad per unit
+  double from, to;                 ///< range of the ring coordinate b
+  double ring_count_at_density_1;  ///< number of rings if there is one quad per unit
 };
 std::vector<RingSpan> ring_spans(SkinPatch patch) {
   if (patch == SkinPatch::kEye) return {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};
@@ -28,8 +28,8 @@ int quads(double weight, double scale) {
 }  // namespace
 
 QuadCounts::QuadCounts(double density) : quads_per_unit(density) {
-  const auto in_column = [](int k) { return units_to_column(k + 1) - units_to_column(k); };
-  const auto in_row = [](int k) { return units_to_row(k + 1) - units_to_row(k); };
+  const auto in_column = [](int k) { return column_distance(k + 1) - column_distance(k); };
+  const auto in_row = [](int k) { return row_distance(k + 1) - row_distance(k); };
   for (int i = 0; i + 1 < kColumns; ++i) {
     columns[static_cast<std::size_t>(i)] = quads(in_column(i), quads_per_unit);
   }
@@ -52,7 +52,7 @@ int QuadCounts::quads_to_row(int k) const {
 std::vector<double> QuadCounts::ring_coordinates(SkinPatch patch) const {
   std::vector<double> out;
   for (const RingSpan& span : ring_spans(patch)) {
-    const int n = quads(span.weight, quads_per_unit);
+    const int n = quads(span.ring_count_at_density_1, quads_per_unit);
     for (int i = 1; i <= n; ++i) out.push_back(span.from + (span.to - span.from) * i / n);
   }
   return out;
@@ -66,8 +66,8 @@ Index QuadCounts::vertex_count() const {
     const Index nx = quads_to_column(w.column1) - quads_to_column(w.column0),
                 ny = quads_to_row(w.row1) - quads_to_row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(ring_coordinates(w.patch).size());
-    // The strip has no vertices inside an opening. The core of an ear has as many vertices as the
-    // strip lacks there, so nothing is subtracted for an ear.
+    // The initial sum counts the strip's grid without openings. Subtract the grid points inside the
+    // opening, except for an ear: the core inside an ear has the same number of vertices.
     if (w.patch != SkinPatch::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.patch == SkinPatch::kMouth ? piece : 2 * piece;
   }

@@ -28,7 +28,7 @@ struct Fold {
       spread;          ///< factor of depth at age 40, its change per 20 years, std. deviation
   double bulge;        ///< height of a ridge left of the curve, relative to the depth
   bool paired = true;  ///< whether the fold is mirrored to x < 0
-  double wander = 0;   ///< random offset of the curve, cm; if not 0, the curve has interruptions
+  double wander = 0;   ///< amplitude of the curve's irregular waves, cm; wavy curves have gaps
 };
 
 // clang-format off
@@ -77,7 +77,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
     : place_noise_x_(mix(identity.seed(), identity.index(), 11), 1.4),
       place_noise_y_(mix(identity.seed(), identity.index(), 12), 1.4),
       curve_noise_(mix(identity.seed(), identity.index(), 14), 1.1),
-      gap_noise_(mix(identity.seed(), identity.index(), 15), 0.9),
+      fold_gap_noise_(mix(identity.seed(), identity.index(), 15), 0.9),
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
   const std::uint64_t seed = identity.seed(), index = identity.index();
   const double aged = identity.person().scaled_age();
@@ -149,8 +149,8 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
   const double distance = std::sqrt(nearest);
   double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
   if (stroke.noise_length > 0)
-    taper *=
-        smooth_step(-0.7, 0.3, gap_noise_.at({along * stroke.noise_length, stroke.noise_row, 0}));
+    taper *= smooth_step(-0.7, 0.3,
+                         fold_gap_noise_.at({along * stroke.noise_length, stroke.noise_row, 0}));
   double height = -bump(distance / stroke.width);
   const double beside = side * distance * (stroke.bulge < 0 ? -1 : 1);
   height += std::abs(stroke.bulge) * bump((beside - 1.5 * stroke.width) / (1.5 * stroke.width));

@@ -33,7 +33,8 @@ class Relief {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    /// row and length of the part of `gap_noise_` that interrupts the curve; length 0: no gaps
+    /// The curve has gaps where `fold_gap_noise_` is low. Along the curve, the noise is sampled
+    /// from (0, noise_row, 0) to (noise_length, noise_row, 0). No gaps if noise_length is 0.
     double noise_row = 0, noise_length = 0;
     Eigen::AlignedBox2d affected_box;  ///< bounding box of the curve's effect
   };
@@ -44,7 +45,7 @@ class Relief {
   std::vector<Stroke> strokes_;
   SmoothNoise place_noise_x_, place_noise_y_;  ///< shift the places of all folds
   SmoothNoise curve_noise_;                    ///< shifts the curves of single folds
-  SmoothNoise gap_noise_;                      ///< interrupts folds
+  SmoothNoise fold_gap_noise_;                 ///< folds have gaps where this noise is low
   struct Octave {
     SmoothNoise noise;
     double amplitude;

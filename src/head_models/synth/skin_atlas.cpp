@@ -23,9 +23,9 @@ AtlasTexel place_at(const Address& address) {
   AtlasTexel place;
   place.skin = mean_skin_with_sockets(address);
   place.is_covered = true;
-  if (address.patch == SkinPatch::kEye) place.eye_ring = address.b;
-  if (address.patch == SkinPatch::kMouth) place.mouth_ring = address.b;
-  if (address.patch == SkinPatch::kNostril) place.nostril_ring = address.b;
+  if (address.patch == SkinPatch::kEye) place.eye_ring_coordinate = address.b;
+  if (address.patch == SkinPatch::kMouth) place.mouth_ring_coordinate = address.b;
+  if (address.patch == SkinPatch::kNostril) place.nostril_ring_coordinate = address.b;
   return place;
 }
 
@@ -38,9 +38,9 @@ AtlasTexel mix_places(const std::array<const AtlasTexel*, 3>& corners,
     place.skin.position += weights[c] * corners[c]->skin.position;
     place.skin.normal += weights[c] * corners[c]->skin.normal;
     place.skin.relief_weight += weights[c] * corners[c]->skin.relief_weight;
-    place.eye_ring += weights[c] * corners[c]->eye_ring;
-    place.mouth_ring += weights[c] * corners[c]->mouth_ring;
-    place.nostril_ring += weights[c] * corners[c]->nostril_ring;
+    place.eye_ring_coordinate += weights[c] * corners[c]->eye_ring_coordinate;
+    place.mouth_ring_coordinate += weights[c] * corners[c]->mouth_ring_coordinate;
+    place.nostril_ring_coordinate += weights[c] * corners[c]->nostril_ring_coordinate;
     place.on_eyeball += weights[c] * corners[c]->on_eyeball;
     place.point_on_ball += weights[c] * corners[c]->point_on_ball;
   }
@@ -79,7 +79,7 @@ void spread(int size, std::vector<AtlasTexel>& texels) {
   for (std::size_t i = 0; i < texels.size(); ++i) {
     taken[i] = texels[i].is_covered;
     if (!taken[i]) continue;
-    texels[i].nearest = i;
+    texels[i].source_texel = i;
     reached.push_back(i);
   }
   const auto width = static_cast<std::size_t>(size);

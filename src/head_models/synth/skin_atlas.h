@@ -12,17 +12,20 @@ namespace crowdface::synth {
 
 /// The point of the average head that one texel of the skin texture shows.
 struct AtlasTexel {
-  SkinPoint skin;       ///< on the average head
-  double eye_ring = 0;  ///< Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2
+  SkinPoint skin;  ///< on the average head
+  /// Address::b around an eye: 0 … 1 up to the edge of the lid, then up to 2
+  double eye_ring_coordinate = 0;
   /// Address::b around the mouth: 0 … 1 from the outline of the mouth's patch to the edge of the
   /// lips' opening, then up to 2
-  double mouth_ring = 0;
-  double nostril_ring = 0;  ///< Address::b around a nostril
-  double on_eyeball = 0;    ///< 1 on an eyeball
+  double mouth_ring_coordinate = 0;
+  /// Address::b around a nostril: 0 … 1 from the outline of the nostril's patch to the edge of the
+  /// nostril, then up to 2
+  double nostril_ring_coordinate = 0;
+  double on_eyeball = 0;  ///< 1 on an eyeball
   Eigen::Vector3d point_on_ball =
-      Eigen::Vector3d::Zero();  ///< on an eyeball: point on the unit sphere with its pupil at +z
-  bool is_covered = false;      ///< whether the texel shows a surface
-  std::size_t nearest = 0;      ///< index of the covered texel from which this texel is copied
+      Eigen::Vector3d::Zero();   ///< on an eyeball: point on the unit sphere with its pupil at +z
+  bool is_covered = false;       ///< whether the texel shows a surface
+  std::size_t source_texel = 0;  ///< index of the covered texel from which this texel is copied
 };
 
 /// Returns size × size texels, row by row, first row at v = 1. A texel that shows no surface is a

@@ -112,7 +112,7 @@ void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
 
 void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
-  const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring));
+  const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring_coordinate));
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const double pale =
@@ -136,22 +136,24 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   const double crease = smooth_step(0.16, 0.02, std::abs(p.y() - 0.42 - 0.66 * biweight(beside)));
   tint(colour, {0.74, 0.64, 0.62}, 0.75 * crease * smooth_step(0, 0.35, lids));
   tint(colour, {0.76, 0.68, 0.70}, 0.7 * complexion_.makeup * lids);
-  if (place.eye_ring <= 0) return;
+  if (place.eye_ring_coordinate <= 0) return;
   // Lashes are painted as a line along the edge of the lid; the inner edge of the lid is red.
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
-  const double lashes = smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye_ring) *
-                        smooth_step(1.12, 1.03, place.eye_ring);
+  const double lashes = smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye_ring_coordinate) *
+                        smooth_step(1.12, 1.03, place.eye_ring_coordinate);
   const ScreenColour hair = paints_all_hair() ? complexion_.hair : from_bytes(70, 54, 44);
   const ScreenColour dark = (0.45 - 0.25 * complexion_.makeup) * hair + 0.02;
   cover(colour, dark,
         lashes * (upper ? 0.75 + 0.25 * complexion_.makeup : 0.3 + 0.4 * complexion_.makeup));
   cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * complexion_.skin_tone),
-        0.8 * smooth_step(1.05, 1.15, place.eye_ring));
+        0.8 * smooth_step(1.05, 1.15, place.eye_ring_coordinate));
 }
 
 void SkinPaint::paint_openings(const AtlasTexel& place, ScreenColour& colour) const {
-  cover(colour, ScreenColour(0.40, 0.17, 0.16), smooth_step(1.02, 1.5, place.mouth_ring));
-  cover(colour, ScreenColour(0.22, 0.09, 0.07), smooth_step(0.98, 1.35, place.nostril_ring));
+  cover(colour, ScreenColour(0.40, 0.17, 0.16),
+        smooth_step(1.02, 1.5, place.mouth_ring_coordinate));
+  cover(colour, ScreenColour(0.22, 0.09, 0.07),
+        smooth_step(0.98, 1.35, place.nostril_ring_coordinate));
 }
 
 double SkinPaint::brow_coverage(const Vector& p) const {
@@ -285,7 +287,7 @@ double SkinPaint::roughness_at(const AtlasTexel& place) const {
   if (place.skin.relief_weight >= 0.5 && hair_.may_cover(p)) {
     hair = std::max(hair, scalp_hair_ * hair_.coverage(p, hair_.strand_brightness(p)));
   }
-  const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring));
+  const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring_coordinate));
   return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.scaled_age());
 }
 

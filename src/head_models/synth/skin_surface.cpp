@@ -97,8 +97,8 @@ double skin_roughness(const AtlasTexel& place, double on_lips, double hair, doub
   double roughness = 0.57 + 0.04 * std::clamp(aged, 0.0, 1.0);
   roughness -= front * (0.09 * nose + 0.07 * forehead);
   roughness += on_lips * (0.34 - roughness);
-  roughness +=
-      smooth_step(1.05, 1.15, place.eye_ring) * (0.15 - roughness);  // moist inner edge of lids
+  // The inner edges of the lids are moist.
+  roughness += smooth_step(1.05, 1.15, place.eye_ring_coordinate) * (0.15 - roughness);
   return roughness + hair * (0.8 - roughness);
 }
 

@@ -45,7 +45,7 @@ SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp) : scalp
   for (std::uint32_t v = 0; v < layout.addresses.size(); ++v) {
     const synth::Address& address = layout.addresses[v];
     if (address.patch != synth::SkinPatch::kStrip) continue;
-    if (address.b == synth::units_to_row(synth::kRows - 1)) rim_.push_back(v);
+    if (address.b == synth::row_distance(synth::kRows - 1)) rim_.push_back(v);
   }
   edge_cm_ = edge_of(topology_.vertex_count);
   if (loose_) loose_->append_to(topology_, uvs_);
@@ -102,12 +102,12 @@ Mesh SyntheticHeads::body() const {
 
 std::vector<std::uint8_t> synthetic_region_mask(int size) {
   require(size >= 1, "a mask of ", size, " pixels");
+  using synth::row_distance;
   using synth::strip_v;
-  using synth::units_to_row;
   // The transitions between regions lie around the eyes and between nose and lips. They are wide,
   // because a narrow transition between two heads would be visible as a ridge.
-  const double brow = strip_v(units_to_row(2)), under_eye = strip_v(units_to_row(3));
-  const double nose = strip_v(units_to_row(5)), lips = strip_v(units_to_row(6));
+  const double brow = strip_v(row_distance(2)), under_eye = strip_v(row_distance(3));
+  const double nose = strip_v(row_distance(5)), lips = strip_v(row_distance(6));
   const double eye = (brow + under_eye) / 2, half = 0.55 * (brow - under_eye);
   const double upper = eye + 0.3 * (brow - under_eye), lower = (nose + lips) / 2;
   std::vector<std::uint8_t> out;

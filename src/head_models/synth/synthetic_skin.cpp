@@ -21,7 +21,7 @@ void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
 }
 
 /// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface; each
-/// other texel copies the bytes of its nearest covered texel (AtlasTexel::nearest).
+/// other texel copies the bytes of a nearby covered texel (AtlasTexel::source_texel).
 template <class Paint>
 std::vector<std::uint8_t> painted(int size, const std::vector<synth::AtlasTexel>& atlas,
                                   std::size_t channels, const Paint& paint) {
@@ -31,7 +31,7 @@ std::vector<std::uint8_t> painted(int size, const std::vector<synth::AtlasTexel>
   });
   for (std::size_t i = 0; i < atlas.size(); ++i) {
     if (atlas[i].is_covered) continue;
-    std::copy_n(&bytes[channels * atlas[i].nearest], channels, &bytes[channels * i]);
+    std::copy_n(&bytes[channels * atlas[i].source_texel], channels, &bytes[channels * i]);
   }
   return bytes;
 }

@@ -27,20 +27,21 @@ double piecewise(double unit, double (*knot)(int), const double* sizes, int inte
 
 /// Returns the signed distance from the midline, in the unit of kWidths.
 double across(double unit) {
-  const double x = piecewise(std::abs(unit), units_to_column, kWidths.data(), kColumns - 1);
+  const double x = piecewise(std::abs(unit), column_distance, kWidths.data(), kColumns - 1);
   return unit < 0 ? -x : x;
 }
 
 double down(double unit) {
-  return piecewise(unit, units_to_row, kHeights.data(), kRows - 1);
+  return piecewise(unit, row_distance, kHeights.data(), kRows - 1);
 }
 
-/// Half the width of the texture, and the height of its part below the cap, in the unit of kWidths.
+/// Half the width of the texture, in the unit of kWidths.
 double half_width() {
-  return across(units_to_column(kColumns - 1));
+  return across(column_distance(kColumns - 1));
 }
+/// Height of the texture's part below the cap, in the unit of kHeights.
 double strip_height() {
-  return down(units_to_row(kRows - 1));
+  return down(row_distance(kRows - 1));
 }
 
 Eigen::RowVector2d scaled(double x, double y) {
@@ -53,7 +54,7 @@ Eigen::RowVector2d scaled(double x, double y) {
 // (the patch on top of the head).
 constexpr double kDisc = 4.9;  ///< radius of the disc
 Eigen::Vector2d disc_centre() {
-  return {(across(units_to_column(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
+  return {(across(column_distance(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
 /// Half-axes of the edge of an opening, and of the edge of the opening's hole, as fractions of half
@@ -83,8 +84,8 @@ Eigen::Vector2d in_opening(const Address& address) {
 /// Maps a point q in the square [−1, 1]² of an opening to texture coordinates.
 Eigen::RowVector2d unwrap_opening(SkinPatch patch, double side, const Eigen::Vector2d& q) {
   const Opening& w = opening_of(patch);
-  const double x0 = across(units_to_column(w.column0)), x1 = across(units_to_column(w.column1));
-  const double y0 = down(units_to_row(w.row0)), y1 = down(units_to_row(w.row1));
+  const double x0 = across(column_distance(w.column0)), x1 = across(column_distance(w.column1));
+  const double y0 = down(row_distance(w.row0)), y1 = down(row_distance(w.row1));
   return scaled(side * ((x0 + x1) / 2 + (x1 - x0) / 2 * q.x()),
                 (y0 + y1) / 2 - (y1 - y0) / 2 * q.y());
 }
@@ -113,8 +114,8 @@ Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv) {
   return {(std::abs(x) - centre.x()) / kDisc, (centre.y() - y) / kDisc};
 }
 
-double strip_v(double b) {
-  return scaled(0, down(b)).y();
+double strip_v(double units_below_cap) {
+  return scaled(0, down(units_below_cap)).y();
 }
 
 Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector2d& place) {
@@ -124,7 +125,7 @@ Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector
 Eigen::RowVector2d unwrap(const Address& address) {
   if (address.patch == SkinPatch::kStrip) return scaled(across(address.a), down(address.b));
   if (address.patch == SkinPatch::kCap) {
-    const double deep = units_to_column(kBackColumn) - units_to_column(kFrontColumn);
+    const double deep = column_distance(kBackColumn) - column_distance(kFrontColumn);
     return scaled(across(address.a), -kCapHeight * address.b / deep);
   }
   const SkinPatch patch = address.patch == SkinPatch::kEarCore ? SkinPatch::kEar : address.patch;

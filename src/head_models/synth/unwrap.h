@@ -27,9 +27,10 @@ Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
 /// an eyeball.
 Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 
-/// Returns the texture coordinate v of a point of the strip (SkinPatch) whose address has this b; v
+/// Returns the texture coordinate v of the strip (SkinPatch) at a distance below the cap; v
 /// decreases from forehead to neck.
-double strip_v(double b);
+/// \param units_below_cap  the second coordinate of an Address on the strip.
+double strip_v(double units_below_cap);
 
 /// Maps a ring coordinate (0 … 4, one unit per side) to the point on the outline of the square
 /// [−1, 1]², with x outward and y up.
