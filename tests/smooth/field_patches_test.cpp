@@ -148,9 +148,9 @@ TEST(FieldPatches, KeepAllVerticesWhereNoneIsLikeAnother) {
     noise.push_back(
         static_cast<float>(random_between({1, static_cast<std::uint64_t>(i), "noise", 0}, -1, 1)));
   }
-  const std::vector<HeadSmoothing> heads = {{quantize(noise, kVertices), [](std::uint64_t level) {
-                                            return std::vector<double>(8, level == 0 ? 0.0 : 1.0);
-                                          }}};
+  const std::vector<HeadSmoothing> heads = {
+      {quantize(noise, kVertices),
+       [](std::uint64_t level) { return std::vector<double>(8, level == 0 ? 0.0 : 1.0); }}};
   const FieldPatches patches = interpolate_fields(heads, kLevels, rows_of_grid(), 0.001);
   EXPECT_TRUE(patches.lists().weights.empty());
   EXPECT_LT(missed(heads, patches), 1e-4) << "rounded to 16 bits";

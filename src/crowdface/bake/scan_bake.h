@@ -103,7 +103,7 @@ class ScanBake {
   Positions positions_, normals_;     ///< #skin by 3
   double scan_spacing_mm_;            ///< mean distance between neighbouring vertices of the scan
   std::vector<double> edge_weights_;  ///< #skin: 0 at the edge of the scan, 1 away from it
-  Positions tone_differences_;   ///< #skin by 3: density of the scan minus that of the template
+  Positions tone_differences_;  ///< #skin by 3: density of the scan minus that of the template
   /// #skin by 3 (red, green, blue): optical density that the scan's baked-in shading adds; no rows
   /// if the shading is kept
   Positions shading_densities_;

@@ -26,8 +26,8 @@ struct Prepared {
   /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
   /// on which the samples' mirror images depend.
   FaceSamples trajectory_samples;
-  std::vector<Trajectory> trajectories;  ///< #heads; at the vertices `trajectory_samples`
-  std::vector<StoredLevels> levels;      ///< #heads; no fields with `levels: exact`
+  std::vector<Trajectory> trajectories;     ///< #heads; at the vertices `trajectory_samples`
+  std::vector<StoredLevels> levels;         ///< #heads; no fields with `levels: exact`
   std::shared_ptr<const LevelNodes> nodes;  ///< nodes of all StoredLevels::function_coefficients
   CachedPatches patches;                    ///< all heads' fields; empty with `levels: exact`
   std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`

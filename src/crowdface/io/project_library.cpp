@@ -115,9 +115,9 @@ void* load_library_function(const char* library, const char* function,
   }
   if (opened == nullptr) opened = open_library(library, 0, dependents_phrase, failure_phrase);
   if (opened == nullptr) {
-    throw IoError(concat(failure_phrase,
-                         ", because a library cannot be loaded (is the installation complete?): ",
-                         why));
+    throw IoError(
+        concat(failure_phrase,
+               ", because a library cannot be loaded (is the installation complete?): ", why));
   }
   void* found = ::dlsym(opened, function);
   if (found == nullptr) throw IoError(concat(library, ": belongs to another version of crowdface"));
