@@ -147,7 +147,7 @@ TEST(Proportions, CornersOfTheMouthLieNearTheHeightOfItsMiddle) {
 
 TEST(Proportions, ColumellaIsNotThin) {
   // When columellas were 3 mm wide, blended columellas intersected themselves.
-  const double b = units_to_row(4) + 0.6, a = units_to_column(1);
+  const double b = row_distance(4) + 0.6, a = column_distance(1);
   const Spread width = spread_of({"columella", mean_skin({SkinPatch::kStrip, 1, -a, b}).position,
                                   mean_skin({SkinPatch::kStrip, 1, a, b}).position})[0];
   EXPECT_GT(width.mean, 3.8);

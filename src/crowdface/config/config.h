@@ -194,7 +194,7 @@ struct Config {
     bool show_body = false;   ///< whether pictures show the body
     bool write_body = false;  ///< whether GLB and USD files contain the body
 
-    bool is_set() const { return !body.empty() || like || uses_mean_neck; }
+    bool is_set() const { return !body.empty() || neck_head || uses_mean_neck; }
     bool needs_body_mesh() const { return !body_texture.empty() || show_body || write_body; }
   } neck;
 
