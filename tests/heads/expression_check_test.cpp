@@ -21,7 +21,7 @@ HeadSet synthetic_heads(std::uint64_t count, Index vertices = 5000) {
   const SyntheticHeads made(vertices);
   HeadSet faces{made.topology(), made.uvs(), {}};
   for (std::uint64_t h = 0; h < count; ++h) {
-    faces.heads.push_back({concat("head_", h), made.positions(3, h)});
+    faces.heads.push_back({concat("head_", h), made.positions(2, h)});
   }
   return faces;
 }
