@@ -317,7 +317,10 @@ class Editor extends ProgramPage {
     else this.view.standAs(face);
     if (face.nearest_head) {
       this.tell(face);
-      setTimeout(() => { if (this.exactOf === document && !this.hasJudged(document)) this.faults.ask(document); }, judging);
+      setTimeout(() => {
+        if (this.isReopening || this.isLeaving) return;
+        if (this.exactOf === document && !this.hasJudged(document)) this.faults.ask(document);
+      }, judging);
     }
     this.attempt(() => this.showWorn(face));
     if (face.bare) {
@@ -679,7 +682,8 @@ class Editor extends ProgramPage {
   /// \param step  makes the step that this is, of the program's answer
   async openAgain(path, change, step = () => {}) {
     await this.keepNow(false);
-    const answer = await post(path, change);
+    this.isReopening = true; // the program may have other regions before its answer is here
+    const answer = await post(path, change).finally(() => { this.isReopening = false; });
     this.isLeaving = true; // what follows speaks of regions that this page does not know
     step(answer);
     await this.keepNow(false);
