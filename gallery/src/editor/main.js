@@ -318,8 +318,7 @@ class Editor extends ProgramPage {
     if (face.nearest_head) {
       this.tell(face);
       setTimeout(() => {
-        if (this.isReopening || this.isLeaving) return;
-        if (this.exactOf === document && !this.hasJudged(document)) this.faults.ask(document);
+        if (!this.isLeaving && this.exactOf === document && !this.hasJudged(document)) this.faults.ask(document);
       }, judging);
     }
     this.attempt(() => this.showWorn(face));
@@ -682,9 +681,11 @@ class Editor extends ProgramPage {
   /// \param step  makes the step that this is, of the program's answer
   async openAgain(path, change, step = () => {}) {
     await this.keepNow(false);
-    this.isReopening = true; // the program may have other regions before its answer is here
-    const answer = await post(path, change).finally(() => { this.isReopening = false; });
-    this.isLeaving = true; // what follows speaks of regions that this page does not know
+    this.isLeaving = true; // from now on the program may have regions that this page does not know
+    const answer = await post(path, change).catch((error) => {
+      this.isLeaving = false;
+      throw error;
+    });
     step(answer);
     await this.keepNow(false);
     location.reload();

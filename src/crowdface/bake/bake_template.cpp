@@ -18,8 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// Removes textures that the skin does not use. For each material and tile of the skin that has no
-/// texture, adds an entry of `files` whose path is empty.
+/// Removes textures that the skin does not use. Adds an entry with an empty path to `files` for
+/// each material and tile of the skin that has no texture.
 /// \param is_skin  #F: whether the polygon belongs to the skin
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      FoundTextureFiles& found) {

@@ -39,8 +39,8 @@ std::vector<std::uint64_t> stored_smoothing_levels(std::uint64_t max_level);
 /// − x, where L_l is entry l of `stored_smoothing_levels`.
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Computes the trajectory of a head (the samples' displacements at all stored smoothing levels)
-/// from the displacements at a few smoothing levels, which are the nodes of the interpolation.
+/// Computes the trajectory of a head: interpolates the samples' displacements at all stored
+/// smoothing levels from their displacements at a few levels, the nodes.
 /// \param fields  result of filter_nodes for the head
 Trajectory sample_smoothing_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                                        const NodeFields& fields, const FaceSamples& samples);

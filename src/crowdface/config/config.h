@@ -226,8 +226,8 @@ struct Config {
     std::optional<std::uint64_t> size;
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// For ColourWeights::kSampled, from the key `alike`: the tags that must be equal on the head
-    /// that lends textures and on the face's target. None: all tags must be equal.
+    /// Key `alike`, used for ColourWeights::kSampled: the tags in which the head that lends
+    /// textures must equal the face's target. nullopt: all tags.
     std::optional<std::vector<std::string>> matching_tags;
   } textures;
 

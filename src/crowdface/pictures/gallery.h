@@ -52,6 +52,7 @@ class GalleryMeshes {
   std::string pack_vertex_colours(const VertexColours& colours) const;
   /// Returns as JSON the textures of a layer, and for each material of the reduced mesh the index of
   /// its texture.
+  /// \param picture_of  encodes a texture as a data URL
   std::string textures_as_json(const TextureLayer& layer,
                                std::string (*picture_of)(const Texture&, int max_px)) const;
   /// The roughness of each vertex, one byte per vertex; empty if the set has no roughness maps.

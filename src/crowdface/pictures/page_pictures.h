@@ -13,7 +13,8 @@ namespace crowdface {
 /// texels.
 std::uint8_t srgb_byte(float light);
 
-/// A texel of a tangent-space normal map with y upwards.
+/// Encodes the slopes of a surface in the texture's two directions as a texel (three bytes) of a
+/// tangent-space normal map with y upwards.
 std::array<std::uint8_t, 3> normal_texel(const LinearRgb& slopes);
 
 /// Images encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
@@ -21,7 +22,7 @@ std::array<std::uint8_t, 3> normal_texel(const LinearRgb& slopes);
 
 /// The texture as JPEG in sRGB.
 std::string colour_picture(const Texture& texture, int max_px);
-/// The slopes of a normal map as JPEG: a tangent-space normal map with y upwards.
+/// A texture of slopes as JPEG: a tangent-space normal map with y upwards.
 std::string normal_picture(const Texture& slopes, int max_px);
 /// The first channel of the texture as a PNG with one channel.
 std::string opacity_picture(const Texture& texture, int max_px);

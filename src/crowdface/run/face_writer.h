@@ -23,9 +23,8 @@ struct ReadyFile {
   FileDigest digest;  ///< size and hash of `bytes`
 };
 
-/// Writes faces on a separate thread, so that computing threads need not wait for the disk. While
-/// the writer writes one batch of faces, it collects the faces that are finished in the meantime
-/// for the next batch. Each batch needs only one sync to disk and one write to the ledger. A file
+/// Writes faces on a separate thread, so that computing threads need not wait for the disk. Faces
+/// that are finished while one batch is written form the next batch. Each batch needs only one sync to disk and one write to the ledger. A file
 /// that already has the right content is not written again.
 class FaceWriter {
  public:

@@ -171,8 +171,8 @@ class PatchMaker {
     }
   }
 
-  /// Quantizes the fields at the skeleton vertices, from which the fields at the other vertices of
-  /// the patch are interpolated. Appends the quantized values to `made`.
+  /// Quantizes the fields at the skeleton vertices of a patch, and appends the quantized values to
+  /// `made`. The fields at all other vertices of the patch are interpolated from these values.
   void add_quantized_values(std::span<const std::uint32_t> vertices, MadePatches& made) {
     const std::size_t size = skeleton_.size(), values = FieldPatch::values_per_field(size);
     for (std::size_t h = 0; h < heads_.size(); ++h) {
@@ -304,7 +304,7 @@ std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
   constexpr std::uint32_t kLongest = 32;
   const auto vertices = static_cast<std::uint32_t>(positions.rows());
   // Cut the sequence of vertices where two successive vertices are far apart. `firsts` holds the
-  // first vertex of each piece, and at the end the number of all vertices.
+  // first vertex of each piece. Its last entry is the total number of vertices.
   std::vector<std::uint32_t> firsts;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     const bool goes_on = !firsts.empty() && v - firsts.back() < kLongest &&

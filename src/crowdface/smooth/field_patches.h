@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-/// Approximates one head at all smoothing levels L (numbers of smoothing iterations):
+/// An approximation of one head's shape after any number L of smoothing iterations:
 /// S̃_L x = x + Σ_p φ_p(L)·c_p. The vector fields c_p and the level functions φ_p come from a
 /// LevelBasis or the paper's CubicFit.
 struct HeadSmoothing {

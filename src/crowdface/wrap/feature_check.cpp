@@ -153,16 +153,20 @@ std::vector<std::uint32_t> thinned(const std::vector<std::uint32_t>& all, std::s
   return kept;
 }
 
-double correlation_in_place(const SkinPair& pair, const FaceFeature& feature) {
-  const std::vector<std::uint32_t>& vertices = feature.skin_vertices;
+/// Relief of some vertices of a skin; see the other overload.
+/// \param up  the head's direction up
+Eigen::VectorXd relief(const Positions& positions, const Positions& normals,
+                       const std::vector<std::uint32_t>& vertices, const Eigen::VectorXd& weights,
+                       const Eigen::Vector3d& up) {
+  const FeatureFrame frame = feature_frame(positions, normals, vertices, weights, up);
+  return relief(coordinates_of(frame, positions, vertices), weights);
+}
+
+double correlation_in_place(const SkinPair& pair, const std::vector<std::uint32_t>& vertices) {
   const Eigen::VectorXd weights = pair.areas(vertices);
-  const auto relief_of = [&](const Positions& positions, const Positions& normals) {
-    return relief(coordinates_of(feature_frame(positions, normals, vertices, weights, pair.up),
-                                 positions, vertices),
-                  weights);
-  };
-  return weighted_correlation(relief_of(pair.before, pair.normals_before),
-                              relief_of(pair.after, pair.normals_after), weights);
+  return weighted_correlation(relief(pair.before, pair.normals_before, vertices, weights, pair.up),
+                              relief(pair.after, pair.normals_after, vertices, weights, pair.up),
+                              weights);
 }
 
 /// The highest correlation between the feature's relief on the template and the relief of the
@@ -172,10 +176,8 @@ double correlation_beside(const SkinPair& pair, const FaceFeature& feature) {
   constexpr double kSurroundingsMm = 70, kMinCosine = 0.1;
   const std::vector<std::uint32_t> vertices = thinned(feature.skin_vertices, kMaxVertices);
   const Eigen::VectorXd weights = pair.areas(vertices);
-  const Eigen::VectorXd expected = relief(
-      coordinates_of(feature_frame(pair.before, pair.normals_before, vertices, weights, pair.up),
-                     pair.before, vertices),
-      weights);
+  const Eigen::VectorXd expected =
+      relief(pair.before, pair.normals_before, vertices, weights, pair.up);
   const FeatureFrame frame =
       feature_frame(pair.after, pair.normals_after, vertices, weights, pair.up);
   std::vector<std::uint32_t> around;
@@ -230,7 +232,7 @@ std::vector<ReliefCorrelation> relief_correlations(const WrapTemplate& wrap_temp
   const SkinPair pair(wrap_template, wrapped);
   std::vector<ReliefCorrelation> correlations;
   for (const FaceFeature& feature : features) {
-    ReliefCorrelation correlation{correlation_in_place(pair, feature)};
+    ReliefCorrelation correlation{correlation_in_place(pair, feature.skin_vertices)};
     if (!correlation.is_high()) correlation.beside = correlation_beside(pair, feature);
     correlations.push_back(correlation);
   }

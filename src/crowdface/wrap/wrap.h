@@ -42,8 +42,7 @@ struct WrapResult {
   /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
   /// without them agrees better.
   std::vector<std::string> dropped_landmarks;
-  /// median distance from the template to the scan, after the template is moved, rotated and scaled
-  /// but not yet bent
+  /// median distance to the scan of the template that is moved, rotated and scaled, but not bent
   double pose_residual_mm = 0;
   Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
   /// #skin: true if the scan has no data near the vertex, or if only the scan's boundary is near
