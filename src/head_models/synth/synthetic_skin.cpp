@@ -58,8 +58,9 @@ std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
   const auto side = static_cast<std::size_t>(size_);
   std::vector<std::uint8_t> bytes(3 * atlas_.size());
   synth::for_each_texel(size_, [&](std::size_t i) {
-    const double u = (static_cast<double>(i % side) + 0.5) / size_;
-    const double v = 1 - (static_cast<double>(i / side) + 0.5) / size_;
+    const std::size_t row = i / side, column = i % side;
+    const double u = (static_cast<double>(column) + 0.5) / size_;
+    const double v = 1 - (static_cast<double>(row) + 0.5) / size_;
     synth::AtlasTexel place;
     place.skin.position = synth::bust_point({u, v});
     write_texel(paint.at(place), &bytes[3 * i]);
