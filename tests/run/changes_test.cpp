@@ -16,7 +16,6 @@
 namespace crowdface {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::crowd_files;
 using testing::differing_files;

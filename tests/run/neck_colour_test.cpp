@@ -17,6 +17,7 @@
 #include "crowdface/mesh/normals.h"
 
 #include "neck_crowd.h"
+#include "support/crowd_files.h"
 #include "support/expect_error.h"
 #include "support/mesh_files.h"
 #include "support/temporary_folder.h"
