@@ -269,6 +269,23 @@ await untilRed(true);
 await take('worn');
 await tab('hat').click();
 
+// Faces to pick from are shown with what they wear.
+await page.getByRole('button', { name: 'Six like it' }).click();
+await page.waitForFunction(() => document.querySelectorAll('.picks .card img').length === 6);
+await take('six');
+const redPixels = await page.$$eval('.picks .card img', (images) => Promise.all(images.map(async (image) => {
+  await image.decode();
+  const context = new OffscreenCanvas(image.naturalWidth, image.naturalHeight).getContext('2d');
+  context.drawImage(image, 0, 0);
+  const { data } = context.getImageData(0, 0, image.naturalWidth, image.naturalHeight);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i] > 1.8 * data[i + 1] && data[i] > 1.8 * data[i + 2]) count += 1;
+  return count;
+})));
+assert.ok(redPixels.every((count) => count > 20), `red pixels of the six: ${redPixels}`);
+await page.getByRole('button', { name: 'Close the faces to pick from' }).click();
+await settled();
+
 // A photo lies behind or beside the head; points that are clicked on both turn the camera to where the photo was taken.
 await page.keyboard.press('Escape');
 await page.keyboard.press('f');

@@ -66,7 +66,7 @@ export class Library {
     const image = el('img', {
       src: source ?? this.pictures.get(this.keyOf(item)), alt: '', loading: 'lazy', draggable: 'false',
       onerror: () => { // a crowd without pictures
-        if (kind === 'face') image.src = this.editor.facePicture(name);
+        if (kind === 'face') this.editor.attempt(async () => { image.src = await this.editor.facePicture(name); });
       },
     });
     return el('div', { class: 'card', role: 'listitem' }, el('button', {

@@ -334,10 +334,15 @@ class Editor extends ProgramPage {
     this.skin.ask({ recipe: wire(this.job, document) });
   }
 
-  /// What the program has put on the face, at its places.
-  async showWorn(face) {
-    const all = await Promise.all(face.worn.map(async (name) =>
+  /// \return  the parts and points of each attachment of a face, for Worn.show
+  attachmentsOf(face) {
+    return Promise.all(face.worn.map(async (name) =>
       [await this.view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]]));
+  }
+
+  /// Shows the attachments where the program placed them.
+  async showWorn(face) {
+    const all = await this.attachmentsOf(face);
     if (this.exactFace !== face || !this.exactOf) return;
     this.view.wear(all, face);
     this.view.worn.node.visible = !this.painting?.on;
@@ -560,37 +565,36 @@ class Editor extends ProgramPage {
     this.commit({ ...document, recipe: { ...document.recipe, id } }, 'name');
   }
 
-  pictureOf(document) {
+  pictureOf(document, dressed = null) {
+    const { view } = this;
     const [lists, shares] = this.coefficientsOf(document);
     const other = shares.join() !== this.shares || Object.keys(this.look.expression).length > 0;
-    if (other) this.view.blender.unsettle();
-    if (document !== this.exactOf) this.view.worn.node.visible = false;
-    this.view.blender.blend(lists, shares);
-    const picture = this.view.picture();
+    if (other) view.blender.unsettle();
+    if (dressed) {
+      view.worn.show(dressed);
+      view.worn.setForm(view.software ? 'draft' : 'whole');
+    }
+    view.worn.node.visible = Boolean(dressed) || document === this.exactOf;
+    view.blender.blend(lists, shares);
+    const picture = view.picture();
+    if (dressed) view.worn.setForm(view.moving ? 'draft' : 'whole');
     if (other) this.shares = null;
     this.exactOf = null;
     this.refresh();
     return picture;
   }
 
-  facePicture(name) { return this.pictureOf(this.openedFace(name)); }
-
-  /// The face with something on, beside what it wears.
-  async wornPicture(kind, name) {
-    const { document, view } = this;
-    const request = { recipe: wire(this.job, document), face: document.face, wears: { ...this.look.wears, [kind]: name } };
-    const face = await dressedFace(request);
-    const all = await Promise.all(face.worn.map(async (item) =>
-      [await view.worn.prepare(item, () => getJson(`attachments/${item}`)), face[`worn ${item}`]]));
-    view.worn.show(all);
-    view.worn.setForm(view.software ? 'draft' : 'whole');
-    view.worn.node.visible = true;
-    const picture = view.picture();
-    view.worn.setForm(view.moving ? 'draft' : 'whole');
-    this.exactOf = null;
-    this.refresh();
-    return picture;
+  /// A picture of a document with the hair and the like that the program gives it.
+  async dressedPicture(document, wears = this.look.wears) {
+    const face = await dressedFace({ recipe: wire(this.job, document), face: document.face, wears });
+    return this.pictureOf(document, await this.attachmentsOf(face));
   }
+
+  /// A picture of a face of the crowd.
+  facePicture(name) { return this.dressedPicture(this.openedFace(name)); }
+
+  /// A picture of the face with an attachment beside those that it has.
+  wornPicture(kind, name) { return this.dressedPicture(this.document, { ...this.look.wears, [kind]: name }); }
 
   /// Shows a kept state, or the face again.
   compare(index = this.comparing === null ? this.comparedWith : null) {

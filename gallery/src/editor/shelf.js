@@ -8,10 +8,12 @@ const mostKept = 12;
 const mostOffered = 400; // faces of the crowd to go between; others are opened and kept first
 
 export class Shelf {
-  /// \param editor  job, document, preview, commit(document, label), pictureOf(document), say(text),
-  ///                compare(index), kept: [{name, document, picture}], locked(), like().
+  /// \param editor  job, document, preview, commit(document, label), pictureOf(document),
+  ///                dressedPicture(document), say(text), compare(index),
+  ///                kept: [{name, document, picture}], locked(), like().
   constructor(editor) {
     this.editor = editor;
+    this.turn = 0; // counts calls of offer()
     this.keptNode = el('div', { class: 'cards', role: 'list' });
     this.pickNode = el('div', { class: 'cards', role: 'list' });
     this.amount = el('input', {
@@ -104,17 +106,20 @@ export class Shelf {
   async offer() {
     const { editor } = this;
     this.picks.hidden = false;
+    this.turn += 1;
+    const { turn } = this;
     this.pickNode.replaceChildren(el('p', { class: 'muted' }, 'Drawing …'));
     const recipe = editor.wire();
     const { recipes, mm } = await post('draw', {
       recipe, locked: editor.lockedNames(), count: 6, like: recipe, amount: Number(this.amount.value),
     });
+    if (this.turn !== turn) return;
     this.pickNode.replaceChildren();
     const start = editor.document;
     for (const [index, told] of recipes.entries()) {
       const document = this.drawn(told, start);
-      await new Promise(requestAnimationFrame);
-      const picture = editor.pictureOf(document);
+      const picture = await editor.dressedPicture(document);
+      if (this.turn !== turn) return;
       this.pickNode.append(el('div', { class: 'card', role: 'listitem' },
         el('button', {
           class: 'portrait', 'aria-label': `Take face ${index + 1}`, title: 'Go on from this one',
