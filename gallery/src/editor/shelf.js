@@ -117,7 +117,7 @@ export class Shelf {
     this.pickNode.replaceChildren();
     const start = editor.document;
     for (const [index, told] of recipes.entries()) {
-      const document = this.drawn(told, start);
+      const document = { ...this.drawn(told, start), face: start.face }; // the hair of the open face
       const picture = await editor.dressedPicture(document);
       if (this.turn !== turn) return;
       this.pickNode.append(el('div', { class: 'card', role: 'listitem' },
