@@ -74,7 +74,8 @@ class PythonJob {
     std::vector<std::string> lines;
     const CrowdPlan plan = plan_crowd(job_.config, job_.inputs, prepared(), defects, cache_);
     std::string text;
-    annotated_plan_text(plan.crowd, job_.names, job_.settings, tags_and_kinds_of(job_.config))(
+    annotated_plan_text(plan.crowd, job_.names, job_.settings,
+                        head_tags_and_attachment_kinds(job_.config))(
         [&](std::string_view piece) { text += piece; });
     for (const std::string_view line : split(text, '\n')) {
       if (!line.empty()) lines.emplace_back(line);

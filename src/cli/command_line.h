@@ -15,7 +15,8 @@ class Option;
 
 namespace crowdface::cli {
 
-/// A handle to an option, argument or flag that was added to a command; sets further properties.
+/// A handle to an option, argument or flag that was added to a command. Callers use the handle to
+/// set further properties.
 class OptionHandle {
  public:
   explicit OptionHandle(CLI::Option& option) : option_(&option) {}

@@ -30,7 +30,7 @@ void edit(const EditorOptions& options) {
   constexpr std::uint64_t kLargestPort = 65535, kMaxVertices = 10'000'000;
   EditOptions edited;
   edited.cache = options.config.cache_path();
-  edited.cache.trusts_seen_files = !options.hash_all;
+  edited.cache.skips_hash_of_unchanged_files = !options.hash_all;
   edited.generate_arguments = options.input_limit_arguments();
   if (!options.threads.empty()) {
     edited.generate_arguments.insert(edited.generate_arguments.end(),

@@ -121,9 +121,8 @@ void import_makehuman(const ImportOptions& options, const HeadRequest& request) 
   const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
   const auto refined = [&](Mesh mesh, std::vector<MaterialRange>& materials) {
     for (int round = 0; round < rounds; ++round) {
-      // Subdivision replaces each polygon by one quad per corner. After subdivision, a material
-      // range begins with the quad at the first corner of the polygon with which the range began
-      // before.
+      // Subdivision replaces each polygon by one quad per corner. A material range therefore begins
+      // with the quad at the first corner of the range's first polygon.
       for (MaterialRange& range : materials) {
         range.first_face = mesh.topology.face_offsets[static_cast<std::size_t>(range.first_face)];
       }

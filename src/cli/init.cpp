@@ -63,12 +63,12 @@ std::vector<std::vector<std::string>> read_tags(const std::vector<fs::path>& fil
                                                 const std::vector<std::string>& names) {
   Complaints complaints;
   ConfigDraft draft(complaints);
-  draft.heads_known = true;
+  draft.are_heads_known = true;
   Config::Faces& faces = draft.config.faces;
   faces.files = files;
   faces.names = names;
   faces.tags.resize(names.size());
-  read_tags_beside_heads(faces, draft);
+  read_tags_from_head_folders(faces, draft);
   throw_if_any(complaints);
   return faces.tags;
 }
@@ -175,7 +175,7 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
 /// found, the head) has the size of a human's. Tries inches and feet last. If no named unit fits,
 /// computes the length of a unit that gives the face human size.
 void guess_units(const ShapeAnalysis& analysis, StarterFacts& facts) {
-  constexpr double kTypicalHeightMm = 280;  // heads with and without neck and shoulders
+  constexpr double kTypicalHeightMm = 280;  // of a head with or without neck
   constexpr double kTypicalFaceMm = 65, kMinFaceMm = 35, kMaxFaceMm = 120;
   constexpr double kMaxTimes = 3;  // largest plausible ratio to kTypicalHeightMm
   facts.units = nearest_unit(facts.head_height, kTypicalHeightMm, kMetricUnits);
@@ -243,7 +243,7 @@ void init(const InitOptions& options) {
     facts.up = analysis.orientation->up;
     facts.front = analysis.orientation->front;
   }
-  facts.align_rigidly = analysis.stands_apart;
+  facts.uses_rigid_alignment = analysis.stands_apart;
   for (const fs::path& head : files) {
     facts.head_names.push_back(head.stem().string());
     if (!is_name(facts.head_names.back())) {
@@ -274,7 +274,7 @@ void init(const InitOptions& options) {
                   " heads; assumed unit: ", name_of(facts.units), ", because ", facts.units_reason,
                   "; the heads look along ", name_of(facts.front), " with ", name_of(facts.up),
                   " up. Check these, then run: crowdface check ", out.string()));
-  if (facts.align_rigidly) {
+  if (facts.uses_rigid_alignment) {
     log_info(
         "some heads are turned or moved relative to the others: the config aligns all heads with "
         "the first (faces.align: rigid)");

@@ -28,7 +28,7 @@ class MakeHumanDress {
   void add_person(const std::filesystem::path& folder, const std::string& name, std::uint64_t seed,
                   std::uint64_t index, std::vector<HeadFile>& files);
   /// Adds the body's material file `body.mtl` and texture `body.png`. The texture is the mean of
-  /// two skin textures: of a woman and of a man of mixed ancestry.
+  /// two skin textures, of a woman and of a man, both of mixed ancestry.
   void add_body(const std::filesystem::path& folder, std::vector<HeadFile>& files) const;
   /// Adds the files that all heads share: textures of lashes, teeth and tongue; `licences.txt`; and
   /// the folder `attachments`. This folder contains hair, brows and beards for the added persons,

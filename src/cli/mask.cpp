@@ -52,7 +52,7 @@ MaskInputs heads_of_folder(const fs::path& folder) {
 MaskInputs heads_of_config(const fs::path& file) {
   Problems problems;
   const ConfigReading reading = read_partial_config(file, {}, problems);
-  if (!reading.heads_known) problems.throw_if_any();
+  if (!reading.are_heads_known) problems.throw_if_any();
   const Config::Faces& faces = reading.config.faces;
   return {faces, Orientation{faces.up, faces.front}};
 }

@@ -49,7 +49,7 @@ void pick(const WrapCommand& options) {
   constexpr std::uint64_t kLargestPort = 65535;
   const auto port = static_cast<int>(parse_whole_number("--port", options.port, 0, kLargestPort));
   WrapOptions without_landmarks = options;
-  without_landmarks.landmarks.clear();  // PickableScans reads them with the scan
+  without_landmarks.landmarks.clear();  // PickableScans reads the landmarks together with each scan
   const std::vector<PickableScans::Entry> entries = entries_of(options);
   const WrapInputs inputs = read_wrap_inputs(without_landmarks);
   PickableScans scans(entries, [&](const PickableScans::Entry& entry) {

@@ -28,7 +28,7 @@ void log_level_errors(const Job& job, const Prepared& prepared) {
 }
 
 /// Throws an error if a prepared head could not be stored in the cache. Other commands can continue
-/// without a cache, but `prepare` has the purpose to fill it.
+/// without a cache, but filling the cache is the purpose of `prepare`.
 void require_heads_in_cache(const Prepared& prepared, const std::vector<std::string>& names,
                             const std::filesystem::path& cache) {
   for (std::size_t h = 0; h < names.size(); ++h) {

@@ -18,7 +18,8 @@ struct Differences {
 Differences differences(const FrontPatch& patch, const Positions& a, const Positions& b);
 
 /// Returns the energy of each wavelength band of a head: the sum of |S(finer bound) − S(coarser
-/// bound)|² over the vertices of the patch. S is Laplacian smoothing (Eq. 1) of the whole head.
+/// bound)|² over the vertices of the patch. S(λ) is the whole head after Laplacian smoothing (Eq.
+/// 1) with the half-amplitude wavelength λ.
 /// \param positions  #V by 3 of whole heads, in millimetres.
 /// \param bounds_mm  upper bounds of the bands (half-amplitude wavelengths), ascending.
 std::vector<double> band_energies(const Topology& topology, const FrontPatch& patch,
@@ -29,12 +30,12 @@ std::vector<double> band_energies(const Topology& topology, const FrontPatch& pa
 double largest_rim_distance(const std::vector<std::vector<std::uint32_t>>& rims, const Positions& a,
                             const Positions& b);
 
-/// Returns by how many degrees a face's creases exceed the creases of its source heads. At an edge,
-/// the crease is the angle between the normals of the two triangles, and the excess is the face's
-/// crease minus the largest crease of any source head. Returns the largest excess of all edges in
-/// the border between regions, or 0.
+/// Compares the creases of a face with the creases of its source heads. The crease at an edge is
+/// the angle between the normals of the two triangles. The excess at an edge is the face's crease
+/// minus the largest crease of any source head. Returns the largest excess, in degrees, over the
+/// edges in the border between regions; 0 if no excess is positive.
 /// \param heads   source heads, #P by 3 each.
-/// \param border  #P: whether a vertex lies in the border between regions.
+/// \param border  for each vertex of the patch, whether it lies in the border between regions.
 double largest_new_crease(const FrontPatch& patch, const Positions& face,
                           const std::vector<Positions>& heads, const std::vector<bool>& border);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the figures and the table of docs/paper.md that compare our faces with those of Yoon, Lewis
-// and Rhee (2017). scripts/paper_figures.sh runs it.
+// Makes the figures and the table of docs/paper.md that compare faces of crowdface with faces made
+// by the method of Yoon, Lewis and Rhee (2017). scripts/paper_figures.sh runs this program.
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr double kMmPerUnit = 10;  // the figures' heads are in centimetres
 constexpr double kScaleMm = 6;     // end of the colour scale
-// Level of the base surface: the coarsest level for which more than 99 % of the lines along its
-// normals meet the face, on synthetic and ICT heads.
+// Level of the base surface: the coarsest level for which more than 99 % of the lines along the
+// base surface's normals meet the face, on synthetic and ICT heads.
 constexpr int kBase = 2;
 const std::vector<double> kBounds = {8, 16, 32, 64, 128};  // mm
 
@@ -116,7 +116,7 @@ std::vector<double> everywhere(int base, double weight) {
 /// The face by Yoon, Lewis and Rhee's method that is nearest to a given face of crowdface. The
 /// search tries the base levels 0 to 3, and optimizes a weight w for each level above the base
 /// level: each lender gets the weight w, and the target gets 1 − w.
-/// \param regions  #lenders: the lender's weight at each vertex of the patch; or empty.
+/// \param regions  for each lender, the lender's weight at each vertex of the patch; or empty.
 struct Nearest {
   Positions face;
   int base = 0;

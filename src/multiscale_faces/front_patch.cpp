@@ -16,8 +16,8 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// For each vertex on a rim, the next vertex along the rim. Contains each directed edge of a
-/// triangle whose reverse edge belongs to no triangle. A vertex at which a rim touches itself has
+/// Maps each vertex on a rim to the next vertex along the rim. Each entry is a directed edge of a
+/// triangle; the reverse edge belongs to no triangle. A vertex at which a rim touches itself has
 /// several entries.
 std::multimap<std::uint32_t, std::uint32_t> rim_edges(const std::vector<Triangle>& triangles) {
   std::set<Edge> edges;

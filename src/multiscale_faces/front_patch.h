@@ -15,7 +15,7 @@ namespace crowdface::multiscale {
 /// The front of a head as one connected surface, with its own vertex numbers. Its longest boundary
 /// loop (rim) is the border; every other rim is the rim of a hole, such as an eye.
 struct FrontPatch {
-  std::vector<std::uint32_t> head_vertices;  ///< #P: the head's vertex of each patch vertex
+  std::vector<std::uint32_t> head_vertices;  ///< the head vertex of each patch vertex
   std::vector<Triangle> triangles;           ///< indices of patch vertices
   std::vector<std::uint32_t> border;         ///< patch vertices around the border, in order
   std::vector<std::vector<std::uint32_t>> hole_rims;  ///< patch vertices around each hole, in order

@@ -32,8 +32,9 @@ struct MultiscaleFace {
   TextureCoordinates uvs;               ///< #P by 2, of the patch's vertices
   std::vector<SplineLattice> surfaces;  ///< by level, coarsest first; values are positions
   int base_level = 0;                   ///< the level of the base surface
-  std::vector<SplineLattice>
-      displacements;  ///< by level from base_level + 1 on: added to the previous level
+  /// For each level above base_level: the distance of the level's surface along the normals of the
+  /// base surface, minus the distance of the previous level's surface.
+  std::vector<SplineLattice> displacements;
   /// fraction of samples at which the line along the normal misses the finest surface
   double missed_sample_fraction = 0;
 };
@@ -50,12 +51,13 @@ struct WeightedSource {
   const MultiscaleFace* face = nullptr;
   /// For each level from base_level + 1 on, the weight of the level's detail in the whole patch.
   std::vector<double> level_weights;
-  /// #P: factor on all `level_weights` at each vertex of the patch; empty: 1 everywhere.
+  /// For each vertex of the patch, a factor on all `level_weights`. If empty, all factors are 1.
   std::vector<double> vertex_weights = {};
 };
 
 /// Makes a new face: the base surface of `target`, displaced along the surface's normals by the
-/// weighted sum of `sources`. All faces in `sources` must have the base level of `target`.
+/// weighted sum of the displacements of `sources`. All faces in `sources` must have the base level
+/// of `target`.
 /// \return #P by 3: a position for each vertex of the target's patch.
 Positions synthesize(const MultiscaleFace& target, std::span<const WeightedSource> sources);
 

@@ -84,8 +84,9 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> SplineLattice::jet(const Eigen::RowVect
 
 SplineLattice SplineLattice::refined() const {
   const Index side = spans_ + 3, fine = 2 * spans_ + 3;
-  // Refines along one direction: φ'_2i = (φ_i−1 + 6 φ_i + φ_i+1)/8 and φ'_2i+1 = (φ_i + φ_i+1)/2.
-  // In both lattices, row i + 1 contains φ_i.
+  // Refines the control points φ_i along one direction. The new control points are
+  // φ'_2i = (φ_i−1 + 6 φ_i + φ_i+1)/8 and φ'_2i+1 = (φ_i + φ_i+1)/2.
+  // In both lattices, row i + 1 contains the control point with index i.
   const auto combine = [](Index row, const auto& at) -> Eigen::RowVectorXd {
     const Index i = (row - 1 >= 0 ? (row - 1) / 2 : -1) + 1;  // row of φ_i in the coarse lattice
     if ((row - 1) % 2 == 0) return (at(i - 1) + 6 * at(i) + at(i + 1)) / 8;
@@ -128,7 +129,7 @@ SplineLattice approximate(Index spans, const TextureCoordinates& uvs, const Colu
         const double w = place.u.value[k] * place.v.value[l];
         const Index row =
             place.first_row + static_cast<Index>(k) + static_cast<Index>(l) * (spans + 3);
-        control.row(row) += w * w * (w / square_sum) * values.row(s);  // ω_c = w, Eq. 3
+        control.row(row) += w * w * (w / square_sum) * values.row(s);  // Eq. 3, where ω_c is w
         weight_sum[row] += w * w;
       }
     }

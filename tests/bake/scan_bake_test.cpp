@@ -120,7 +120,7 @@ class ScanBaking : public ::testing::Test {
   /// Whether a texel is in the face, and at least half of its colour comes from the scan.
   static bool is_face(const BakedPicture& picture, int x, int y) {
     return x > 0.31 * kTexels && x < 0.69 * kTexels && y > 0.34 * kTexels && y < 0.74 * kTexels &&
-           picture.filled_mask[static_cast<std::size_t>(y * kTexels + x)] < 128;
+           picture.mask_without_scan[static_cast<std::size_t>(y * kTexels + x)] < 128;
   }
   std::vector<double> errors(const BakedPicture& picture) const {
     std::vector<double> all;
@@ -154,7 +154,7 @@ TEST_F(ScanBaking, ATextureComesBackSharpAndInItsColours) {
   const double sharpness = finest_energy(picture.srgb, is_used) / finest_energy(paint_, is_used);
   EXPECT_GT(sharpness, 0.8);
   EXPECT_LT(sharpness, 1.2);
-  EXPECT_LT(picture.filled_share, 0.1) << "the backs of the eyeballs take most of it";
+  EXPECT_LT(picture.share_without_scan, 0.1) << "the backs of the eyeballs take most of it";
 }
 
 TEST_F(ScanBaking, BytesDoNotDependOnTheNumberOfThreads) {
@@ -163,7 +163,7 @@ TEST_F(ScanBaking, BytesDoNotDependOnTheNumberOfThreads) {
   const ThreadLimit limit(1);
   const BakedPicture one = bake(scan);
   EXPECT_EQ(one.srgb, many.srgb);
-  EXPECT_EQ(one.filled_mask, many.filled_mask);
+  EXPECT_EQ(one.mask_without_scan, many.mask_without_scan);
 }
 
 /// The colour of the texture at each vertex.
@@ -284,7 +284,7 @@ TEST_F(ScanBaking, MaterialsOfGltfAreBaked) {
   for (int y = 0; y < kTexels; ++y) {
     for (int x = 0; x < kTexels; ++x) {
       const std::size_t at = static_cast<std::size_t>(y * kTexels + x);
-      if (picture.filled_mask[at] > 0) continue;
+      if (picture.mask_without_scan[at] > 0) continue;
       const Eigen::Array3d found = lab_of(&picture.srgb[3 * at]);
       const auto off = [&](const std::uint8_t* srgb) {
         return (found - lab_of(srgb)).matrix().norm();
@@ -321,12 +321,12 @@ TEST_F(ScanBaking, AHoleIsFilledInTheToneOfTheScan) {
   const BakedPicture whole = bake(folder_ / "scan.obj"), picture = bake(folder_ / "holed.obj");
   const Bytes other = skins_.albedo(1, 1);
   std::vector<double> error, unmatched, elsewhere;
-  for (std::size_t i = 0; i < picture.filled_mask.size(); ++i) {
-    if (whole.filled_mask[i] > 0) continue;
+  for (std::size_t i = 0; i < picture.mask_without_scan.size(); ++i) {
+    if (whole.mask_without_scan[i] > 0) continue;
     const Eigen::Array3d truth = lab_of(&paint_[3 * i]), found = lab_of(&picture.srgb[3 * i]);
-    if (picture.filled_mask[i] == 0) {
+    if (picture.mask_without_scan[i] == 0) {
       elsewhere.push_back((found - truth).matrix().norm());
-    } else if (picture.filled_mask[i] == 255) {
+    } else if (picture.mask_without_scan[i] == 255) {
       error.push_back((found - truth).matrix().norm());
       unmatched.push_back((lab_of(&other[3 * i]) - truth).matrix().norm());
     }

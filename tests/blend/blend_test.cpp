@@ -151,7 +151,7 @@ TEST_F(Blend, BandsAreTheSumOfTheirDifferences) {
                            term_by_term(banded(), two_, exact)),
                 1e-7);
       Recipe mixture = banded();
-      set_target(mixture, {{0, 0.25}, {2, 0.75}});
+      set_target_heads(mixture, {{0, 0.25}, {2, 0.75}});
       EXPECT_LT(difference(blend_exact(faces_, filter(boundary, kind), two_, mixture),
                            term_by_term(mixture, two_, exact)),
                 1e-7);
@@ -290,7 +290,7 @@ TEST_F(Blend, ATargetThatIsAMixtureIsTheMixtureOfTheFaces) {
   const std::vector<RegionRecipe> regions = {region({{0, 0.25}, {2, 0.75}}, 7, 1.2),
                                              region({{1, 1}}, 30, 0.9)};
   Recipe mixed = recipe(0, regions);
-  set_target(mixed, shares);
+  set_target_heads(mixed, shares);
   EXPECT_EQ(mixed.target, 0);
   const auto fits = cubic_fits(60);
   const CrowdBlender fitted = blender(fits, two_);
@@ -307,7 +307,7 @@ TEST_F(Blend, ATargetThatIsAMixtureIsTheMixtureOfTheFaces) {
   EXPECT_EQ(face.row(0), target_positions(faces_, mixed).row(0)) << "a fixed rim stays";
   EXPECT_LT((target_positions(faces_, mixed) - target).cwiseAbs().maxCoeff(), 1e-12);
 
-  set_target(mixed, {{1, 1}});
+  set_target_heads(mixed, {{1, 1}});
   EXPECT_TRUE(mixed.mixture.empty());
   EXPECT_EQ(mixed.target, 1);
 }
@@ -343,7 +343,7 @@ TEST_F(Blend, AChangedFaceHasTheBitsOfOneMadeAnew) {
   const RegionRecipe a = region({{0, 0.5}, {2, 0.5}}, 20, 1.1), b = region({{1, 1}}, 30);
   std::vector<Recipe> steps = {recipe(0, {a, a}), recipe(0, {b, a}), recipe(0, {b, b}),
                                recipe(1, {b, b}), recipe(1, {b, b})};
-  set_target(steps.back(), {{1, 0.75}, {2, 0.25}});
+  set_target_heads(steps.back(), {{1, 0.75}, {2, 0.25}});
   Positions face = blend.blend(steps.front());
   for (std::size_t i = 1; i < steps.size(); ++i) {
     const Positions before = face;
@@ -459,14 +459,14 @@ class BlendPatches : public ::testing::Test {
       }
       recipes_.push_back(recipe);
     }
-    set_target(recipes_.back(), {{0, 0.25}, {2, 0.75}});
+    set_target_heads(recipes_.back(), {{0, 0.25}, {2, 0.75}});
     for (const Recipe& recipe : recipes_) pointers_.push_back(&recipe);
   }
   /// Every field of every head, vertex by vertex.
   Positions added_up(const Recipe& recipe) const {
     Positions sum = target_positions(faces_, recipe);
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-      for (const LevelShares& at : level_shares(recipe, k)) {
+      for (const LevelWeights& at : weights_by_level(recipe, k)) {
         for (const SourceWeight& part : at.shares) {
           const HeadSmoothing& head = levels_[static_cast<std::size_t>(part.head)];
           const std::vector<double> functions = head.functions(at.level);

@@ -286,7 +286,7 @@ FacePlan child_of(std::vector<SourceWeight> shares, std::vector<std::string> par
   child.id = "child";
   child.family = "kin";
   child.parents = std::move(parents);
-  set_target(child.recipe, std::move(shares));
+  set_target_heads(child.recipe, std::move(shares));
   return child;
 }
 

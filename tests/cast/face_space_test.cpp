@@ -332,7 +332,7 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
   const Recipe recipe = crowd(1).front();
   int asked = 0;
   SkinDefects found{{}, 0};
-  found.local.compared_count = 1000;
+  found.local.compared_triangle_count = 1000;
   BelievabilityOptions limits;
   limits.max_stretch = 1000;  // only what the mesh says is of interest
   limits.max_flipped = limits.max_intersecting = 0.5;
@@ -341,9 +341,9 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
     return found;
   });
   EXPECT_EQ(judge.check_skin(recipe), std::nullopt);
-  found.intersecting_count = 501;
+  found.intersecting_triangle_count = 501;
   EXPECT_EQ(judge.check_skin(recipe), Reason::kIntersecting);
-  found.local.flipped_count = 501;
+  found.local.flipped_triangle_count = 501;
   EXPECT_EQ(judge.check_skin(recipe), Reason::kFlipped);
   EXPECT_EQ(asked, 3);
   limits.max_stretch = 1;  // no face is stretched so little

@@ -301,7 +301,7 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   ASSERT_EQ(top.bands.size(), 3U);
   EXPECT_TRUE(top.bands[0].weights.empty());
   EXPECT_EQ(top.bands[2].weights[0].head, 1);
-  EXPECT_THAT(config->families[0].inherited_parents, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
+  EXPECT_THAT(config->families[0].parent_of_band, ElementsAre(0, -1, -1, 0, -1, -1, 0, 1, 0));
   EXPECT_THAT(config->review.reviews[0].marks[0].locked_bands, ElementsAre(0, 1, 2));
   EXPECT_THAT(config->review.reviews[0].marks[1].locked_bands, ElementsAre(2, 3, 5, 8));
 
@@ -309,7 +309,7 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
   const auto again = read(written);
   ASSERT_TRUE(again) << told() << written;
   EXPECT_EQ(effective_config(*again, folder_), written);
-  EXPECT_EQ(again->families[0].inherited_parents, config->families[0].inherited_parents);
+  EXPECT_EQ(again->families[0].parent_of_band, config->families[0].parent_of_band);
   EXPECT_THAT(sources_of(again->groups[0].sampling, 2), ElementsAre(2));
 }
 

@@ -90,7 +90,7 @@ void expect_equal(const Config& a, const Config& b) {
     EXPECT_EQ(a.families[i].name, b.families[i].name);
     EXPECT_EQ(a.families[i].member_count, b.families[i].member_count);
     EXPECT_EQ(a.families[i].target, b.families[i].target);
-    EXPECT_EQ(a.families[i].inherited_parents, b.families[i].inherited_parents);
+    EXPECT_EQ(a.families[i].parent_of_band, b.families[i].parent_of_band);
     EXPECT_EQ(a.families[i].parents.size(), b.families[i].parents.size());
     EXPECT_EQ(a.families[i].max_distance_mm, b.families[i].max_distance_mm);
     EXPECT_EQ(a.families[i].min_distance_mm, b.families[i].min_distance_mm);

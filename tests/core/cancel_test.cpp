@@ -18,12 +18,12 @@ TEST(Cancel, StopsLoopsUntilWorkIsAllowed) {
     parallel_for_each(1000, [&](int) { ++calls; });
     return calls.load();
   };
-  EXPECT_FALSE(interrupted());
+  EXPECT_FALSE(is_interrupted());
   cancel_work();
-  EXPECT_TRUE(interrupted());
+  EXPECT_TRUE(is_interrupted());
   EXPECT_THROW(count(), Interrupted);
   end_cancellation();
-  EXPECT_FALSE(interrupted());
+  EXPECT_FALSE(is_interrupted());
   EXPECT_EQ(count(), 1000);
 }
 

@@ -83,7 +83,7 @@ TEST(CrowdDirectory, AReviewOfAnotherRunIsNotOverwritten) {
                           [&] { open_crowd_directory(directory, mine, replace); });
   }
   EXPECT_EQ(testing::read_text(directory.review(1)), "theirs");
-  mine.rename_review_folder = true;
+  mine.renames_review_folder = true;
   for (int i = 0; i < 2; ++i) open_crowd_directory(directory, mine, Replace::kRefuse);
   EXPECT_EQ(testing::read_text(directory.review(1)), "mine");
   std::vector<std::string> aside;

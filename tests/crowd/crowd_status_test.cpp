@@ -129,9 +129,9 @@ TEST_F(Status, ATaskThatSlurmRunsAgainIsRequeued) {
   EXPECT_THAT(format_status_json(status()), HasSubstr(R"("state":"requeued")"));
   EXPECT_TRUE(status().failures.empty()) << "a stage that runs again has not failed";
   folder_.write("submit/log/blend-2.log", again + "=== blend 2, attempt 2\n");
-  EXPECT_FALSE(status().shards[1].requeued) << "it runs";
+  EXPECT_FALSE(status().shards[1].is_requeued) << "it runs";
   folder_.write("submit/log/blend-2.log", again + "=== ended with code 75\n");
-  EXPECT_FALSE(status().shards[1].requeued) << "Slurm refused";
+  EXPECT_FALSE(status().shards[1].is_requeued) << "Slurm refused";
 }
 
 TEST_F(Status, NotesOfOthersSayNothing) {

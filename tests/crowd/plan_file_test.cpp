@@ -250,7 +250,7 @@ TEST(PlanFile, TableTellsWhoAFaceIs) {
   mother.attachments = {"cap", "bun"};
   PlanNames names = kNames;
   names.attachments = {"cap", "bun"};
-  const TagsAndKinds facts{{{}, {"male", "old"}, {"female"}}, {"hat", "hair"}};
+  const HeadTagsAndAttachmentKinds facts{{{}, {"male", "old"}, {"female"}}, {"hat", "hair"}};
   const std::vector<FacePlan> crowd = {mother, child, stranger};
   const std::string table = whole_text(table_text(crowd, names, kNoNeckColours, facts));
   EXPECT_NE(table.find(",mixture,attachments,family_role,age,sex,tags,hair\r\n"), table.npos)

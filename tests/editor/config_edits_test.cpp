@@ -74,7 +74,7 @@ TEST_F(ConfigEdits, RecipesStandInAFileThatTheConfigNames) {
 
 TEST_F(ConfigEdits, RegionsTakeThePlaceOfThoseOfTheConfig) {
   const std::filesystem::path mask = folder_ / "mask_0.png";
-  put_regions(folder_.config(), {"brow", "jaw"}, {mask});
+  save_regions_in_edits(folder_.config(), {"brow", "jaw"}, {mask});
   const auto file = put_recipe(recipe("eva", 1), config());
   EXPECT_EQ(recipes(), (Recipes{"ada0", "eva1"}));
   EXPECT_EQ(file, config().edits);
@@ -88,14 +88,14 @@ TEST_F(ConfigEdits, HeadsComeAfterThoseOfTheConfig) {
     std::filesystem::copy_file(folder_.head(folder_.names()[0]), more / name);
   }
   std::vector<std::string> names = folder_.names();
-  const auto file = put_heads(folder_.config(), {more / "eva.obj"});
+  const auto file = save_heads_in_edits(folder_.config(), {more / "eva.obj"});
   const auto one = section_in_edits(file, "faces");
   EXPECT_EQ(one, "{also: [more/eva.obj]}");
-  put_heads(folder_.config(), {more / "zoe.obj"});
+  save_heads_in_edits(folder_.config(), {more / "zoe.obj"});
   names.insert(names.end(), {"eva", "zoe"});
   EXPECT_EQ(config().faces.names, names);
   expect_error(ExitCode::kUsage, {"two heads are called"},
-               [&] { put_heads(folder_.config(), {more / "eva.obj"}); });
+               [&] { save_heads_in_edits(folder_.config(), {more / "eva.obj"}); });
   restore_section(folder_.config(), "faces", one);
   names.pop_back();
   EXPECT_EQ(config().faces.names, names);
@@ -108,8 +108,9 @@ TEST_F(ConfigEdits, ThatTheConfigWouldRefuseChangeNothing) {
   const std::string config_text = read_file(folder_.config()), edits = read_file(file);
   expect_error(ExitCode::kUsage, {"belong to the sampled faces"},
                [&] { put_recipe(recipe(config().crowd.name + "_0001", 1), config()); });
-  expect_error(ExitCode::kUsage, {"region_2"},
-               [&] { put_regions(folder_.config(), {"region_1"}, {folder_ / "mask_0.png"}); });
+  expect_error(ExitCode::kUsage, {"region_2"}, [&] {
+    save_regions_in_edits(folder_.config(), {"region_1"}, {folder_ / "mask_0.png"});
+  });
   EXPECT_EQ(read_file(folder_.config()), config_text);
   EXPECT_EQ(read_file(file), edits);
 }

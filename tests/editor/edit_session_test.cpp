@@ -242,7 +242,7 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   const FacePlan head = editor.face(json);
   const FaceMeasures measures = editor.session->measure(head, editor.session->build(head.recipe));
   EXPECT_EQ(measures.nearest_head, 1);
-  EXPECT_LT(measures.nearest_head_mm, 0.01);
+  EXPECT_LT(measures.nearest_head_distance_mm, 0.01);
   EXPECT_THAT(measures.warnings, ::testing::IsEmpty());
   json["regions"]["top"] = {
       {"weights", {{"head_0", 1}}}, {"smoothness", 0.9}, {"extrapolation", 4}};
@@ -250,7 +250,7 @@ TEST(EditSession, MeasuresAHeadAsItself) {
   const FaceMeasures whole = editor.session->measure(wild, editor.session->build(wild.recipe));
   EXPECT_THAT(whole.warnings, ::testing::Contains(::testing::HasSubstr("than the limit, ")));
   const FaceMeasures without_mesh = editor.session->measure(wild);
-  EXPECT_EQ(without_mesh.nearest_head_mm, whole.nearest_head_mm);
+  EXPECT_EQ(without_mesh.nearest_head_distance_mm, whole.nearest_head_distance_mm);
   EXPECT_THAT(without_mesh.warnings, ::testing::Contains(::testing::HasSubstr("than the limit, ")));
 }
 

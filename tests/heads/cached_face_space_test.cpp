@@ -155,15 +155,15 @@ TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
   const SampledHeads heads = sampled_heads(1, false);
   const std::vector<double> weights(kSamples, 1.0 / kSamples);
   const FaceSpace space(heads, weights);
-  EXPECT_TRUE(FaceSpace::tables_fit(space.tables(), heads));
-  EXPECT_FALSE(FaceSpace::tables_fit(FaceSpaceTables(), heads));
+  EXPECT_TRUE(FaceSpace::have_matching_sizes(space.tables(), heads));
+  EXPECT_FALSE(FaceSpace::have_matching_sizes(FaceSpaceTables(), heads));
   FaceSpaceTables fewer = space.tables();
   fewer.region_metrics.pop_back();
-  EXPECT_FALSE(FaceSpace::tables_fit(fewer, heads));
+  EXPECT_FALSE(FaceSpace::have_matching_sizes(fewer, heads));
   FaceSpaceTables narrower = space.tables();
   narrower.directions = narrower.directions.leftCols(3).eval();
-  EXPECT_FALSE(FaceSpace::tables_fit(narrower, heads));
-  EXPECT_FALSE(FaceSpace::tables_fit(space.tables(), sampled_heads(1, true)));
+  EXPECT_FALSE(FaceSpace::have_matching_sizes(narrower, heads));
+  EXPECT_FALSE(FaceSpace::have_matching_sizes(space.tables(), sampled_heads(1, true)));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class KeptPatchesTest : public ::testing::Test {
     });
   }
   static bool alike(const CachedPatches& a, const CachedPatches& b) {
-    const PatchLists &x = a.patches.lists(), &y = b.patches.lists();
+    const PatchArrays &x = a.patches.lists(), &y = b.patches.lists();
     return std::ranges::equal(x.vertices, y.vertices) &&
            std::ranges::equal(x.stored_vertex_counts, y.stored_vertex_counts) &&
            std::ranges::equal(x.field_counts, y.field_counts) &&

@@ -35,7 +35,8 @@ struct Lists {
 
 class Cached : public ::testing::Test {
  protected:
-  /// A square that is large enough for its neighbours and its mirror to be cached, of kSide² vertices.
+  /// A square that is large enough for its neighbours and its mirror to be cached, of kSide²
+  /// vertices.
   static constexpr std::uint32_t kSide = 225;
   static Topology large_topology() { return testing::grid_topology(kSide - 1, kSide - 1); }
   static Positions large_positions() {

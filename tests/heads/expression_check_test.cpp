@@ -27,7 +27,7 @@ HeadSet synthetic_heads(std::uint64_t count, Index vertices = 5000) {
 }
 
 std::string warnings_of(const HeadSet& head_set) {
-  return join(odd_expressions(head_set, mean_head_shape(head_set).is_skin, HeadAxes(), 10));
+  return join(odd_expression_warnings(head_set, mean_head_shape(head_set).is_skin, HeadAxes(), 10));
 }
 
 /// Lets the jaw drop by 2 cm.

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// A file and a cache that trusts seen files.
 class SeenFiles : public ::testing::Test {
  protected:
-  SeenFiles() { cache_.trusts_seen_files = true; }
+  SeenFiles() { cache_.skips_hash_of_unchanged_files = true; }
 
   void write(std::string_view text) const { folder_.write("head.obj", text); }
   static void let_settle() { std::this_thread::sleep_for(std::chrono::milliseconds(1100)); }
@@ -82,9 +82,9 @@ TEST_F(SeenFiles, AreTrustedByNobodyWhoDoesNotAskForIt) {
   write("v 0 0 0");
   let_settle();
   remember();
-  cache_.trusts_seen_files = false;
+  cache_.skips_hash_of_unchanged_files = false;
   EXPECT_FALSE(known().has_value());
-  cache_.trusts_seen_files = true;
+  cache_.skips_hash_of_unchanged_files = true;
   EXPECT_EQ(known(), kDigest);
 }
 

@@ -15,10 +15,10 @@ namespace {
 EncodedFile three_pieces(const std::string& elsewhere) {
   EncodedFile file;
   file.add("ab");
-  file.refer_to(elsewhere);
+  file.add_without_copy(elsewhere);
   char* own = file.reserve(10);
   own[0] = 'e';
-  file.refer_to({own, 1});
+  file.add_without_copy({own, 1});
   return file;
 }
 

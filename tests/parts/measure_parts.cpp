@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How eyes and teeth sit in heads and in crowds made of them: distances between lids and eyeballs,
-// what of them passes through the other, teeth and gums that pass through lips or cheeks. A table in
-// Markdown, a column for the heads and one for each crowd. Heads look along +z, +y is up, in cm.
+// what of them passes through the other, teeth and gums that pass through lips or cheeks. A table
+// in Markdown, a column for the heads and one for each crowd. Heads look along +z, +y is up, in cm.
 //   crowdface_measure_parts HEADS_FOLDER CROWD_FOLDER…
 //   crowdface_measure_parts --bands HEADS_FOLDER PREFIX
 //       paints a mask in three bands to PREFIX.1001.png and so on
@@ -155,8 +155,8 @@ class Watch {
     return (low + high) / 2;
   }
 
-  /// How often the skin winds around a point: 1 inside, 0 outside, about, since the neck is open (the
-  /// solid angles of its triangles, Van Oosterom & Strackee 1983).
+  /// How often the skin winds around a point: 1 inside, 0 outside, about, since the neck is open
+  /// (the solid angles of its triangles, Van Oosterom & Strackee 1983).
   double turns_around(const Positions& mesh, const Vector3d& point) const {
     double sum = 0;
     for (Index f = 0; f < topology_.face_count(); ++f) {

@@ -109,7 +109,7 @@ TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
     constexpr double kRounding = 1e-6;
     EXPECT_NEAR(of_plain.gap_excess_mm, of_image.gap_excess_mm, kRounding);
     EXPECT_NEAR(of_plain.local.stretch_factor, of_image.local.stretch_factor, kRounding);
-    EXPECT_EQ(of_plain.intersecting_count, of_image.intersecting_count);
+    EXPECT_EQ(of_plain.intersecting_triangle_count, of_image.intersecting_triangle_count);
     EXPECT_NEAR(of_plain.exposed_back_face_mm2, of_image.exposed_back_face_mm2, kRounding);
   }
 }

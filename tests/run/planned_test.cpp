@@ -77,9 +77,9 @@ TEST_F(Planned, FacesReadBackAreThoseThatWereCast) {
     both.push_back(first->faces[i]);
     if (i < second->faces.size()) both.push_back(second->faces[i]);
   }
-  EXPECT_EQ(
-      whole_text(annotated_plan_text(both, job.names, job.settings, tags_and_kinds_of(job.config))),
-      testing::read_text(folder_.out() / "plan.jsonl"));
+  EXPECT_EQ(whole_text(annotated_plan_text(both, job.names, job.settings,
+                                           head_tags_and_attachment_kinds(job.config))),
+            testing::read_text(folder_.out() / "plan.jsonl"));
 }
 
 TEST_F(Planned, AnotherPlanIsNotTaken) {

@@ -89,7 +89,7 @@ double mean_skeleton(const FieldPatches& patches) {
 }
 
 bool same_lists(const FieldPatches& a, const FieldPatches& b) {
-  const PatchLists &x = a.lists(), &y = b.lists();
+  const PatchArrays &x = a.lists(), &y = b.lists();
   return std::ranges::equal(x.vertices, y.vertices) &&
          std::ranges::equal(x.stored_vertex_counts, y.stored_vertex_counts) &&
          std::ranges::equal(x.field_counts, y.field_counts) &&
@@ -200,37 +200,37 @@ TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   const FieldPatches made = interpolate_fields(heads, kLevels, rows_of_grid(), 0.1);
   ASSERT_FALSE(made.lists().weights.empty());
   const std::vector<Index> ranks(heads.size(), heads[0].fields.rank);
-  const auto taken = [&](const PatchLists& lists) {
-    return FieldPatches::from_lists(lists, kVertices, ranks).has_value();
+  const auto taken = [&](const PatchArrays& lists) {
+    return FieldPatches::from_arrays(lists, kVertices, ranks).has_value();
   };
   ASSERT_TRUE(taken(made.lists()));
-  const auto with = [&](auto PatchLists::*list, auto change) {
+  const auto with = [&](auto PatchArrays::*list, auto change) {
     using T = std::remove_cv_t<
         typename std::remove_reference_t<decltype(made.lists().*list)>::element_type>;
     std::vector<T> values((made.lists().*list).begin(), (made.lists().*list).end());
     change(values);
-    PatchLists lists = made.lists();
+    PatchArrays lists = made.lists();
     lists.*list = values;
     return taken(lists);
   };
-  EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { v[3] = kVertices; }));
-  EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { v[3] = v[4]; }));
-  EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { std::swap(v[3], v[4]); }));
-  EXPECT_FALSE(with(&PatchLists::vertices, [](auto& v) { v.pop_back(); }));
-  EXPECT_FALSE(with(&PatchLists::stored_vertex_counts, [](auto& v) { v[0] = 129; }));
-  EXPECT_FALSE(with(&PatchLists::stored_vertex_counts, [](auto& v) { ++v[0]; }));
-  EXPECT_FALSE(with(&PatchLists::stored_vertex_counts, [](auto& v) { v.pop_back(); }));
-  EXPECT_FALSE(with(&PatchLists::field_counts, [](auto& v) { --v[0]; }));
-  EXPECT_FALSE(with(&PatchLists::field_counts, [&](auto& v) { v[0] = 1000; }));
-  EXPECT_FALSE(with(&PatchLists::quantization_steps, [](auto& v) { v[0] = 3; }))
+  EXPECT_FALSE(with(&PatchArrays::vertices, [](auto& v) { v[3] = kVertices; }));
+  EXPECT_FALSE(with(&PatchArrays::vertices, [](auto& v) { v[3] = v[4]; }));
+  EXPECT_FALSE(with(&PatchArrays::vertices, [](auto& v) { std::swap(v[3], v[4]); }));
+  EXPECT_FALSE(with(&PatchArrays::vertices, [](auto& v) { v.pop_back(); }));
+  EXPECT_FALSE(with(&PatchArrays::stored_vertex_counts, [](auto& v) { v[0] = 129; }));
+  EXPECT_FALSE(with(&PatchArrays::stored_vertex_counts, [](auto& v) { ++v[0]; }));
+  EXPECT_FALSE(with(&PatchArrays::stored_vertex_counts, [](auto& v) { v.pop_back(); }));
+  EXPECT_FALSE(with(&PatchArrays::field_counts, [](auto& v) { --v[0]; }));
+  EXPECT_FALSE(with(&PatchArrays::field_counts, [&](auto& v) { v[0] = 1000; }));
+  EXPECT_FALSE(with(&PatchArrays::quantization_steps, [](auto& v) { v[0] = 3; }))
       << "no power of two";
-  EXPECT_FALSE(with(&PatchLists::quantization_steps, [](auto& v) { v[0] = HUGE_VALF; }));
-  EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v[0] = NAN; }));
-  EXPECT_FALSE(with(&PatchLists::weights, [](auto& v) { v.pop_back(); }));
-  EXPECT_FALSE(with(&PatchLists::quantized_values, [](auto& v) { v.push_back(0); }));
+  EXPECT_FALSE(with(&PatchArrays::quantization_steps, [](auto& v) { v[0] = HUGE_VALF; }));
+  EXPECT_FALSE(with(&PatchArrays::weights, [](auto& v) { v[0] = NAN; }));
+  EXPECT_FALSE(with(&PatchArrays::weights, [](auto& v) { v.pop_back(); }));
+  EXPECT_FALSE(with(&PatchArrays::quantized_values, [](auto& v) { v.push_back(0); }));
   EXPECT_FALSE(
-      FieldPatches::from_lists(made.lists(), kVertices, std::vector<Index>{ranks[0]}).has_value());
-  EXPECT_FALSE(FieldPatches::from_lists(made.lists(), kVertices + 128, ranks).has_value());
+      FieldPatches::from_arrays(made.lists(), kVertices, std::vector<Index>{ranks[0]}).has_value());
+  EXPECT_FALSE(FieldPatches::from_arrays(made.lists(), kVertices + 128, ranks).has_value());
 }
 
 TEST(FieldPatches, TellOfEachPatchAndEndWhereTheyAreTold) {

@@ -124,7 +124,8 @@ TEST(TextureBlender, DetailThatDoesNotAgreeKeepsItsContrast) {
   }
 }
 
-// Where all heads have the same detail, as brows at the same place, more contrast would be too much.
+// Where all heads have the same detail, as brows at the same place, more contrast would be too
+// much.
 TEST(TextureBlender, DetailThatAgreesIsNotMadeStronger) {
   TwoCharts sheet(kSize);
   for (std::uint64_t h = 0; h < 4; ++h) {
@@ -140,9 +141,9 @@ TEST(TextureBlender, DetailThatAgreesIsNotMadeStronger) {
 /// The first channel of words, as their numbers.
 std::vector<double> first_numbers(const BlendedPicture& picture) {
   std::vector<double> values;
-  for (std::size_t i = 0; i < picture.values16.size();
+  for (std::size_t i = 0; i < picture.values_16_bit.size();
        i += static_cast<std::size_t>(picture.channels)) {
-    values.push_back(picture.low + double{picture.step} * picture.values16[i]);
+    values.push_back(picture.low + double{picture.step} * picture.values_16_bit[i]);
   }
   return values;
 }
@@ -171,9 +172,9 @@ TEST(TextureBlender, NormalsKeepTheirReliefAndUnitLength) {
                 .normalized();
         Eigen::Vector3d blended;
         for (std::size_t c = 0; c < 3; ++c) {
-          ASSERT_NEAR(one.values16[at + c] / 65535.0 * 2 - 1, expected[static_cast<Index>(c)],
+          ASSERT_NEAR(one.values_16_bit[at + c] / 65535.0 * 2 - 1, expected[static_cast<Index>(c)],
                       1e-4);
-          blended[static_cast<Index>(c)] = mixed.values16[at + c] / 65535.0 * 2 - 1;
+          blended[static_cast<Index>(c)] = mixed.values_16_bit[at + c] / 65535.0 * 2 - 1;
         }
         ASSERT_NEAR(blended.norm(), 1, 1e-4);
       }
@@ -239,8 +240,8 @@ Eigen::Array3d colour_at_uv(const BlendedPicture& picture, const Eigen::RowVecto
   return sum;
 }
 
-// Colours that meet at a seam in the heads still meet when they are blended, though both charts know of the
-// other's neighbourhood nothing.
+// Colours that meet at a seam in the heads still meet when they are blended, though both charts
+// know of the other's neighbourhood nothing.
 TEST(TextureBlender, NoSeamShows) {
   TwoCharts sheet(2 * kSize, 2);
   for (int h = 0; h < 4; ++h) {

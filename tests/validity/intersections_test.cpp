@@ -140,11 +140,12 @@ TEST(SkinCheck, CountsWhatTheTargetHasNot) {
   const Sheet sheet;
   const std::vector<Head> heads = {{"flat", sheet.lie(flat)}, {"bent", sheet.lie(bent)}};
   const SkinCheck check(sheet.topology, sheet.components, heads, {0, 1}, {{{0, 0, 1}}, 1});
-  EXPECT_EQ(check.compare(heads[0].positions, 0).intersecting_count, 0);
-  EXPECT_GT(check.compare(heads[1].positions, 0).intersecting_count, 20);
-  EXPECT_EQ(check.compare(heads[1].positions, 1).intersecting_count, 0) << "the target's own";
-  EXPECT_EQ(check.compare(heads[0].positions, 0).local.flipped_count, 0);
-  EXPECT_GT(check.compare(heads[1].positions, 0).local.flipped_count, 100);
+  EXPECT_EQ(check.compare(heads[0].positions, 0).intersecting_triangle_count, 0);
+  EXPECT_GT(check.compare(heads[1].positions, 0).intersecting_triangle_count, 20);
+  EXPECT_EQ(check.compare(heads[1].positions, 1).intersecting_triangle_count, 0)
+      << "the target's own";
+  EXPECT_EQ(check.compare(heads[0].positions, 0).local.flipped_triangle_count, 0);
+  EXPECT_GT(check.compare(heads[1].positions, 0).local.flipped_triangle_count, 100);
 }
 
 TEST(SkinCheck, NeedsAHead) {

@@ -73,14 +73,14 @@ TEST(Triangles, FlipsCollapsesAndStretchAreSeen) {
   }
   const TargetTriangles target(triangles, flat);
   const LocalDefects same = target.compare(flat);
-  EXPECT_EQ(same.compared_count, 800);
-  EXPECT_EQ(same.flipped_count, 0);
+  EXPECT_EQ(same.compared_triangle_count, 800);
+  EXPECT_EQ(same.flipped_triangle_count, 0);
   EXPECT_NEAR(same.stretch_factor, 1, 1e-12);
 
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const LocalDefects turned = target.compare((flat * turn).eval());
-  EXPECT_EQ(turned.flipped_count, 0);
+  EXPECT_EQ(turned.flipped_triangle_count, 0);
   EXPECT_NEAR(turned.stretch_factor, 1, 1e-9);
 
   Positions stretched = flat;
@@ -93,14 +93,14 @@ TEST(Triangles, FlipsCollapsesAndStretchAreSeen) {
 
   Positions mirrored = flat;
   mirrored.col(0) *= -1;
-  EXPECT_EQ(target.compare(mirrored).flipped_count, 800);
+  EXPECT_EQ(target.compare(mirrored).flipped_triangle_count, 800);
   Positions pulled = flat;
   pulled.row(220) << 14.5, 10, 0;  // one vertex far over its neighbours
-  EXPECT_GE(target.compare(pulled).flipped_count, 2);
-  EXPECT_LE(target.compare(pulled).flipped_count, 6);
+  EXPECT_GE(target.compare(pulled).flipped_triangle_count, 2);
+  EXPECT_LE(target.compare(pulled).flipped_triangle_count, 6);
   Positions thin = flat;
   thin.col(1) *= 0.01;
-  EXPECT_EQ(target.compare(thin).flipped_count, 800) << "collapsed";
+  EXPECT_EQ(target.compare(thin).flipped_triangle_count, 800) << "collapsed";
 }
 
 }  // namespace

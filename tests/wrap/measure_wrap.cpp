@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well `wrap` finds heads again: each becomes a scan, is wrapped by a template that does not know
-// it, and is compared with its own vertices. scripts/measure_wrap.sh runs this.
+// How well `wrap` finds heads again: each becomes a scan, is wrapped by a template that does not
+// know it, and is compared with its own vertices. scripts/measure_wrap.sh runs this.
 //   crowdface_measure_wrap HEADS_DIR [HEAD …] [--templates one,mean,model] [--estimate]
 //                          [--landmarks picked|found|none] [--next N]
 // N: the template "one" is the head N after the scanned head.
@@ -190,7 +190,7 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
   m.folded_triangle_count =
       TargetTriangles(shape.skin.triangles, shape.skin.rows_of(shape.positions))
           .compare(shape.skin.rows_of(result.positions))
-          .flipped_count;
+          .flipped_triangle_count;
   return m;
 }
 

@@ -106,8 +106,8 @@ TEST(SurfaceTree, OnlyTrianglesThatFaceTheRightWayAreFound) {
   EXPECT_EQ(tree.nearest_facing(inside, -Eigen::Vector3d::UnitZ(), 0.5, 1).triangle, kNoIndex);
 }
 
-// The shares of a place on an edge are rounded. Above the rim of a scan of a face, the skull was once said to be far from
-// the scan, where the scan has no data.
+// The shares of a place on an edge are rounded. Above the rim of a scan of a face, the skull was
+// once said to be far from the scan, where the scan has no data.
 TEST(ScanSurface, APlaceOnARimIsToldFromOthersWhateverIsRounded) {
   constexpr std::uint32_t kSteps = 40, kRows = 3;
   Scan scan;

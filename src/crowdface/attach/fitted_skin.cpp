@@ -127,10 +127,10 @@ void FittedSkin::add_coarser_level(double spacing) {
   add_level(spacing, std::move(vertices), std::move(areas));
 }
 
-double FittedSkin::reach_at(const Eigen::Vector3d& point, double min_reach) const {
+double FittedSkin::patch_radius_at(const Eigen::Vector3d& point, double min_radius) const {
   const Level& finest = levels_.front();
   const double nearest = finest.grid.nearest(point).distance;
-  const double reach = kReachGrowth * nearest + min_reach;
+  const double reach = kReachGrowth * nearest + min_radius;
   const std::size_t fewest = std::min(kMinVertices, finest.vertices.size());
   std::vector<double> distances;
   for (double around = reach;; around *= 2) {
@@ -160,9 +160,9 @@ FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point) const {
   return patch_around(point, std::max(kReachMm * units_per_mm_, kReachSpacings * spacing()));
 }
 
-FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double min_reach) const {
+FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double min_radius) const {
   Patch patch;
-  patch.reach = reach_at(point, min_reach);
+  patch.reach = patch_radius_at(point, min_radius);
   std::size_t level = 0;
   while (level + 1 < levels_.size() && patch.reach > 2 * kSpacings * levels_[level].spacing) {
     ++level;

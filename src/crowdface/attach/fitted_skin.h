@@ -50,16 +50,16 @@ class FittedSkin {
   /// Skin vertices around a point, with weights.
   struct Patch {
     std::vector<std::uint32_t> vertices;
-    std::vector<double> weights;  ///< #vertices: area times a weight that decreases with distance
+    std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance
     double reach = 0;             ///< distance from the point at which weights become zero
   };
   /// Returns the skin vertices around a point, with weights that decrease with distance and are
-  /// zero from the distance `reach` on. For a point on the skin, the reach is a few millimetres; it
-  /// grows with the point's distance from the skin. Weights and reach are continuous in the point,
-  /// so neighbouring points get almost the same patch.
+  /// zero from the distance `reach` on. For a point on the skin, the reach is a few millimetres.
+  /// The reach grows with the point's distance from the skin. Weights and reach are continuous in
+  /// the point, so neighbouring points get almost the same patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
-  /// Like patch_around(point), but the reach is at least `min_reach`.
-  Patch patch_around(const Eigen::Vector3d& point, double min_reach) const;
+  /// Like patch_around(point), but the reach is at least `min_radius`.
+  Patch patch_around(const Eigen::Vector3d& point, double min_radius) const;
 
   /// Returns the outward unit normals of a face's vertices, #V by 3.
   Positions normals(const Positions& face) const;
@@ -77,13 +77,13 @@ class FittedSkin {
   struct Level {
     double spacing;
     std::vector<std::uint32_t> vertices;
-    std::vector<double> areas;  ///< #V: area of the cell that each vertex represents
+    std::vector<double> areas;  ///< area of the cell that each vertex represents
     PointGrid grid;
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   void add_coarser_level(double spacing);
-  /// Returns the reach of the patch around a point; see Patch::reach.
-  double reach_at(const Eigen::Vector3d& point, double min_reach) const;
+  /// Returns the reach of the patch around a point; see Patch::radius.
+  double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
   void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                    Patch& patch) const;
 

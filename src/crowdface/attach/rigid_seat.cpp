@@ -49,7 +49,7 @@ Positions RigidPlacement::moved_points(const RigidMotion& motion) const {
 }
 
 /// Returns `motion` followed by one least-squares step that moves the attachment out of the skin.
-RigidMotion RigidPlacement::step_out_of_skin(
+RigidMotion RigidPlacement::push_out_of_skin(
     const RigidMotion& motion, const std::vector<SkinGaps::Violation>& violations) const {
   // translation, rotation and growth; rotation and growth are scaled by the radius
   constexpr std::size_t kUnknowns = 7;
@@ -76,7 +76,7 @@ Positions RigidPlacement::place(const Positions& face, const Positions& normals)
   for (int round = 0; round < kSeatRounds; ++round) {
     const auto violations = gaps_.violations(face, normals, moved_points(motion));
     if (violations.empty()) break;
-    motion = step_out_of_skin(motion, violations);
+    motion = push_out_of_skin(motion, violations);
   }
   return moved_points(motion);
 }

@@ -26,7 +26,7 @@ class RigidPlacement {
   Positions place(const Positions& face, const Positions& normals) const;
 
  private:
-  RigidMotion step_out_of_skin(const RigidMotion& motion,
+  RigidMotion push_out_of_skin(const RigidMotion& motion,
                                const std::vector<SkinGaps::Violation>& violations) const;
   Positions moved_points(const RigidMotion& motion) const;
 

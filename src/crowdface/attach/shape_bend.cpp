@@ -151,14 +151,15 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
       if (distance * BendNodes::kInfluenceRadius < 1) covered[q] = true;
     }
     covered[p] = true;
-    remove_distant(along, near, patch);
+    remove_distant_vertices(along, near, patch);
   }
   for (const auto& shares : of_point) nodes_.node_weights.add_group(shares);
 }
 
 /// Removes vertices whose distance along the surface exceeds `limit`, unless too few vertices would
 /// remain.
-void ShapeBend::remove_distant(const EdgeDistances& along, double limit, FittedSkin::Patch& patch) {
+void ShapeBend::remove_distant_vertices(const EdgeDistances& along, double limit,
+                                        FittedSkin::Patch& patch) {
   FittedSkin::Patch near{{}, {}, patch.reach};
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
     if (along.distance(patch.vertices[i]) > limit) continue;

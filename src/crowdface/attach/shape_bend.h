@@ -38,7 +38,8 @@ class ShapeBend {
   std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
-  static void remove_distant(const EdgeDistances& along, double limit, FittedSkin::Patch& patch);
+  static void remove_distant_vertices(const EdgeDistances& along, double limit,
+                                      FittedSkin::Patch& patch);
 
   BendNodes nodes_;
 };

@@ -16,7 +16,8 @@ constexpr double kFarMm = 25;
 /// Vertices up to kCloseMm from the skin get exactly their original gap. For vertices farther away,
 /// the correction decreases linearly and is zero at kLooseMm.
 constexpr double kCloseMm = 2, kLooseMm = 6;
-/// Minimum distance of vertices that are not close to the skin.
+/// An outside vertex with a larger original gap keeps at least this distance from the skin. A
+/// vertex with a smaller original gap keeps that gap.
 constexpr double kMinMm = 2;
 /// Number of rounds in which pushed vertices move their neighbours.
 constexpr int kRounds = 8;

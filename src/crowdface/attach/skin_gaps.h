@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// The distance of each vertex of an attachment from the skin it was fitted to.
+/// The distance of each vertex of an attachment from the skin to which the attachment was fitted.
 class SkinGaps {
  public:
   /// \param skin      Must outlive this object.
@@ -48,11 +48,12 @@ class SkinGaps {
   double min_height(std::uint32_t point) const;
 
   const FittedSkin& skin_;
-  /// #P: signed distances on the fitted mesh; infinite if the point is far from the skin
+  /// signed distance of each point from the skin of the fitted mesh; infinite if the point is far
+  /// from the skin
   std::vector<double> heights_;
-  /// #P: a skin vertex near each point, where the search for the nearest skin starts
+  /// a skin vertex near each point, where the search for the nearest skin starts
   std::vector<std::uint32_t> start_vertices_;
-  Adjacency neighbours_;  ///< #P: neighbours in the attachment's mesh
+  Adjacency neighbours_;  ///< neighbours of each point in the attachment's mesh
 };
 
 }  // namespace crowdface

@@ -20,7 +20,7 @@ namespace {
 
 /// Removes textures that the skin does not use. Adds an entry with an empty path to `files` for
 /// each material and tile of the skin that has no texture.
-/// \param is_skin  #F: whether the polygon belongs to the skin
+/// \param is_skin  for each polygon, whether it belongs to the skin
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      FoundTextureFiles& found) {
   HeadTextureFiles& placed = found.heads[0];
@@ -80,7 +80,7 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& wrap_templat
       find_texture_files({topology, file.uvs, {{file.path.stem().string(), {}}}}, {&file, 1})
           .front();
   warnings_ = std::move(found.warnings);
-  for (std::string& warning : remove_unreadable_files(found))
+  for (std::string& warning : leave_out_unreadable_files(found))
     warnings_.push_back(std::move(warning));
   const HeadTextureFiles own = found.heads[0];
   choose_pictures(materials, is_skin, found);

@@ -26,7 +26,7 @@ class BakeTemplate {
   BakeTemplate(const ObjFile& file, const WrapTemplate& wrap_template, int picture_side);
 
   const WrapTemplate& wrap_template() const { return wrap_template_; }
-  /// #pictures: the name of each picture.
+  /// The name of each picture.
   const std::vector<PictureName>& picture_names() const { return picture_names_; }
   /// For each baked material, the index of a picture that contains it.
   const std::map<std::string, std::size_t>& pictures_by_material() const {
@@ -40,7 +40,7 @@ class BakeTemplate {
 
   /// Marks vertices outside the skin.
   static constexpr std::uint32_t kNotSkin = kNoIndex;
-  /// #V: for each vertex of the template, its row in the skin, or kNotSkin.
+  /// For each vertex of the template, its row in the skin, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
 
   /// The picture into which a vertex is baked, and the vertex's position in it.
@@ -49,7 +49,7 @@ class BakeTemplate {
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();
     double uv_per_mm = 0;  ///< scale of the picture at the vertex
   };
-  /// #skin: the picture and texture coordinate of each vertex of the skin.
+  /// The picture and texture coordinate of each vertex of the skin.
   const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:

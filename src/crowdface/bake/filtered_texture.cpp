@@ -29,8 +29,8 @@ std::vector<float> values_of(const MapCoding& coding) {
 constexpr int kLobes = 3;
 using LanczosWeights = std::array<float, 2 * kLobes>;
 
-/// Lanczos weights of the six texels around a position (Duchon 1979). \param t distance of the
-/// position from the third texel
+/// Lanczos weights of the six texels around a position (Duchon 1979).
+/// \param t  distance of the position from the third texel
 LanczosWeights lanczos_weights(double t) {
   LanczosWeights weights;
   float sum = 0;
@@ -153,8 +153,8 @@ Eigen::Array3f FilteredTexture::nearest_texel(double x, double y) const {
 }
 
 Eigen::Array3f FilteredTexture::mean_at(const Eigen::Vector2d& uv,
-                                        const Eigen::Vector2d& right_step,
-                                        const Eigen::Vector2d& lower_step) const {
+                                        const Eigen::Vector2d& to_right_texel,
+                                        const Eigen::Vector2d& to_lower_texel) const {
   constexpr float kMinCovered = 1e-3F;
   const Eigen::Array2d size(map_.width, map_.height);
   const auto in_texels = [&](const Eigen::Vector2d& side) -> Eigen::Vector2d {
@@ -162,7 +162,8 @@ Eigen::Array3f FilteredTexture::mean_at(const Eigen::Vector2d& uv,
   };
   const Eigen::Vector2d middle(std::clamp(uv.x(), 0.0, 1.0) * size.x(),
                                (1 - std::clamp(uv.y(), 0.0, 1.0)) * size.y());
-  Eigen::Vector2d one = in_texels(right_step), other = in_texels(lower_step), place = middle;
+  Eigen::Vector2d one = in_texels(to_right_texel), other = in_texels(to_lower_texel),
+                  place = middle;
   std::size_t level = 0;
   while (std::max(one.norm(), other.norm()) > kMaxTaps && level < levels_.size()) {
     one /= kBlockSide;

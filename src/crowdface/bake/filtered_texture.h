@@ -14,7 +14,7 @@ namespace crowdface {
 /// background of a texture atlas does not bleed into the surface.
 class FilteredTexture {
  public:
-  /// \param covered  #texels, row by row: whether the surface covers the texel's centre.
+  /// \param covered  for each texel, row by row: whether the surface covers the texel's centre.
   FilteredTexture(TextureMap map, std::vector<bool> covered);
 
   int width() const { return map_.width; }
@@ -24,14 +24,14 @@ class FilteredTexture {
   /// or less, interpolates with Lanczos weights of 6 by 6 texels, which keep fine detail sharper
   /// than linear or cubic interpolation.
   /// \param uv  from 0 to 1; v points up. Coordinates outside are clamped to the border.
-  /// \param right_step, lower_step  the sides of the parallelogram, in units of uv.
-  Eigen::Array3f mean_at(const Eigen::Vector2d& uv, const Eigen::Vector2d& right_step,
-                         const Eigen::Vector2d& lower_step) const;
+  /// \param to_right_texel, to_lower_texel  the sides of the parallelogram, in units of uv.
+  Eigen::Array3f mean_at(const Eigen::Vector2d& uv, const Eigen::Vector2d& to_right_texel,
+                         const Eigen::Vector2d& to_lower_texel) const;
 
  private:
   /// A level of the pyramid: each texel is the mean of 4 by 4 texels of the next finer level. A
-  /// texel holds three values, each multiplied by the covered fraction of the texel's area, and
-  /// then this fraction.
+  /// texel holds three values, multiplied by the covered fraction of the texel's area, and this
+  /// fraction as its fourth number.
   struct Level {
     int width = 0, height = 0;
     std::vector<Eigen::Array4f> texels;
@@ -49,7 +49,7 @@ class FilteredTexture {
 
   TextureMap map_;
   std::vector<float>
-      decoded_values_;  ///< #65536: the number that each stored 16-bit value represents
+      decoded_values_;  ///< the number that each of the 65,536 stored values represents
   std::vector<bool> covered_;
   std::vector<Level> levels_;  ///< levels 1, 2, …; level 0 is the texture itself
 };

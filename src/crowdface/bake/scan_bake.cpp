@@ -25,8 +25,9 @@ constexpr int kTexelRows = 8;
 constexpr double kMaxDistanceMm = 3;
 /// Within this distance of the edge of the scan's data, the scan's colours fade out.
 constexpr double kFeatherMm = 3;
-/// Differences in tone continue into holes if they extend over at least this length of skin;
-/// smaller spots fade.
+/// At the rim of a hole in the scan, the tones of scan and template may differ. The difference
+/// continues into the hole if it extends over at least this length of skin. Smaller differences
+/// fade in the hole.
 constexpr double kMinToneSizeMm = 8;
 constexpr int kMaxSamples = 4;
 
@@ -113,8 +114,8 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
   ScanSurface::ClosestPoint place = surface_.nearest(skin_point.position, skin_point.normal,
                                                      kMinNormalCosine, kMaxDistanceMm, guess);
   if (place.triangle == kNoIndex) return seen;
-  // Find the surface along the normal, not the closest surface, by one step of a fixed-point
-  // iteration.
+  // Approximate the point at which the normal hits the scan: take one step of a fixed-point
+  // iteration that starts at the closest point.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
     const double height = (place.point - skin_point.position).dot(skin_point.normal);
@@ -144,11 +145,11 @@ std::optional<Eigen::Vector3d> ScanBake::mean_optical_density(const ScanArea& ar
 }
 
 Eigen::Vector3d ScanBake::template_optical_density(std::size_t picture, const Eigen::Vector2d& uv,
-                                                   const Eigen::Vector2d& right_step,
-                                                   const Eigen::Vector2d& lower_step) const {
+                                                   const Eigen::Vector2d& to_right_texel,
+                                                   const Eigen::Vector2d& to_lower_texel) const {
   const FilteredTexture* texture = template_.texture(picture);
   if (texture == nullptr) return Eigen::Vector3d::Zero();
-  return density_of(texture->mean_at(uv, right_step, lower_step));
+  return density_of(texture->mean_at(uv, to_right_texel, to_lower_texel));
 }
 
 std::vector<double> ScanBake::measure_scan_optical_densities(Positions& optical_densities) const {
@@ -165,8 +166,8 @@ std::vector<double> ScanBake::measure_scan_optical_densities(Positions& optical_
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
       const auto [one, other] = tangents_of(normal);
-      seen.area.right_step = mean_edge_length(v) * one;
-      seen.area.lower_step = mean_edge_length(v) * other;
+      seen.area.to_right_texel = mean_edge_length(v) * one;
+      seen.area.to_lower_texel = mean_edge_length(v) * other;
       const auto density = mean_optical_density(seen.area);
       if (!density) continue;
       optical_densities.row(v) = density->transpose();
@@ -176,8 +177,8 @@ std::vector<double> ScanBake::measure_scan_optical_densities(Positions& optical_
   return confidence;
 }
 
-/// Computes edge_weights_ from each vertex's distance to the nearest visible vertex without scan
-/// data.
+/// Computes edge_weights_, which fade the scan's colours out towards holes of the scan. The weight
+/// of a vertex depends on its distance to the nearest visible vertex that the scan does not cover.
 void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   constexpr double kNone = 0.5;
   const SkinMesh& skin = template_.wrap_template().skin;
@@ -212,7 +213,7 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
                         : 0);
   }
   Harmonics fit = Harmonics::Zero(), middle = Harmonics::Zero();
-  double scale = 0;  // residual scale of the weights; 0 in the first round: no reweighting
+  double scale = 0;  // residual scale of the weights; 0: no reweighting (first round)
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix<double, 9, 9> matrix = 1e-9 * Eigen::Matrix<double, 9, 9>::Identity();
     Harmonics right = Harmonics::Zero();
@@ -289,14 +290,14 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
     for (std::size_t k = 0; k < 3; ++k) sum += shares[k] * row3(values, texel.rows[k]);
     return sum;
   };
-  const auto shares_at = [&](double column, double row) -> std::array<double, 3> {
+  const auto barycentric_at = [&](double column, double row) -> std::array<double, 3> {
     const double b = triangle.second_barycentric[0] + column * triangle.second_barycentric[1] +
                      row * triangle.second_barycentric[2];
     const double c = triangle.third_barycentric[0] + column * triangle.third_barycentric[1] +
                      row * triangle.third_barycentric[2];
     return {1 - b - c, b, c};
   };
-  const std::array<double, 3> middle = shares_at(x, y);
+  const std::array<double, 3> middle = barycentric_at(x, y);
   Eigen::Vector3d scan = Eigen::Vector3d::Zero();
   double trust = 0, open = 0, found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -305,20 +306,21 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
   }
   // Textures are filtered over the area of the texel; vertex colours are sampled at several points
   // of this area.
-  const double side = std::max(texel.right_step.norm(), texel.lower_step.norm());
+  const double side = std::max(texel.to_right_texel.norm(), texel.to_lower_texel.norm());
   const int samples =
       colours_.has_vertex_colours()
           ? std::clamp(static_cast<int>(std::lround(side / scan_spacing_mm_)), 1, kMaxSamples)
           : 1;
   for (int j = 0; j < samples && trust > 0; ++j) {
     for (int i = 0; i < samples; ++i) {
-      const auto shares = shares_at(x + (i + 0.5) / samples - 0.5, y + (j + 0.5) / samples - 0.5);
+      const auto shares =
+          barycentric_at(x + (i + 0.5) / samples - 0.5, y + (j + 0.5) / samples - 0.5);
       ScanPoint seen = find_scan_point(
           {mix(positions_, shares), mix(normals_, shares).normalized(), open}, guess);
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
-      seen.area.right_step = texel.right_step / samples;
-      seen.area.lower_step = texel.lower_step / samples;
+      seen.area.to_right_texel = texel.to_right_texel / samples;
+      seen.area.to_lower_texel = texel.to_lower_texel / samples;
       const auto density = mean_optical_density(seen.area);
       if (!density) continue;
       scan += seen.confidence * *density;
@@ -340,7 +342,7 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
     if (shading_densities_.rows() > 0) scan -= mix(shading_densities_, middle);
     colour.density += share * scan;
   }
-  colour.filled_share = 1 - share;
+  colour.share_without_scan = 1 - share;
   return colour;
 }
 
@@ -350,7 +352,7 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   BakedPicture result{width, height, {}, {}, 0};
   result.srgb.resize(3 * count);
-  result.filled_mask.resize(count);
+  result.mask_without_scan.resize(count);
   struct Sums {
     std::array<std::uint64_t, 3> srgb = {};
     std::uint64_t filled = 0;
@@ -374,10 +376,10 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
           const Eigen::Vector3d first = row3(positions_, texel.rows[0]);
           const Eigen::Vector3d one = row3(positions_, texel.rows[1]) - first;
           const Eigen::Vector3d other = row3(positions_, texel.rows[2]) - first;
-          texel.right_step = texel.triangle->second_barycentric[1] * one +
-                             texel.triangle->third_barycentric[1] * other;
-          texel.lower_step = texel.triangle->second_barycentric[2] * one +
-                             texel.triangle->third_barycentric[2] * other;
+          texel.to_right_texel = texel.triangle->second_barycentric[1] * one +
+                                 texel.triangle->third_barycentric[1] * other;
+          texel.to_lower_texel = texel.triangle->second_barycentric[2] * one +
+                                 texel.triangle->third_barycentric[2] * other;
         }
         for (int x = span.begin; x < span.end; ++x) {
           Colour colour;
@@ -395,9 +397,9 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
             result.srgb[3 * at + static_cast<std::size_t>(c)] = byte;
             sum.srgb[static_cast<std::size_t>(c)] += byte;
           }
-          result.filled_mask[at] =
-              static_cast<std::uint8_t>(std::lround(255 * colour.filled_share));
-          sum.filled += result.filled_mask[at];
+          result.mask_without_scan[at] =
+              static_cast<std::uint8_t>(std::lround(255 * colour.share_without_scan));
+          sum.filled += result.mask_without_scan[at];
         }
       }
     }
@@ -412,8 +414,9 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
   for (std::size_t c = 0; c < 3; ++c) fill[c] = static_cast<std::uint8_t>(all.srgb[c] / covered);
   fill_uncovered(texels, std::span<const std::uint8_t>(fill), result.srgb.data());
   const std::array<std::uint8_t, 1> none = {0};
-  fill_uncovered(texels, std::span<const std::uint8_t>(none), result.filled_mask.data());
-  result.filled_share = static_cast<double>(all.filled) / (255.0 * static_cast<double>(covered));
+  fill_uncovered(texels, std::span<const std::uint8_t>(none), result.mask_without_scan.data());
+  result.share_without_scan =
+      static_cast<double>(all.filled) / (255.0 * static_cast<double>(covered));
   return result;
 }
 

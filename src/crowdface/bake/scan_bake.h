@@ -22,9 +22,9 @@ struct BakeOptions {
 struct BakedPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> srgb;  ///< height by width by 3
-  std::vector<std::uint8_t>
-      filled_mask;          ///< height by width: 255 where no colour comes from the scan
-  double filled_share = 0;  ///< mean of `filled_mask` over the covered texels, 0 to 1
+  /// height by width: 255 where no colour comes from the scan
+  std::vector<std::uint8_t> mask_without_scan;
+  double share_without_scan = 0;  ///< mean of `mask_without_scan` over the covered texels, 0 to 1
 };
 
 /// Transfers the colours of a scan to the texture layout of the template that was wrapped onto this
@@ -68,11 +68,11 @@ class ScanBake {
   /// The mean optical density of each colour channel of the template's texture over a texel; zero
   /// if the template has no texture.
   Eigen::Vector3d template_optical_density(std::size_t picture, const Eigen::Vector2d& uv,
-                                           const Eigen::Vector2d& right_step,
-                                           const Eigen::Vector2d& lower_step) const;
+                                           const Eigen::Vector2d& to_right_texel,
+                                           const Eigen::Vector2d& to_lower_texel) const;
   /// Measures the scan's optical density at each skin vertex.
   /// \param optical_densities  receives one row for each skin vertex, one column for each channel.
-  /// \return  #skin: confidence of each row, 0 to 1.
+  /// \return  the confidence of each row, 0 to 1.
   std::vector<double> measure_scan_optical_densities(Positions& optical_densities) const;
   void compute_edge_weights(const std::vector<double>& confidence);
   void estimate_shading(const std::vector<double>& confidence, const Positions& densities);
@@ -85,14 +85,14 @@ class ScanBake {
   struct Texel {
     const SurfaceTexels::Triangle* triangle = nullptr;
     std::array<std::uint32_t, 3> rows = {};  ///< rows of the triangle's corners in the skin
-    Eigen::Vector3d right_step;              ///< vector to the next texel on the right
-    Eigen::Vector3d lower_step;              ///< vector to the next texel below
+    Eigen::Vector3d to_right_texel;          ///< vector to the next texel on the right
+    Eigen::Vector3d to_lower_texel;          ///< vector to the next texel below
   };
   /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
   /// the template instead of the scan.
   struct Colour {
     Eigen::Vector3d density = Eigen::Vector3d::Zero();
-    double filled_share = 1;
+    double share_without_scan = 1;  ///< 0: only the scan's colour; 1: only the template's
   };
   Colour colour_of(const Texel& texel, std::size_t picture, int x, int y,
                    std::uint32_t& guess) const;
@@ -102,7 +102,7 @@ class ScanBake {
   const ScanColours& colours_;
   Positions positions_, normals_;     ///< #skin by 3
   double scan_spacing_mm_;            ///< mean distance between neighbouring vertices of the scan
-  std::vector<double> edge_weights_;  ///< #skin: 0 at the edge of the scan, 1 away from it
+  std::vector<double> edge_weights_;  ///< of each skin vertex: 0 at the scan's edge, 1 far from it
   Positions tone_differences_;  ///< #skin by 3: density of the scan minus that of the template
   /// #skin by 3 (red, green, blue): optical density that the scan's baked-in shading adds; no rows
   /// if the shading is kept

@@ -31,7 +31,7 @@ TextureMap map_of(const Image& image, TextureKind kind) {
                           MapCoding::slope_coding());
 }
 
-/// #texels of a picture: whether a polygon that uses this file covers the texel's centre.
+/// For each texel of an image file, whether a polygon that uses the file covers the texel's centre.
 std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, int height,
                            const Topology& topology, const TextureCoordinates& uvs) {
   std::vector<bool> covered(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -116,7 +116,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
   }
   FoundTextureFiles found = find_texture_files(mesh_, {&named, 1}).front();
   warnings_ = std::move(found.warnings);
-  for (std::string& warning : remove_unreadable_files(found))
+  for (std::string& warning : leave_out_unreadable_files(found))
     warnings_.push_back(std::move(warning));
   colours_ = read_mesh_maps(found.heads[0], TextureKind::kColour, topology, mesh_.uvs);
   if (mesh.textures.empty()) {
@@ -170,7 +170,8 @@ std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanA
       };
       const Eigen::Vector2d uv = first + area.shares[1] * second + area.shares[2] * third;
       return colours_.textures[file]->mean_at(uv - Eigen::Vector2d(tile[0], tile[1]),
-                                              in_uv(area.right_step), in_uv(area.lower_step));
+                                              in_uv(area.to_right_texel),
+                                              in_uv(area.to_lower_texel));
     }
   }
   if (has_vertex_colours()) {

@@ -20,9 +20,10 @@ namespace crowdface {
 /// The textures of one kind, such as colour maps, that the polygons of a mesh use.
 struct MeshMaps {
   std::vector<std::unique_ptr<const FilteredTexture>> textures;
-  std::vector<std::uint32_t> texture_of_face;  ///< #F, index into `textures` or kNoIndex; or empty
+  /// for each polygon, an index into `textures`, or kNoIndex; may be empty
+  std::vector<std::uint32_t> texture_of_face;
   std::vector<std::array<std::int32_t, 2>>
-      tile_of_face;  ///< #F: lower corner of the polygon's unit square
+      tile_of_face;  ///< lower corner of each polygon's unit square of texture space
 };
 
 /// Reads texture files, and marks the texels that the polygons cover.
@@ -35,7 +36,7 @@ struct ScanArea {
   std::uint32_t triangle = 0;         ///< index of a triangle of the scan
   std::array<double, 3> shares = {};  ///< barycentric coordinates of the point
   /// Vectors from the texel to its right neighbour and to its lower neighbour, in the scan's frame.
-  Eigen::Vector3d right_step, lower_step;
+  Eigen::Vector3d to_right_texel, to_lower_texel;
 };
 
 /// The colours of a scan. If the scan has textures, the colours come from the textures; otherwise

@@ -15,8 +15,9 @@ namespace crowdface {
 Positions target_positions(const HeadSet& heads, const Recipe& recipe);
 
 /// Blends the face of a recipe with exact smoothing levels, before mirroring. Applies the filter
-/// once for each band of each region. The formula is Eq. 7, in the second form below; level_shares
-/// generalises it to several bands. With C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k C̄_k,
+/// once for each band of each region. The formula is Eq. 7, in the second form below;
+/// weights_by_level generalises it to several bands. With C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k
+/// C̄_k,
 ///
 ///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ]
 ///       = B + Σ_k α_k [ S_{L_k} D_k − D_k ]

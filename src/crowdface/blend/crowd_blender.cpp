@@ -65,15 +65,15 @@ CrowdBlender::CrowdBlender(const HeadSet& heads, std::vector<HeadSmoothing> leve
   require(patches_.vertex_count() == vertices && regions.alpha.rows() == vertices,
           "blend: patches of ", patches_.vertex_count(), " vertices and masks of ",
           regions.alpha.rows(), " for ", vertices);
-  first_field_.push_back(0);
+  field_offsets_.push_back(0);
   for (const HeadSmoothing& head : levels_) {
-    first_field_.push_back(first_field_.back() + static_cast<std::size_t>(head.fields.rank));
+    field_offsets_.push_back(field_offsets_.back() + static_cast<std::size_t>(head.fields.rank));
   }
   find_regions();
 }
 
 void CrowdBlender::find_regions() {
-  first_region_.push_back(0);
+  region_offsets_.push_back(0);
   for (std::size_t patch = 0; patch < patches_.size(); ++patch) {
     for (Index k = 0; k < regions_.alpha.cols(); ++k) {
       const auto acts = [&](std::uint32_t v) { return regions_.alpha(v, k) != 0; };
@@ -81,13 +81,13 @@ void CrowdBlender::find_regions() {
         patch_regions_.push_back(static_cast<std::uint32_t>(k));
       }
     }
-    first_region_.push_back(patch_regions_.size());
+    region_offsets_.push_back(patch_regions_.size());
   }
 }
 
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
   std::vector<double> sums(field_count(), 0.0);
-  for (const LevelShares& at : level_shares(recipe, region)) {
+  for (const LevelWeights& at : weights_by_level(recipe, region)) {
     // A head may be both target and source, or lend detail to adjacent bands. Add up the head's
     // weights before multiplying by the functions φ. Then weights that cancel give exactly zero,
     // and a target that is blended with itself does not change.
@@ -97,7 +97,7 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
     }
     for (std::size_t h = 0; h < shares.size(); ++h) {
       if (shares[h] == 0) continue;
-      std::size_t f = first_field_[h];
+      std::size_t f = field_offsets_[h];
       for (const double function : levels_[h].functions(at.level)) {
         sums[f++] += shares[h] * function;  // Eq. 5
       }
@@ -158,7 +158,7 @@ class CrowdBlender::Crowd {
   std::vector<std::vector<float>> coefficients_;
   /// #regions by #faces/kMaxColumns: which fields are used by each group of kMaxColumns faces
   std::vector<std::vector<NonzeroFlags>> used_;
-  /// #regions: which fields are used by at least one face
+  /// for each region, which fields are used by at least one face
   std::vector<NonzeroFlags> used_by_any_face_;
   std::set<Index> targets_;
 };
@@ -191,11 +191,11 @@ class CrowdBlender::PatchBlender {
   }
 
  private:
-  /// Finds for each row of the patch which field the row contains, for all heads.
+  /// Lists the field that each row of the patch contains, head by head.
   void find_fields() {
     fields_.clear();
     for (std::size_t h = 0; h < patch_.field_counts.size(); ++h) {
-      const auto first = static_cast<std::uint32_t>(blender_.first_field_[h]);
+      const auto first = static_cast<std::uint32_t>(blender_.field_offsets_[h]);
       for (std::uint32_t p = 0; p < patch_.field_counts[h]; ++p) fields_.push_back(first + p);
     }
   }
@@ -278,8 +278,8 @@ class CrowdBlender::PatchBlender {
   /// \param at_skeleton  `count` by values_per_field(): x of all skeleton vertices, then y, then z.
   void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
     float* added = vertex_sums_ + first_face * kPatchValues;
-    // pointer to sums of coordinate i: x, y, z of the first face have i = 0, 1, 2, then the next
-    // face follows
+    // Returns a pointer to the sums of one coordinate of one face. i = 0, 1, 2 are x, y, z of the
+    // first face; i = 3, 4, 5 are x, y, z of the second face; and so on.
     const auto coordinate = [&](std::size_t i) {
       return at_skeleton + i / kCoordinates * patch_.values_per_field() +
              i % kCoordinates * patch_.stored_vertex_count;

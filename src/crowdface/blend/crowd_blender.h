@@ -16,8 +16,8 @@ namespace crowdface {
 ///
 ///     A = B + Σ_k α_k Σ_h Σ_p [ Σ_L s_kLh φ_hp(L) ] c_hp
 ///
-/// The weights s_kLh come from level_shares; with one band, the weight at level L_k is s_kh = τ_h −
-/// e_k ω̂_kh. The formula follows from Eq. 7 by C − S̃_L C = −Σ_p φ_p c_p(C).
+/// The weights s_kLh come from weights_by_level; with one band, the weight at level L_k is s_kh =
+/// τ_h − e_k ω̂_kh. The formula follows from Eq. 7 by C − S̃_L C = −Σ_p φ_p c_p(C).
 ///
 /// For M faces, each region of a patch takes two matrix products. The first product multiplies the
 /// fields of all heads at the patch's skeleton by a matrix with M columns of coefficients. The
@@ -30,7 +30,7 @@ namespace crowdface {
 class CrowdBlender {
  public:
   /// \param heads           must outlive this object.
-  /// \param levels          #heads: the fitted levels of each head.
+  /// \param levels          the fitted levels of each head, one entry per head.
   /// \param patches         the compressed fields of all heads.
   /// \param regions         α, #V by #regions, where rows sum to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
@@ -60,7 +60,7 @@ class CrowdBlender {
   /// Returns the regions whose weight is nonzero at one or more vertices of the patch.
   std::span<const std::uint32_t> regions_of_patch(std::size_t patch) const {
     return std::span(patch_regions_)
-        .subspan(first_region_[patch], first_region_[patch + 1] - first_region_[patch]);
+        .subspan(region_offsets_[patch], region_offsets_[patch + 1] - region_offsets_[patch]);
   }
   /// Returns the coefficient Σ_L s_kLh φ_hp(L) of each field c_hp of each head, in region k of a
   /// face (see the formula of the class).
@@ -69,18 +69,18 @@ class CrowdBlender {
   template <class Wanted>
   void blend_patches(const Wanted& wanted, std::span<const Recipe* const> recipes,
                      std::span<Positions> results) const;
-  std::size_t field_count() const { return first_field_.back(); }
+  std::size_t field_count() const { return field_offsets_.back(); }
 
   const HeadSet& heads_;
   std::vector<HeadSmoothing> levels_;
   FieldPatches patches_;
   const RegionWeights& regions_;
   /// #heads + 1: for each head, the index of its first field among the fields of all heads
-  std::vector<std::size_t> first_field_;
+  std::vector<std::size_t> field_offsets_;
   /// the regions of all patches, one patch after the other
   std::vector<std::uint32_t> patch_regions_;
   /// #patches + 1: for each patch, the index of its first entry in patch_regions_.
-  std::vector<std::size_t> first_region_;
+  std::vector<std::size_t> region_offsets_;
 };
 
 }  // namespace crowdface

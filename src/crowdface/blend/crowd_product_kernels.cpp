@@ -44,8 +44,8 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
 /// Computes kVectors SIMD vectors of each product, beginning at element `begin`. All sums stay in
 /// registers.
 ///
-/// \param alpha  null: stores the products in `products`; otherwise adds alpha·product to
-///               `products`.
+/// \param alpha  If null, the products are stored in `products`. Otherwise alpha·product is added
+///               to `products`.
 template <std::size_t kOfColumns, std::size_t kVectors, class Number>
 HWY_INLINE void multiply_some(const MatrixRows<Number>& rows, const float* const* columns,
                               const float* alpha, std::size_t begin, float* const* products) {

@@ -52,17 +52,17 @@ double mirrored_weight(const Recipe& recipe) {
   return mirrored_weight(recipe.asymmetry, recipe.mirrored);
 }
 
-std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
-                                      Extrapolation extrapolation) {
+std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t region,
+                                           Extrapolation extrapolation) {
   const RegionRecipe& bands = recipe.regions[region];
-  std::vector<LevelShares> levels;
-  // For the first band, the weights of the heads in B; for every later band b, the weights in
-  // e_{b−1} C̄_{b−1}.
+  std::vector<LevelWeights> levels;
+  // The weights of the heads in the first term of G_b (see the declaration): B for the first band,
+  // e_{b−1} C̄_{b−1} for every later band b.
   std::vector<SourceWeight> coarser = target_head_weights(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);
     const double e = extrapolation == Extrapolation::kNone ? 1 : band.extrapolation;
-    LevelShares& level = levels.emplace_back(LevelShares{band.iterations, std::move(coarser)});
+    LevelWeights& level = levels.emplace_back(LevelWeights{band.iterations, std::move(coarser)});
     coarser.clear();
     for (const SourceWeight& source : band.weights) {
       level.shares.push_back({source.head, -e * source.weight});
@@ -77,7 +77,7 @@ std::vector<SourceWeight> target_head_weights(const Recipe& recipe) {
   return recipe.mixture;
 }
 
-void set_target(Recipe& recipe, std::vector<SourceWeight> shares) {
+void set_target_heads(Recipe& recipe, std::vector<SourceWeight> shares) {
   require(!shares.empty(), "a target of no head");
   const auto largest =
       std::max_element(shares.begin(), shares.end(),

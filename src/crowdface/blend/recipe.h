@@ -51,8 +51,9 @@ const BandRecipe& band_of(const RegionRecipe& region, std::size_t band);
 /// The parameters of one new face. Together with the heads and the regions, a recipe determines the
 /// face's mesh to the bit.
 struct Recipe {
-  /// Index of the head B of Eq. 2, on which the face is built. If B is a mixture of heads, the face
-  /// takes its parts and the layout of its file from this head of the mixture.
+  /// Index of the target head B of Eq. 2, on which the face is built. If B is a mixture of heads,
+  /// `target` is the head of the mixture from which the face takes its parts and the layout of its
+  /// file.
   Index target = 0;
   std::vector<RegionRecipe> regions;  ///< one recipe for each region of the mask
   /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, not zero, summing to one. If
@@ -68,16 +69,16 @@ struct Recipe {
   bool mirrored = false;  ///< whether the whole face, including its parts, is mirrored
 };
 
-/// Returns whether neither mirroring nor asymmetry changes the blended face: it is not mirrored,
-/// and its asymmetry is 1.
+/// Returns whether the blended face stays as it is, because it is not mirrored and its asymmetry is
+/// 1.
 bool is_unmirrored(const Recipe& recipe);
 /// Returns the weight with which the face's mirror image is mixed into the face, see
 /// mirrored_weight(double, bool).
 double mirrored_weight(const Recipe& recipe);
 
 /// A smoothing level of one region, the heads that are smoothed to this level, and the weights of
-/// these heads; see level_shares.
-struct LevelShares {
+/// these heads; see weights_by_level.
+struct LevelWeights {
   std::uint64_t level = 0;
   /// s_h in the order in which they are summed; a head may occur twice
   std::vector<SourceWeight> shares;
@@ -87,27 +88,28 @@ struct LevelShares {
 enum class Extrapolation { kAsGiven, kNone };
 
 /// Returns the levels of a region, and the weights of the heads that are smoothed to each level.
-/// Let the bands b = 1 … n begin at levels L_1 ≥ … ≥ L_n; each band ends where the next begins,
-/// with L_{n+1} = 0. With C̄_b = Σ_i ω̂_bi C_i, the region's surface is
+/// The bands b = 1 … n begin at levels L_1 ≥ … ≥ L_n. Each band ends where the next begins, and
+/// L_{n+1} = 0. B is the target, S_L is the smoothing to level L, and C̄_b = Σ_i ω̂_bi C_i is the
+/// weighted mean of the heads C_i that lend band b. The region's surface is
 ///
 ///     S_{L_1} B + Σ_b e_b (S_{L_{b+1}} − S_{L_b}) C̄_b = B + Σ_b (S_{L_b} − 1) G_b,
 ///     G_1 = B − e_1 C̄_1,   G_b = e_{b−1} C̄_{b−1} − e_b C̄_b
 ///
 /// Adjacent bands with equal weights and factors act as one band. A single band gives Eq. 7.
 /// \return  for each band: L_b and the weights of the heads in G_b.
-std::vector<LevelShares> level_shares(const Recipe& recipe, std::size_t region,
-                                      Extrapolation extrapolation = Extrapolation::kAsGiven);
+std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t region,
+                                           Extrapolation extrapolation = Extrapolation::kAsGiven);
 
 /// Returns the weights τ_h of the heads in B: the weights of the mixture or, without a mixture,
 /// weight 1 for the target.
 std::vector<SourceWeight> target_head_weights(const Recipe& recipe);
 
-/// Builds a recipe's face on a mixture of heads, or on a single head (B in Eq. 2): sets the
-/// recipe's `target` and `mixture`. The target is the head with the largest weight; if several
-/// heads have the largest weight, the first of these.
+/// Sets the heads on which a recipe's face is built (B in Eq. 2): sets `mixture`, or leaves it
+/// empty for a single head, and sets `target` to the head with the largest weight. If several heads
+/// have the largest weight, the first of these becomes the target.
 ///
 /// \param shares  weights by ascending head, above zero, summing to one.
-void set_target(Recipe& recipe, std::vector<SourceWeight> shares);
+void set_target_heads(Recipe& recipe, std::vector<SourceWeight> shares);
 
 /// Returns B = Σ_h τ_h B_h.
 ///
@@ -132,11 +134,10 @@ Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
 /// - Printed (as in the paper): ω_0 occurs only in the denominator and is not returned, so the
 ///   returned weights sum to less than one.
 ///
-/// \param anchors      #heads
+/// \param anchors      one anchor per head.
 /// \param sources      heads that lend detail, ascending.
-/// \param max_sources  how many of the largest weights to keep (and to normalise again), not
-///                     counting ω_0, which is always kept. If weights are equal, the first are
-///                     kept.
+/// \param max_sources  number of weights to keep before the normalisation, the largest first; of
+///                     equal weights, the first. ω_0 is always kept and does not count.
 std::vector<SourceWeight> weights_at_position(const std::vector<PlanePoint>& anchors, Index target,
                                               const std::vector<Index>& sources,
                                               const PlanePoint& position,

@@ -38,8 +38,8 @@ class AgedHeads {
   Index nearest_to(Index head) const {
     return *std::ranges::min_element(heads_, {}, [&](Index other) { return rank(head, other); });
   }
-  /// Moves a fraction of the weight of each head outside the age class to that head's nearest head
-  /// in the class.
+  /// Moves a fraction of each head's weight to the nearest head in the age class. Heads in the age
+  /// class keep their weight.
   std::vector<SourceWeight> with_moved(const std::vector<SourceWeight>& weights,
                                        double fraction) const {
     std::map<Index, double> sums;

@@ -15,13 +15,13 @@ struct HeadAnchorsAndTags {
   const HeadTags& tags;                    ///< the tags of each head, or empty
 };
 
-/// Ages a face: in every region, the fraction |age| of the weight of each head moves to the nearest
-/// head tagged old (age above 0) or young (below 0); heads with this tag keep their weight. The
-/// paper, too, transfers an older person's detail to a younger person (Fig. 2). The nearest head
-/// has the same sex, then the most tags in common, then the smallest distance on the plane:
-/// different people take the detail of different heads, so they remain different people. A band's
-/// `ageing` is a factor on the fraction. The weights no longer correspond to a position, so the
-/// positions are removed.
+/// Ages a face. In every region, moves the fraction |age| of each head's weight to the nearest head
+/// tagged old (age above 0) or young (age below 0). Heads with this tag keep their weight. The key
+/// `ageing` of a band is a factor on the fraction. The nearest head is chosen first by equal sex,
+/// then by the number of common tags, then by the distance between the anchors. So different people
+/// take the detail of different heads and remain different people. (The paper, too, transfers an
+/// older person's detail to a younger person, Fig. 2.) Removes the positions of the bands, because
+/// the changed weights no longer correspond to a position.
 ///
 /// \param sampling  parameters of the face's group, or of the crowd.
 /// \throws BrokenPrecondition if no head has the tag.

@@ -143,11 +143,11 @@ class Redrawing {
     return points;
   }
 
-  /// Returns possible minimum distances between the new face and the face that is rejected (in this
-  /// review and in earlier reviews), largest first. The redraw tries each distance in turn, because
-  /// a family or locked bands may make the largest distance impossible.
+  /// Returns minimum distances between the new face and all rejected versions of the face, largest
+  /// first. The redraw tries the distances one after the other, because a family or locked bands
+  /// may make the largest distance impossible.
   ///
-  /// \param own  Points of the face's family.
+  /// \param own  Points of the other members of the face's family.
   std::vector<double> distances_to_rejected(const FamilyPlan* family,
                                             const std::vector<FaceSpace::Point>& own,
                                             const ReviewMark& mark) const {

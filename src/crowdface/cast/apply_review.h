@@ -12,8 +12,8 @@ namespace crowdface {
 /// All other faces stay as they are.
 ///
 /// - A redrawn face keeps the changes of earlier reviews.
-/// - If a change of an earlier review has already redrawn the face, then a rejection with locked
-///   bands has the same effect as a change with these locked bands (FaceChange::locked_bands).
+/// - If a change of an earlier review has redrawn the face, a rejection with locked bands acts like
+///   a change with these locked bands (FaceChange::locked_bands).
 ///
 /// \param review_index  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.

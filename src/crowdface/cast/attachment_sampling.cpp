@@ -200,8 +200,8 @@ class AttachmentChooser {
   }
 
   /// Returns whether the second of two successive faces must not look like the first. A sampled
-  /// face is compared only with sampled faces, because it may have another neighbour in a larger
-  /// crowd: more sampled faces can come between it and a face that is not sampled.
+  /// face is compared only with sampled faces, because a larger crowd can insert sampled faces
+  /// between a sampled face and a face that is not sampled.
   static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
@@ -272,9 +272,9 @@ class AttachmentChooser {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Keeps only items in the colour of another item of the face. If there are none, keeps items in
-  /// the colour of a parent's items or, without parents, of the family's items. If there are none
-  /// either, keeps all items.
+  /// Keeps only items in the colour of another item of the face. If no item has this colour, keeps
+  /// only items in the colour of a parent's items or, without parents, of the family's items. If no
+  /// item has this colour either, keeps all items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -298,7 +298,7 @@ class AttachmentChooser {
       std::reverse(parents.begin(), parents.end());
     for (const std::string& parent : parents) {
       const std::string colour = colour_of(kind, parent);
-      if (!contains(tags_of(head), "old") && is_of_age(kind, colour)) continue;
+      if (!contains(tags_of(head), "old") && is_only_for_old_faces(kind, colour)) continue;
       if (take(colour)) return;
       Items others = matching_items(wearable(kind, head, colour),
                                     [&](const auto& item) { return item.colour == colour; });
@@ -316,8 +316,8 @@ class AttachmentChooser {
     return head == options_.head_names.end() ? -1 : head - options_.head_names.begin();
   }
 
-  /// Returns whether only old faces may wear items of this kind and colour, such as grey hair.
-  bool is_of_age(const std::string& kind, const std::string& colour) const {
+  /// Returns whether only old faces may wear items of this kind in this colour, such as grey hair.
+  bool is_only_for_old_faces(const std::string& kind, const std::string& colour) const {
     for (std::size_t head = 0; head < options_.tags.size(); ++head) {
       if (contains(options_.tags[head], "old")) continue;
       const Items items = wearable(kind, static_cast<Index>(head));
@@ -414,8 +414,9 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   // by face id: index in `versions_by_id` of the version that got attachments last
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
-  // Process the replacements of rejected faces in the order of the reviews: each replacement comes
-  // after all faces of the crowd that was reviewed.
+  // Chooses attachments for the replacements of the faces that were rejected in a crowd of at most
+  // `size` faces. A replacement gets its attachments after all faces of the crowd in which the
+  // review rejected the original.
   const auto replace_up_to = [&](std::size_t size) {
     for (; next < rejected.size(); ++next) {
       if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;

@@ -24,8 +24,7 @@ struct AttachmentOptions {
   /// of this kind, name or colour. A kind has either a quota of its own or quotas for some of its
   /// names and colours.
   std::map<std::string, double> quotas = {};
-  std::vector<std::string> head_names =
-      {};  ///< names of the heads; some parents of families are heads
+  std::vector<std::string> head_names = {};  ///< names of the heads, because a parent may be a head
   /// By group: the fraction of the faces that have each named hair colour, before age makes hair
   /// grey. The key "" is for groups without an entry and for faces without a group. Children
   /// inherit their parents' colours. Any other face without an entry gets its colour from the tags
@@ -34,18 +33,19 @@ struct AttachmentOptions {
   std::set<std::string> twin_families = {};  ///< names of the families whose members are twins
 };
 
-/// Chooses the attachments of each face: names, in the order of the items, at most one per kind.
-/// The random numbers for a kind depend only on the kind and on the face's index (or its id, if the
-/// face is not sampled). So a choice does not change if faces or other kinds are added.
+/// Sets the attachments of each face: the names of at most one item of each kind, in the order of
+/// the items. The random numbers for a kind depend only on the kind and on the face's index (or its
+/// id, if the face is not sampled). So a choice does not change if faces or other kinds are added.
 /// docs/attachments.md explains the rules:
 ///
-/// - Colours: if an earlier item of the face has a colour, later kinds use this colour where the
-/// face may wear it. Otherwise the colour comes from a parent or from the family. A child may wear
-/// a parent's colour even if the child's own tags name another colour. A child inherits a colour
-/// that requires the tag `old` (grey) only if the child itself is old.
+/// - Colours: if an item of an earlier kind gave the face a colour, the items of later kinds have
+///   the same colour, provided that the face may wear such items. Otherwise the colour comes from a
+///   parent or from the family. A child may wear a parent's colour even if the child's own tags
+///   name another colour. A child inherits a colour that requires the tag `old` (grey) only if the
+///   child itself is old.
 /// - Quotas: each quota determines in advance which of a group's sampled faces wear the item,
-///   independently of all other choices. If such a face may not wear the item, its items are chosen
-///   as for the faces that wear no quota's item.
+///   independently of all other choices. If a chosen face may not wear the item, the face is
+///   treated like the faces that no quota chose.
 /// - Equal use: among the sampled faces on one head, and among the members of one family, an item
 ///   is skipped once it has reached its share of the earlier faces. If several items are left,
 ///   sampled faces also skip items that have reached their share of all sampled faces.
@@ -66,8 +66,8 @@ struct AttachmentOptions {
 /// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
 /// \param rejected  Faces that reviews rejected, in order. Their replacements are processed after
 ///                  all faces of the crowd that was reviewed, so that no other face changes.
-/// \param crowd_size_at_rejection  #rejected: size of the crowd that was reviewed. Empty: the whole
-///                                 crowd.
+/// \param crowd_size_at_rejection  for each rejected face, the size of the crowd that was reviewed.
+///                                 Empty: the whole crowd.
 void choose_attachments(const AttachmentOptions& options, const std::vector<int>& groups,
                         std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
                         const std::vector<std::size_t>& crowd_size_at_rejection = {});

@@ -26,7 +26,7 @@ void copy_bands(std::span<const std::size_t> band_indices, const Recipe& from, R
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     RegionRecipe& region = recipe.regions[k];
     const std::size_t bands = band_count(region);
-    const BandRecipe* finer = nullptr;  // the copied band that is next finer than the current band
+    const BandRecipe* finer = nullptr;  // the nearest finer band that was copied
     for (std::size_t b = bands; b-- > 0;) {
       BandRecipe& band = band_of(region, b);
       if (taken.contains(k * bands + b)) {

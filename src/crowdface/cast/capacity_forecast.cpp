@@ -10,8 +10,8 @@ namespace {
 /// values are 1.6 to 6.5, in crowds of 360 to 7,700 faces (docs/method.md).
 constexpr double kFacesTimesChance = 4;
 constexpr std::uint64_t kMinPlaced = 256;
-/// The forecast begins when the last but one complete range of faces (see CapacityForecast) has
-/// rejected at least this many candidates because they were too near to the crowd.
+/// The forecast compares the last two complete ranges of faces (see CapacityForecast). In the
+/// earlier range, at least this many candidates must have been too near to the crowd.
 constexpr std::uint64_t kMinTooNear = 100;
 
 }  // namespace

@@ -66,13 +66,13 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
 }
 
 /// Casts the sampled faces `from` … `to`. Their minimum distances may differ, see
-/// DiversityOptions::min_distance_of_first_mm.
+/// DiversityOptions::min_distance_mm_by_last_face.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceDistribution>& kinds,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
                     CrowdSoFar& crowd, PopulationBalance& population,
                     const FaceJoinedCallback& on_face_joined, CastingResult& result) {
-  const auto& distances = casting.diversity.min_distance_of_first_mm;
+  const auto& distances = casting.diversity.min_distance_mm_by_last_face;
   while (from <= to && !result.shortfall) {
     const auto same = distances.lower_bound(from);
     const std::uint64_t last = same == distances.end() ? to : std::min(to, same->first);
@@ -131,7 +131,7 @@ void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result
   if (!result.shortfall) find_nearest_neighbours(judge, result, known);
 }
 
-/// Casts more sampled faces after a review has been applied: up to and including face `to`.
+/// Casts the sampled faces `from` … `to`, after a review has been applied.
 void grow(const CastingOptions& casting, const FaceJudge& judge,
           const std::vector<FaceDistribution>& kinds, std::uint64_t from, std::uint64_t to,
           PopulationBalance& population, const FaceJoinedCallback& on_face_joined,

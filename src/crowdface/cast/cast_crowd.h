@@ -9,10 +9,10 @@ namespace crowdface {
 
 /// Casts a crowd: first the hand-written recipes in their order, then the families, then the
 /// sampled faces. Each face is judged before it joins the crowd. Applies the reviews in their
-/// order: each review as soon as the faces that it reviews are cast or, with `mode: spread`, all
-/// reviews after the last face. Stores each face's nearest head and nearest earlier face. The
-/// number of attempts is bounded. If constraints cannot be met, the result has a shortfall; no
-/// exception is thrown.
+/// order. With first-fit casting, each review is applied as soon as the reviewed faces are cast.
+/// With `mode: spread`, all reviews are applied after the last face. Stores each face's nearest
+/// head and nearest earlier face. The number of attempts is bounded. If constraints cannot be met,
+/// the result has a shortfall; no exception is thrown.
 ///
 /// \param on_face_joined  Called after each sampled face.
 /// \throws InvalidInput if a family or a review names a face that does not exist.

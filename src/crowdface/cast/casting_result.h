@@ -37,7 +37,7 @@ struct AppliedChange {
   /// If the change turns the face into a variant of another face: the other face, as it was before
   /// the change. Otherwise null.
   std::shared_ptr<const ChangedFace> variant_of;
-  /// smallest distance between the changed face and the faces before it in the plan
+  /// smallest allowed distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;
 };
 
@@ -47,8 +47,8 @@ struct ChangedFace {
   FaceSpace::Point point;
   /// in the order of application: first the config's changes
   std::vector<AppliedChange> changes = {};
-  TraitLimits traits = {};  ///< the changes' limits on the measurements, combined
-  /// whether the face was redrawn, and so shows another person than before
+  TraitLimits traits = {};  ///< the limits on the measurements that all changes together request
+  /// whether the face was redrawn, so that it now shows another person
   bool is_other_person = false;
   /// the other face, if this face is a variant of another face
   std::shared_ptr<const ChangedFace> variant_of = {};
@@ -58,13 +58,13 @@ struct ChangedFace {
 struct CastingResult {
   /// first the faces of recipes, then of families, then the sampled faces 1 … count
   std::vector<FacePlan> crowd;
-  std::vector<FaceSpace::Point> points;  ///< #crowd: each face's point in the face space
+  std::vector<FaceSpace::Point> points;  ///< each face's point in the face space
   std::vector<int> group_indices;        ///< group of each sampled face, or −1
   std::vector<FamilyPlan> families;
   /// faces that reviews rejected, in the order of rejection; a face and its replacement have the
   /// same id
   std::vector<FacePlan> rejected;
-  /// #rejected: size of the crowd when the face was rejected
+  /// for each rejected face, the size of the crowd when the face was rejected
   std::vector<std::size_t> crowd_size_at_rejection;
   /// Changed faces, by index in `crowd`. (`crowd` itself holds the faces without their changes, and
   /// no other face depends on a change.)

@@ -62,7 +62,7 @@ class ColourDrawing {
 
  private:
   const ColourOptions& draw_;
-  /// #heads: the tags that `alike` compares, sorted
+  /// for each head, the tags that `alike` compares, sorted
   std::vector<std::vector<std::string>> compared_tags_;
 };
 

@@ -14,20 +14,21 @@ namespace crowdface {
 /// Parameters for choosing colours (textures) at random, independently of shapes.
 struct ColourOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> head_names;  ///< names of the heads; some parents of families are heads
+  std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
   HeadTags tags;                        ///< the tags of each head, or empty
   /// The tags that must be equal on the head that lends colours and on the face's typical head.
   /// Empty optional: all tags.
   std::optional<std::vector<std::string>> tags_to_match;
 };
 
-/// Gives each face its own colours, Recipe::colours: a mixture of one random head (uniform among
-/// the heads whose tags match those of the face's typical head) and at most one half of a second
-/// head of this kind. Random numbers depend only on the face's index (or on its id, if the face is
-/// not sampled), so the colours do not depend on other faces. A family has one complexion: a face
-/// with parents gets half of each parent's colours, without the heads whose tags do not match the
-/// face. Members of a family without parents share colours that are chosen once for the family.
-/// Faces that already have colours keep these.
+/// Sets each face's own colours, Recipe::colours. The colours are a mixture of two random heads;
+/// the second head has a weight of at most one half. Both heads are drawn uniformly from the heads
+/// whose tags match the tags of the face's typical head. Random numbers depend only on the face's
+/// index (or on its id, if the face is not sampled), so the colours do not depend on other faces. A
+/// family has one complexion: a face with parents gets half of each parent's colours, but without
+/// the heads whose tags do not match the tags of the face's typical head. The members of a family
+/// without parents share colours that are chosen once for the family. Faces that already have
+/// colours keep their colours.
 ///
 /// \param crowd  In the order of the plan: parents before children.
 void choose_colours(const ColourOptions& options, std::vector<FacePlan>& crowd);

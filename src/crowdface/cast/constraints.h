@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The constraints on faces: a table with the key, limit and advice of each.
+// The constraints on faces: a table with the config key, the limit and the advice for each.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,9 @@ enum class Reason {
   kFlipped,             ///< part of the skin is turned inside out or collapsed
   kStretched,           ///< part of the skin is stretched too far
   kIntersecting,        ///< the new face's skin intersects itself where the target's skin does not
-  kGap,  ///< the gap between lips (or between similar parts of the skin) is wider than in any head
+  /// the gap between the lips, or between other parts of the skin that nearly touch, is wider than
+  /// in any head
+  kGap,
   kExposed,   ///< the back side of the skin is visible near an intersection
   kFamily,    ///< too near to another family, or breaks a distance limit within its own family
   kRejected,  ///< too similar to a face that a review rejected
@@ -50,8 +52,7 @@ struct Constraint {
   /// first.
   std::span<const std::string_view> advice;
 
-  /// Returns whether the limit is a minimum distance. If so, more faces fit when the
-  /// user lowers it.
+  /// Returns whether the limit is a minimum distance. If so, a lower limit lets more faces fit.
   bool is_distance() const { return diversity_limit != nullptr && unit == " mm"; }
 };
 const Constraint& constraint_of(Reason reason);

@@ -29,9 +29,9 @@ class CrowdSoFar {
   Index first_sampled() const { return first_sampled_; }
   const std::vector<FacePlan>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }
-  /// Moves the faces out of this object; `take_points` moves the points. After one of these calls,
-  /// only the other of the two may be called.
+  /// Moves the faces out of this object. Afterwards, only `take_points` may be called.
   std::vector<FacePlan> take_faces() { return std::move(faces_); }
+  /// Moves the points out of this object. Afterwards, only `take_faces` may be called.
   std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
   const NearestFaceSearch& nearest_search() const { return nearest_search_; }
 

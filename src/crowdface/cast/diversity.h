@@ -22,7 +22,7 @@ struct DiversityOptions {
   /// kFirstFit: values that replace `min_distance_mm` for the first sampled faces. The key is the
   /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and
   /// families have 1.2 mm, faces 25 … 40 have 1 mm, and later faces have `min_distance_mm`.
-  std::map<std::uint64_t, double> min_distance_of_first_mm = {};
+  std::map<std::uint64_t, double> min_distance_mm_by_last_face = {};
   /// smallest distance of a face from every input head (key `min_distance_to_faces`)
   double min_distance_to_heads_mm = 0;
   /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
@@ -31,11 +31,12 @@ struct DiversityOptions {
   double max_weight = 1;  ///< largest weight that one head may have in one region
   /// number of candidates that are tried for one face before casting gives up
   int max_attempts = 1000;
-  /// A face whose distance from a head is smaller than this counts as the same person.
+  /// A face whose distance from a head is smaller than this value counts as the same person as the
+  /// head.
   static constexpr double kSamePersonMm = 0.5;
-  /// Casting rejects a candidate that is the same person as a head (see kSamePersonMm) if it is one
-  /// of this many first candidates for a face. Casting accepts such a candidate later, because some
-  /// configs yield only faces near heads.
+  /// Number of first candidates for a face that casting rejects if they are the same person as a
+  /// head (see kSamePersonMm). Casting accepts later candidates even if they are the same person as
+  /// a head, because some configs yield only faces near heads.
   static constexpr std::uint32_t kCandidatesCheckedForSamePerson = 100;
   /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;
@@ -51,8 +52,8 @@ struct DiversityOptions {
   ///
   /// \param index  number of the sampled face, from 1; 0: a face of a family.
   double min_distance_mm_of(std::uint64_t index) const {
-    const auto first = min_distance_of_first_mm.lower_bound(index);
-    return first == min_distance_of_first_mm.end() ? min_distance_mm : first->second;
+    const auto first = min_distance_mm_by_last_face.lower_bound(index);
+    return first == min_distance_mm_by_last_face.end() ? min_distance_mm : first->second;
   }
   /// Returns a copy of these options with the `min_distance_mm` of one sampled face.
   DiversityOptions options_of_face(std::uint64_t index) const {
@@ -67,8 +68,8 @@ struct DiversityOptions {
 /// figures.
 struct BelievabilityOptions {
   /// Whether whole meshes are checked in addition to the coarse samples. With kJudge, casting
-  /// itself checks. With the other values, whole meshes are checked later, when they are built, and
-  /// the results only appear in the report.
+  /// checks the whole mesh of each candidate. With kAuto and kAll, whole meshes are checked when
+  /// they are built, after casting, and the results only appear in the report.
   enum class MeshChecks {
     kAuto,  ///< check whole meshes if they have at most 200,000 polygons
     kAll,
@@ -85,14 +86,14 @@ struct BelievabilityOptions {
   double max_stretch = 3;
   /// largest fraction of the skin's triangles that may be turned over or collapsed
   double max_flipped = 0.003;
-  /// largest fraction of triangles that may intersect other triangles where the target's triangles
-  /// do not
+  /// largest fraction of triangles that may take part in intersections that the target does not
+  /// have
   double max_intersecting = 0.01;
-  /// how much the gap between the lips may exceed the largest gap between any head's lips, in mm;
-  /// see SkinContacts
+  /// how much the gap between the lips may exceed the widest gap between the lips of any head, in
+  /// mm; see SkinContacts
   double max_gap_mm = 0.5;
-  /// Largest increase, relative to the target, of the skin area that shows its back side, in mm²;
-  /// see skin_check.h.
+  /// Largest allowed increase, compared with the target, of the visible area of the skin's back
+  /// side, in mm²; see skin_check.h.
   double max_exposed_mm2 = 3;
 };
 

@@ -72,8 +72,8 @@ PlanePoint random_in_hull(const CastingOptions& casting, const std::vector<Index
   return sample_polygon(convex_hull(std::move(anchors)), pick, a, b);
 }
 
-/// \param retry  Number of positions tried before, which gave one head too much weight. Each retry
-///               may go farther from the anchor.
+/// \param retry  Number of earlier tries, which gave one head too much weight. Each retry may go
+///               farther from the anchor.
 PlanePoint random_position(const CastingOptions& casting, const PositionDistribution& distribution,
                            const std::vector<Index>& sources, Index target, const FaceRandom& draws,
                            const std::string& region, std::uint32_t retry) {

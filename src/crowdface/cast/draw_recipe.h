@@ -28,7 +28,7 @@ struct CastingOptions {
   std::string name;         ///< name of the crowd
   std::uint64_t count = 0;  ///< number of sampled faces
   std::uint64_t seed = 1;
-  std::vector<PlanePoint> anchors;        ///< #heads: position of each head on the weight plane
+  std::vector<PlanePoint> anchors;        ///< position of each head on the weight plane
   std::vector<std::string> region_names;  ///< contains only "all" if there are no regions
   SamplingOptions sampling;
   std::vector<ManualRecipe> recipes;
@@ -38,7 +38,7 @@ struct CastingOptions {
   std::vector<FamilyOptions> families = {};
   std::vector<Review> reviews = {};  ///< reviews, which are applied one after the other
   std::vector<Group> groups = {};    ///< groups of the sampled faces
-  HeadTags tags = {};                ///< #heads: the tags of each head; or empty
+  HeadTags tags = {};                ///< the tags of each head; or empty
   /// distributions that the measurements of the crowd should have
   std::vector<TraitTarget> trait_targets = {};
   std::vector<FaceChange> changes = {};  ///< changes of single faces by the config
@@ -50,8 +50,8 @@ struct FaceDistribution {
   const SamplingOptions* sampling = nullptr;
   std::vector<WeightedHead> targets;
   std::optional<std::string> group;
-  /// For each band, the heads that lend detail. A band without heads here has the sources of
-  /// `sampling`.
+  /// For each band, the heads that lend detail. A band that has no entry, or an empty entry, has
+  /// the sources of `sampling`.
   std::vector<std::vector<Index>> sources = {};
 };
 /// Returns the heads that lend detail to a band of a face from this distribution.

@@ -14,12 +14,12 @@ enum class FaceArea {
   kSkin,   ///< the whole skin, including the back of the head and the neck
 };
 
-/// Returns the weight of each vertex in a distance between faces, #V: the surface area around the
-/// vertex on the mean head (each polygon's area is divided equally among its corners), or zero if
-/// the vertex is outside the chosen part of the head. The skin is the largest component, so
-/// eyeballs, teeth and lashes have weight zero.
+/// Returns the weight that each vertex has in distances between faces. The weight is the surface
+/// area around the vertex on the mean head; the area of each polygon is divided equally among its
+/// corners. Vertices outside the part `area` of the head have weight zero. The skin is the largest
+/// component, so eyeballs, teeth and lashes have weight zero.
 ///
-/// \param mask  #V, factors on the weights; or empty.
+/// \param mask  factors on the weights, one per vertex; or empty.
 std::vector<double> face_vertex_areas(const Topology& topology, const Components& components,
                                       const Positions& mean, FaceArea area, Axis front,
                                       const std::vector<double>& mask = {});

@@ -86,7 +86,7 @@ class Changing {
            CastingResult& cast)
       : casting_(casting), judge_(judge), at_(at), cast_(cast), changed_(cast.changed.at(at)) {}
 
-  /// Applies all changes of the face to the face as it was cast.
+  /// Starts from the face as it was cast, and applies all changes of this face.
   void apply() {
     changed_.face = cast_.crowd[at_];
     changed_.is_other_person = false;

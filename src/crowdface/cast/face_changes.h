@@ -17,10 +17,11 @@ namespace crowdface {
 /// CastingResult::changed. If a face cannot be redrawn, sets the shortfall.
 ///
 /// - A redrawn face keeps its group and its age, unless the change gives it another group. It keeps
-///   the crowd's minimum distances from the faces before it in the plan, as these faces were before
-///   all reviews. So a redrawn face stays the same when the crowd grows or other faces are redrawn.
+///   the crowd's minimum distance from the faces before it in the plan. These distances refer to
+///   the faces as they were before all reviews, so a redrawn face stays the same when the crowd
+///   grows or other faces are redrawn.
 /// - A variant is a mixture of another face (as it is before these changes) and a random face on
-///   the same target. Its distance from the other face is the requested distance.
+///   the same target. The variant has the requested distance from the other face.
 /// - If a change sets only limits on measurements, the changed face is a mixture of the old face
 ///   and a random face that meets the limits. The fraction of the random face is as small as the
 ///   limits allow: zero if the old face already meets the limits.
@@ -36,8 +37,8 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
 class AvoidedFaces {
  public:
   /// \param cast  the crowd with the changes of the reviews so far.
-  /// \param is_considered  #crowd: false for the faces of the crowd that are ignored, because they
-  ///                       are being redrawn. Empty: no face is ignored.
+  /// \param is_considered  one entry per face of the crowd: false if the face is ignored because it
+  ///                       is being redrawn. Empty: no face is ignored.
   AvoidedFaces(const CastingResult& cast, double min_distance_mm,
                const std::vector<bool>& is_considered = {});
   /// Returns why a point of the face space is rejected; nothing if it is accepted.

@@ -10,12 +10,13 @@ namespace crowdface {
 
 std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
                                      const SkinDefects& defects) {
-  const auto triangles = static_cast<double>(defects.local.compared_count);
-  if (static_cast<double>(defects.local.flipped_count) > limits.max_flipped * triangles) {
+  const auto triangles = static_cast<double>(defects.local.compared_triangle_count);
+  if (static_cast<double>(defects.local.flipped_triangle_count) > limits.max_flipped * triangles) {
     return Reason::kFlipped;
   }
   if (defects.local.stretch_factor > limits.max_stretch) return Reason::kStretched;
-  if (static_cast<double>(defects.intersecting_count) > limits.max_intersecting * triangles) {
+  if (static_cast<double>(defects.intersecting_triangle_count) >
+      limits.max_intersecting * triangles) {
     return Reason::kIntersecting;
   }
   if (defects.gap_excess_mm > limits.max_gap_mm) return Reason::kGap;
@@ -88,7 +89,7 @@ std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
   const ProxySkin::Target& target = mixture ? *mixture : proxy_skin_->target_of_head(recipe.target);
   SkinDefects defects{target.triangles.compare(samples), 0};
   if (const auto why = exceeded_limit(believability_, defects)) return why;
-  defects.intersecting_count = proxy_skin_->intersecting_triangles(samples, target);
+  defects.intersecting_triangle_count = proxy_skin_->intersecting_triangles(samples, target);
   if (const auto why = exceeded_limit(believability_, defects)) return why;
   return find_mesh_defects_ ? exceeded_limit(believability_, find_mesh_defects_(recipe))
                             : std::nullopt;

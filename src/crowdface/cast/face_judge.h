@@ -45,8 +45,8 @@ class FaceJudge {
   /// \return  Why the candidate is rejected; nothing if it is accepted.
   std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;
 
-  /// Like `check_recipe`, but also rejects a candidate that counts as the same person as a head, if
-  /// `earlier_candidate_count` is less than DiversityOptions::kCandidatesCheckedForSamePerson.
+  /// Like `check_recipe`. The first DiversityOptions::kCandidatesCheckedForSamePerson candidates of
+  /// a face are also rejected if they count as the same person as a head.
   ///
   /// \param earlier_candidate_count  Number of earlier candidates for the same face.
   std::optional<Reason> check_candidate(const Recipe& recipe, const FaceSpace::Point& point,
@@ -72,7 +72,8 @@ class FaceJudge {
   DiversityOptions diversity_;
   BelievabilityOptions believability_;
   NearestFaceSearch head_search_;
-  double same_person_mm_;  ///< a face that is nearer than this to a head passes for the head
+  /// a face that is nearer to a head than this distance counts as the same person as the head
+  double same_person_mm_;
   Plausibility plausibility_;
   const ProxySkin* proxy_skin_;
   FindMeshDefects find_mesh_defects_;

@@ -11,7 +11,8 @@
 namespace crowdface {
 
 /// Measures faces from their recipes, without building meshes. A landmark depends on only a few
-/// vertices, whose positions are computed from the heads' smoothing levels at these vertices.
+/// vertices. The positions of these vertices on a face are computed from the heads' positions at
+/// stored smoothing levels.
 class FaceMeasurer {
  public:
   /// A landmark as a weighted mean of three samples. All weights are zero if no measurement needs
@@ -25,7 +26,7 @@ class FaceMeasurer {
   using ExactLandmarks = std::function<Positions(const Recipe&)>;
 
   /// \param heads               the heads, sampled at the vertices of the landmarks
-  /// \param landmarks           #trait_landmarks
+  /// \param landmarks           one entry per landmark, in the order of trait_landmarks()
   /// \param head_distributions  distributions of the heads' measurements
   FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks,
                TraitDistributions head_distributions, ExactLandmarks exact_landmarks)

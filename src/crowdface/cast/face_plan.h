@@ -25,8 +25,8 @@ struct CastingNotes {
   std::uint32_t attempt = 0;  ///< number of earlier candidates for this face, which were rejected
   std::optional<NearestNeighbours> nearest;
   std::optional<std::string> review;  ///< the note that a reviewer wrote about this face
-  /// What changed the face, in order: each text names the origin and the keys, such as "review 2:
-  /// age, hair".
+  /// The changes of the face, in order. Each text names the origin and the config keys of a change,
+  /// such as "review 2: age, hair".
   std::vector<std::string> changes = {};
 };
 
@@ -41,7 +41,8 @@ struct FacePlan {
   std::optional<double> age;  ///< age from −1 to 1; empty if the face was not aged
   /// mother and father, if the face's family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
-  /// #regions by #bands: name of the parent from whom the detail comes; empty without parents
+  /// one entry for each band of each region, region by region: name of the parent from whom the
+  /// detail comes; empty without parents
   std::vector<std::string> inherited_from;
   /// mother's fraction of the coarse shape, if the face inherits its coarse shape
   double mother_share = 0;

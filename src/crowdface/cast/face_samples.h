@@ -36,7 +36,8 @@ FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mir
 std::vector<std::uint64_t> stored_smoothing_levels(std::uint64_t max_level);
 
 /// How far smoothing displaces the samples of a head, #levels by 3·#samples. Row l holds S_{L_l} x
-/// − x, where L_l is entry l of `stored_smoothing_levels`.
+/// − x: the positions smoothed to level L_l (entry l of `stored_smoothing_levels`) minus the
+/// positions x.
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Computes the trajectory of a head: interpolates the samples' displacements at all stored

@@ -78,22 +78,22 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
       candidates_.push_back(std::move(candidate));
     }
   }
-  compared_count_ = crowd.size();
+  compared_face_count_ = crowd.size();
 }
 
 /// Compares the candidates with the faces that have joined the crowd since the last comparison.
 void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
-  if (compared_count_ == crowd.size()) return;
+  if (compared_face_count_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
     const auto nearest = crowd.nearest_search().nearest(
-        candidate.point, candidate.distance_to_crowd_mm, compared_count_, crowd.size());
+        candidate.point, candidate.distance_to_crowd_mm, compared_face_count_, crowd.size());
     candidate.distance_to_crowd_mm = std::min(candidate.distance_to_crowd_mm, nearest.distance_mm);
   }
   const auto gone = std::erase_if(candidates_, [&](const Candidate& candidate) {
     return candidate.distance_to_crowd_mm < diversity_.min_distance_mm;
   });
   rejections_.add(Reason::kMinDistance, gone);
-  compared_count_ = crowd.size();
+  compared_face_count_ = crowd.size();
 }
 
 /// Returns the candidate farthest from the crowd; of equally far candidates, the earliest.

@@ -86,7 +86,7 @@ class FaceSearch {
   std::uint32_t attempts_end_;
   std::uint32_t initial_attempts_end_;  ///< initial value of `attempts_end_`
   /// number of faces of the crowd with which the candidates have been compared
-  Index compared_count_ = 0;
+  Index compared_face_count_ = 0;
   std::vector<Candidate> candidates_;
   Rejections rejections_;
 };

@@ -36,8 +36,8 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 
 }  // namespace
 
-/// The order in which the rows of a matrix hold the basis functions: first the mean head, then each head's deviation from
-/// the mean head, then the fields, sorted by region, head and mode.
+/// The order in which the rows of a matrix hold the basis functions: first the mean head, then each
+/// head's deviation from the mean head, then the fields, sorted by region, head and mode.
 struct FaceSpace::BasisRowOrder {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
@@ -61,16 +61,16 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
 
 FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables)
     : heads_(std::move(heads)), tables_(std::move(tables)) {
-  require(tables_fit(tables_, heads_), "face space: tables of other heads");
+  require(have_matching_sizes(tables_, heads_), "face space: tables of other heads");
   choose_nonzero_weight_samples(weights);
   compute_head_shapes_and_fields();
   directions_transposed_ = tables_.directions.transpose();
   if (heads_.region_weights.cols() > 1) compute_region_area_fractions();
 }
 
-bool FaceSpace::tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads) {
-  const std::size_t orientation_count = heads.mirror_images == nullptr ? 1 : 2;
-  const BasisRowOrder rows{static_cast<Index>(orientation_count * heads.heads.size()),
+bool FaceSpace::have_matching_sizes(const FaceSpaceTables& tables, const SampledHeads& heads) {
+  const std::size_t mirror_variant_count = heads.mirror_images == nullptr ? 1 : 2;
+  const BasisRowOrder rows{static_cast<Index>(mirror_variant_count * heads.heads.size()),
                            tables.levels.cols()};
   const Index regions = heads.region_weights.cols(), rank = tables.directions.rows();
   return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
@@ -93,9 +93,10 @@ void FaceSpace::choose_nonzero_weight_samples(const std::vector<double>& weights
   }
 }
 
-/// Finds a few modes whose linear combinations give the levels of all heads. Fields are then
-/// computed for these modes only. The modes are a basis of the rows of a matrix: each row is a
-/// level; the columns are heads, coordinates and samples, scaled by the samples' √w.
+/// Finds a few modes whose linear combinations give the displacements of all heads at all smoothing
+/// levels. Fields are then computed for these modes only. The modes are a basis of the rows of a
+/// matrix with one row per level. A row holds the displacements of all heads, coordinates and
+/// samples, multiplied by √w, where w is the weight of the sample.
 SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const Index heads = head_point_count(), size = weight_square_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
@@ -129,11 +130,11 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
     row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
-/// Returns, one per row, the scalar functions whose linear combinations give the coordinates of
-/// faces: three rows (x, y, z) each for the mean head, each head and each field.
+/// Returns scalar functions whose linear combinations give the coordinates of faces. Each row is
+/// one function; the mean head, each head and each field of a mode have three rows (x, y, z).
 ///
-/// \param max_coefficients  #modes: largest absolute coefficient of each mode at any level. Modes
-///                          have unit length, so each mode's rows are multiplied by this
+/// \param max_coefficients  #modes: the largest absolute coefficient of each mode over all levels.
+///                          Modes have unit length, so each mode's rows are multiplied by this
 ///                          coefficient.
 FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
                                           const std::vector<float>& max_coefficients,
@@ -171,10 +172,11 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
   return functions;
 }
 
-/// Finds a basis for the faces. Every face is a sum of the heads and of the heads' removed detail,
-/// times the masks. Orthonormal scalar functions that span all these terms represent a face by #P
-/// by 3 numbers. Rotating these numbers, and taking distances between them, is equivalent to
-/// rotating the samples and taking distances between the samples. The centre is the origin.
+/// Finds a basis for the faces. Every face is a linear combination of two kinds of fields: the
+/// heads, and the detail that smoothing removes from each head, multiplied by a region's mask.
+/// Orthonormal scalar functions that span all these fields represent a face by #P by 3 numbers.
+/// Rotating these numbers and taking distances between these numbers is equivalent to rotating the
+/// samples and taking distances between the samples. The centre is the origin.
 ///
 /// \return  The functions, #P by #S.
 FloatRows FaceSpace::compute_basis_functions() {
@@ -188,7 +190,7 @@ FloatRows FaceSpace::compute_basis_functions() {
   }
   const BasisRowOrder rows{head_point_count(), modes.directions.rows()};
   SpanBasis basis = span_basis(coordinate_functions(modes, max_coefficients, rows), kFieldTolerance,
-                               orientation_count() * kMaxBasisFunctions);
+                               mirror_variant_count() * kMaxBasisFunctions);
   tables_.functions = std::move(basis.coordinates);
   return std::move(basis.directions);
 }
@@ -225,23 +227,24 @@ const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
 
 FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapolation) const {
   const double w = mirrored_weight(recipe);
-  if (w == 0) return shape_in_orientation(recipe, extrapolation, 0);
-  require(orientation_count() == 2, "a mirrored face, and no mirror images of heads");
-  if (w == 1) return shape_in_orientation(recipe, extrapolation, 1);
-  return static_cast<float>(1 - w) * shape_in_orientation(recipe, extrapolation, 0) +
-         static_cast<float>(w) * shape_in_orientation(recipe, extrapolation, 1);
+  if (w == 0) return shape_of_mirror_variant(recipe, extrapolation, 0);
+  require(mirror_variant_count() == 2, "a mirrored face, and no mirror images of heads");
+  if (w == 1) return shape_of_mirror_variant(recipe, extrapolation, 1);
+  return static_cast<float>(1 - w) * shape_of_mirror_variant(recipe, extrapolation, 0) +
+         static_cast<float>(w) * shape_of_mirror_variant(recipe, extrapolation, 1);
 }
 
 /// Returns the shape of a recipe's face: of the unmirrored face (orientation 0) or of its mirror
 /// image (orientation 1).
-FaceSpace::Shape FaceSpace::shape_in_orientation(const Recipe& recipe, Extrapolation extrapolation,
-                                                 Index orientation) const {
+FaceSpace::Shape FaceSpace::shape_of_mirror_variant(const Recipe& recipe,
+                                                    Extrapolation extrapolation,
+                                                    Index orientation) const {
   const Index first = orientation * head_count();
   auto shape = target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
     return head_shapes_[static_cast<std::size_t>(first + head)];
   });
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    for (const LevelShares& at : level_shares(recipe, k, extrapolation)) {
+    for (const LevelWeights& at : weights_by_level(recipe, k, extrapolation)) {
       for (const WeightedTrajectoryRow& level : interpolation_rows(heads_.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
           const auto f = static_cast<float>(part.weight * level.weight);
@@ -293,7 +296,8 @@ void FaceSpace::find_principal_directions(std::size_t bands) {
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
   tables_.directions =
-      span_basis(std::move(rows), kFaceTolerance, orientation_count() * kMaxDirections).directions;
+      span_basis(std::move(rows), kFaceTolerance, mirror_variant_count() * kMaxDirections)
+          .directions;
 }
 
 Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
@@ -352,10 +356,10 @@ void FaceSpace::compute_region_area_fractions() {
 }
 
 /// Finds the metric M_k of each region k. For two points x and y of faces in the span of the
-/// principal directions, (x − y)ᵀ M_k (x − y) = Σ_s w_s α_k(s) d(s)², where d(s) is the distance
-/// between the two faces at sample s. M_k = V G_k Vᵀ, where the rows of V are the principal
-/// directions, G_k = U diag(α_k) Uᵀ, and U holds the values of the basis functions at the samples,
-/// times √w_s.
+/// principal directions, (x − y)ᵀ M_k (x − y) = Σ_s w_s α_k(s) d(s)², where w_s is the weight of
+/// sample s, α_k(s) is the weight of region k at sample s, and d(s) is the distance between the two
+/// faces at sample s. M_k = V G_k Vᵀ, where the rows of V are the principal directions, G_k = U
+/// diag(α_k) Uᵀ, and U holds the values of the basis functions at the samples, times √w_s.
 void FaceSpace::find_region_metrics(const FloatRows& basis) {
   const FloatRows& directions = tables_.directions;
   const Index functions = basis.rows(), rank = directions.rows();

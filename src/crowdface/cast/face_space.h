@@ -11,8 +11,9 @@ namespace crowdface {
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
   FloatRows levels;  ///< #levels by #modes: coefficient of each mode at each level
-  /// #functions by #P: each row holds the coefficients of one scalar function of the skin in an
-  /// orthonormal basis. Each coordinate of a face (x, y or z) is a linear combination of the rows.
+  /// #functions by #P: each row is one scalar function on the skin, given by its coefficients in an
+  /// orthonormal basis of P functions. Each coordinate of a face (x, y or z) is a linear
+  /// combination of the rows.
   FloatRows functions;
   FloatRows directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
@@ -34,17 +35,18 @@ class FaceSpace {
     Eigen::VectorXf without_extrapolation;
   };
 
-  /// \param weights  #S, from sample_weights. Samples of weight zero are ignored.
+  /// \param weights  one weight per sample, from sample_weights. Samples of weight zero are
+  ///                 ignored.
   /// \param bands    Number of bands of detail in each region. With more bands, faces can differ in
   ///                 more ways.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
   /// Restores a face space from `tables()`, computed from the same heads and weights.
   ///
-  /// \pre `tables_fit(tables, heads)`.
+  /// \pre `have_matching_sizes(tables, heads)`.
   FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables);
 
   /// Returns whether the sizes of the tables fit these heads.
-  static bool tables_fit(const FaceSpaceTables& tables, const SampledHeads& heads);
+  static bool have_matching_sizes(const FaceSpaceTables& tables, const SampledHeads& heads);
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
@@ -56,7 +58,7 @@ class FaceSpace {
   Index dimensions() const { return tables_.directions.rows() + 1; }
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
   /// Returns the number of heads, including mirror images if there are any.
-  Index head_point_count() const { return orientation_count() * head_count(); }
+  Index head_point_count() const { return mirror_variant_count() * head_count(); }
   const SampledHeads& sampled_heads() const { return heads_; }
 
   /// Returns the root mean square distance between two faces in mm: the smaller of the distances
@@ -65,7 +67,8 @@ class FaceSpace {
   /// A point, and the products of the region's metric with the point's two vectors.
   struct RegionPoint {
     const Point* point = nullptr;
-    /// metric of the region, times `point->with_extrapolation` and `point->without_extrapolation`
+    /// the region's metric multiplied by `point->with_extrapolation`, and by
+    /// `point->without_extrapolation`
     Eigen::VectorXf product_with_extrapolation, product_without_extrapolation;
   };
   RegionPoint region_point(const Point& point, Index region) const;
@@ -88,9 +91,9 @@ class FaceSpace {
 
   struct BasisRowOrder;
 
-  /// Returns the number of orientations: 2 if there are mirror images (which are the heads from
-  /// number head_count() on), otherwise 1.
-  Index orientation_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
+  /// Returns 2 if each head has a mirror image (the mirror images are the heads from number
+  /// head_count() on), otherwise 1.
+  Index mirror_variant_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
   /// Returns the unmirrored heads if `head` is unmirrored, otherwise the heads' mirror images.
   const SampledHeads& heads_mirrored_like(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
@@ -115,8 +118,8 @@ class FaceSpace {
   void find_region_metrics(const FloatRows& basis);
   void compute_region_area_fractions();
   Shape shape_of(const Recipe& recipe, Extrapolation extrapolation) const;
-  Shape shape_in_orientation(const Recipe& recipe, Extrapolation extrapolation,
-                             Index orientation) const;
+  Shape shape_of_mirror_variant(const Recipe& recipe, Extrapolation extrapolation,
+                                Index orientation) const;
   std::vector<float> aligned_deviation(const Shape& shape) const;
   Eigen::VectorXf coordinates(const Shape& shape) const;
   const float* field(std::size_t region, Index head, Index row) const;
@@ -127,8 +130,9 @@ class FaceSpace {
   FaceSpaceTables tables_;
   Shape mean_shape_;                ///< shape of the mean head, #P by 3
   std::vector<Shape> head_shapes_;  ///< shapes of all heads, including mirror images
-  /// α_k (S_L x_h − x_h), one #P by 3 matrix for each region, head (including mirror images) and
-  /// row of the level table
+  /// The displacements α_k (S_L x_h − x_h) of the heads x_h by smoothing to level L, multiplied by
+  /// the weights α_k of region k. One #P by 3 matrix for each region, head (including mirror
+  /// images) and row of `levels`.
   std::vector<float> fields_;
   FloatRows directions_transposed_;
   /// the region's fraction of the face's surface area; empty if there is one region

@@ -23,8 +23,9 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
 /// Returns the mean silhouette coefficient of a family's members, which measures how well a cluster
 /// is separated (Rousseeuw 1987). The coefficient of a member is (b − a)/max(a, b), where a is the
 /// member's mean distance from its own family, and b is the member's mean distance from the nearest
-/// other family (from all other faces if there is no other family). 1: far from all other families;
-/// below 0: nearer to another family than to its own.
+/// other family (from all other faces if there is no other family). A coefficient of 1 means that
+/// the member is far from all other families. A coefficient below 0 means that the member is nearer
+/// to another family than to its own.
 double mean_silhouette_coefficient(const std::vector<FamilyPlan>& families, std::size_t family,
                                    const std::vector<FaceSpace::Point>& points);
 

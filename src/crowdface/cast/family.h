@@ -33,11 +33,11 @@ struct FamilyOptions {
   /// or the founder
   std::optional<Eigen::Index> target;
   std::vector<Parent> parents;  ///< mother and father, or empty
-  /// #regions by #bands, region by region: 0 if the detail comes from the mother, 1 from the
-  /// father, −1 from a random parent
-  std::vector<int> inherited_parents;
-  /// largest distance of a member from the founder, from whom all members start (and who is not in
-  /// the crowd)
+  /// one entry for each band of each region, region by region: 0 if the detail comes from the
+  /// mother, 1 from the father, −1 from a random parent
+  std::vector<int> parent_of_band;
+  /// largest distance of a member from the founder, a face outside the crowd from which all members
+  /// are derived
   double max_distance_mm = 2.5;
   double min_distance_mm = 0;  ///< smallest distance between members
   /// whether members are as similar as twins: within 0.5 mm of a common face that is not in the

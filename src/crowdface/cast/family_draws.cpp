@@ -24,8 +24,9 @@ constexpr double kNearestShare = 0.4;
 constexpr double kParentShare = 0.75;
 /// A child is a mixture of the founder and a random face. The coarse shape of the random face is a
 /// weighted mean of the coarse shapes of three contributors. One parent has the weight
-/// kLargeFormsShare, a third contributor has the weight kForeignShare, and the second parent has
-/// the rest. Without the third contributor, the children of a couple would hardly differ.
+/// kLargeFormsShare, a third contributor (a random face) has the weight kForeignShare, and the
+/// second parent has the rest. Without the third contributor, the children of a couple would hardly
+/// differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;
@@ -35,8 +36,9 @@ constexpr double kTwinsReach = 0.5;
 /// A child counts as resembling a parent if at most this fraction of strangers is nearer to the
 /// child than the parent is.
 constexpr double kMaxStrangerFractionForChild = 0.1;
-/// If the parents are far apart: largest difference between a child's distance from a parent and
-/// the founder's distance from this parent, as a fraction of max_distance.
+/// Limit for children of parents that are far apart: the largest difference between a child's
+/// distance from a parent and the founder's distance from this parent, as a fraction of
+/// max_distance.
 constexpr double kMaxFartherThanFounder = 0.25;
 
 /// Returns the parameters of a new parent. If no target of the crowd has the parent's sex, all
@@ -114,7 +116,7 @@ void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan fa
 /// Determines the third contributor, and the substitutes for the parents' heads that are outside
 /// the family's group. Called when the parents are known.
 void FamilySampler::prepare_inheritance() {
-  third_contributor_distribution_ = third_contributor();
+  random_contributor_distribution_ = random_contributor();
   if (!family_.group || parents_.empty()) return;
   const FaceDistribution kind = distribution_of_group(casting_, family_.group);
   std::vector<Index> taken, targets;
@@ -144,7 +146,7 @@ std::vector<SourceWeight> FamilySampler::coarse_shape_of(std::size_t parent) con
 /// Returns the parameters from which the third contributor is drawn. This contributor provides what
 /// members inherit from neither parent. It is a random mixture of at least three heads that have
 /// most of the tags which both parents share, so that the child's skin tone stays plausible.
-FaceDistribution FamilySampler::third_contributor() const {
+FaceDistribution FamilySampler::random_contributor() const {
   constexpr std::size_t kMin = 3;
   FaceDistribution kind = distribution_of_group(casting_, family_.group);
   if (parents_.empty() || casting_.tags.empty()) return kind;
@@ -245,14 +247,14 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   open.target = family_.target;
   open.age = Range{0, 0};
   FacePlan face = random_face_plan(casting_, open, {0, attempt, concat("family/", family_.name)},
-                                   third_contributor_distribution_);
+                                   random_contributor_distribution_);
   if (parents_.empty()) {
     // mark the face as a member, so that the family's limits on measurements apply
     face.family = family_.name;
     return face;
   }
   if (!family_.target) {
-    set_target(face.recipe, mixed_weights(coarse_shape_of(0), coarse_shape_of(1), 0.5));
+    set_target_heads(face.recipe, mixed_weights(coarse_shape_of(0), coarse_shape_of(1), 0.5));
     face.mother_share = 0.5;
   }
   const Recipe& mother = parents_[0].face.recipe;
@@ -285,7 +287,7 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draf
 /// Returns the parent from whom all members inherit this band of this region: 0 for the mother, 1
 /// for the father, −1 for a parent drawn at random for each member.
 int FamilySampler::parent_to_inherit_from(std::size_t region, std::size_t band) const {
-  return family_.inherited_parents[region * band_count(casting_.sampling) + band];
+  return family_.parent_of_band[region * band_count(casting_.sampling) + band];
 }
 
 /// Mixes the coarse shape of a face with the coarse shapes of both parents, and each band of each
@@ -299,8 +301,8 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
     const double one = kLargeFormsShare / (1 - kForeignShare);
     const double mother = parent_of("large forms") == 0 ? one : 1 - one;
     const auto of_parents = mixed_weights(coarse_shape_of(0), coarse_shape_of(1), 1 - mother);
-    set_target(face.recipe,
-               mixed_weights(of_parents, target_head_weights(face.recipe), kForeignShare));
+    set_target_heads(face.recipe,
+                     mixed_weights(of_parents, target_head_weights(face.recipe), kForeignShare));
     face.mother_share = mother * (1 - kForeignShare);
   }
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
@@ -322,7 +324,7 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
 
 double FamilySampler::max_distance_from_founder_mm(const FamilyPlan& family_plan) const {
   const double most = family_.max_distance_mm;
-  return family_plan.founder_is_twins_prototype ? std::min(most, kTwinsReach) : most;
+  return family_plan.founder_is_prototype_of_twins ? std::min(most, kTwinsReach) : most;
 }
 
 FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_plan, int member,
@@ -335,7 +337,7 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   if (parents_.empty()) open.target = family_plan.founder.recipe.target;
   open.age = Range{0, 0};
   MemberDraft draft;
-  draft.random_face = random_face_plan(casting_, open, key, third_contributor_distribution_);
+  draft.random_face = random_face_plan(casting_, open, key, random_contributor_distribution_);
   draft.random_face.family = family_.name;
   if (!parents_.empty()) inherit_from_parents(draft.random_face, key);
   const std::string purpose = concat(key.purpose_prefix, "/how");
@@ -344,7 +346,7 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   // how_far: 0 gives the smallest, 1 the largest distance from the founder
   draft.distance_mm = kNearestShare + (1 - kNearestShare) * how_far;
   draft.distance_mm *= max_distance_from_founder_mm(family_plan);
-  if (family_plan.founder_is_twins_prototype) {
+  if (family_plan.founder_is_prototype_of_twins) {
     draft.random_face.inherited_from = family_plan.founder.inherited_from;
     draft.age = family_plan.founder.age.value_or(0);
   }

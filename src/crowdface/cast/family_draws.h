@@ -21,7 +21,7 @@ struct FamilyPlan {
   FaceSpace::Point founder_point;
   /// Whether `founder` is the hidden child that all twins of the family resemble (see
   /// FamilySampler::twins_prototype). This child has the twins' age and is not in the crowd.
-  bool founder_is_twins_prototype = false;
+  bool founder_is_prototype_of_twins = false;
   Index members_begin = 0, members_end = 0;  ///< indices of the members in the crowd: [begin, end)
   /// largest value, over all pairs of parent and child, of the fraction of strangers that are
   /// nearer to the child than the parent is
@@ -94,7 +94,7 @@ class FamilySampler {
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
   void prepare_inheritance();
   std::vector<SourceWeight> coarse_shape_of(std::size_t parent) const;
-  FaceDistribution third_contributor() const;
+  FaceDistribution random_contributor() const;
   const SamplingOptions& sampling_of(const FacePlan& face) const;
   BandRecipe parent_band(std::size_t parent, std::size_t region, std::size_t band,
                          const BandRecipe& random_band) const;
@@ -110,13 +110,14 @@ class FamilySampler {
   const FamilyOptions& family_;
   const FaceJudge& judge_;
   const UnrelatedFaces& unrelated_faces_;
-  std::vector<KnownParent> parents_;  ///< #parents; empty entries for parents that are missing
+  /// one entry per parent; the entry of a missing parent is empty
+  std::vector<KnownParent> parents_;
   /// indices in `parents_` of the parents that are not in the crowd yet
   std::vector<std::size_t> parents_not_in_crowd_;
   std::vector<FaceSearch::FoundFace> new_parents_;
-  /// distribution of the third contributor, a random face: members inherit some of its detail in
-  /// addition to their parents' detail
-  FaceDistribution third_contributor_distribution_;
+  /// Distribution of the third contributor: a random face from which members inherit what comes
+  /// from neither parent.
+  FaceDistribution random_contributor_distribution_;
   /// maps each target head of a parent to a similar target head of the family's group
   SubstituteHeads target_substitutes_;
   /// For each band, the heads of the family's group that substitute for the parents' sources

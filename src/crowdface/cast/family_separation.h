@@ -18,8 +18,9 @@ namespace crowdface {
 /// and families that share a parent.
 class FamilySeparation {
  public:
-  /// Returns whether a point is too near to a family: whether the distance between the point and
-  /// some member is at most the distance between this member and the family's farthest member.
+  /// Returns whether a point is too near to a family. Each member has a radius: the distance to the
+  /// family's farthest other member. The point is too near if it lies within the radius of any
+  /// member.
   ///
   /// \param relatives  Families that are not checked.
   bool is_too_near_to_family(const FaceSpace::Point& point,
@@ -49,8 +50,8 @@ class FamilySeparation {
 class UnrelatedFaces {
  public:
   UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space);
-  /// Returns the fraction (0 … 1) of a group's unrelated faces whose distance from a point is below
-  /// `distance_mm`.
+  /// Returns the fraction (0 … 1) of the random faces of a group (or of the crowd) whose distance
+  /// from a point is below `distance_mm`.
   double fraction_nearer(const FaceSpace::Point& point, double distance_mm,
                          std::optional<std::size_t> group = std::nullopt) const;
 

@@ -48,7 +48,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   easier.reviews.clear();
   easier.changes.clear();
   easier.count = std::min(casting.count, kMaxTried);
-  remedy.trial_faces = easier.count;
+  remedy.trial_face_count = easier.count;
   const Constraint& constraint = constraint_of(remedy.binding_constraint);
   if (!constraint.is_distance()) return remedy;
   double& distance = easier.diversity.*constraint.diversity_limit;

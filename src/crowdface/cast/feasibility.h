@@ -13,7 +13,7 @@ struct Remedy {
   /// casting succeeded. Empty if the constraint has no distance, or if no value succeeded.
   std::optional<double> largest_distance_mm;
   /// number of faces in the trials: the count of the crowd, but at most 400
-  std::uint64_t trial_faces = 0;
+  std::uint64_t trial_face_count = 0;
 };
 
 /// Searches for a remedy. Casts again with smaller distances, and bisects until the smallest

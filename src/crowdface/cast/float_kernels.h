@@ -21,14 +21,14 @@ double add_scaled_and_sum_squares(float factor, const float* from, std::size_t c
 
 /// Computes to[d] += factors[i]·rows[i][d], for all i in ascending order.
 ///
-/// \param rows  #count by #width.
+/// \param rows  `count` by `width`.
 void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
                      float* to);
 
 /// For each of sixteen lanes, adds (query[d] − rows[d][lane])² to the lane's sum, in ascending
 /// order of d.
 ///
-/// \param rows  #dimensions by 16.
+/// \param rows  `dimensions` by 16.
 /// \return      Whether at least one sum is still at most `bound`.
 bool add_squares(const float* query, const float* rows, std::size_t dimensions, float bound,
                  float* sums);

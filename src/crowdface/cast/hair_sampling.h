@@ -18,7 +18,7 @@ namespace crowdface {
 struct HairOptions {
   std::uint64_t seed = 1;
   HeadTags tags;                        ///< the tags of each head
-  std::vector<std::string> head_names;  ///< names of the heads; some parents of families are heads
+  std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
   std::map<std::string, std::map<std::string, double>> hair_colours;
   std::set<std::string> twin_families;
 };

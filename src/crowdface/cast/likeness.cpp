@@ -16,13 +16,13 @@ namespace {
 constexpr std::size_t kBlock = 64;
 
 /// A set of faces with queries for the most similar faces. The caller may remove faces. Results are
-/// exact: they use FaceSpace::distance over all remaining faces. Of equally near faces, the first
-/// comes first.
+/// exact: they use FaceSpace::distance over all remaining faces. Equally near faces are sorted by
+/// index.
 class LikenessTree {
  public:
   /// \param points  Must outlive this object.
-  /// \param gone    #points: whether a face is removed, so that queries ignore it. The caller may
-  ///                set entries to true later. Must outlive this object.
+  /// \param gone    One entry per point: true if the face is removed, so that queries ignore the
+  ///                face. The caller may set entries to true later. Must outlive this object.
   LikenessTree(const std::vector<FaceSpace::Point>& points, const std::vector<bool>& gone)
       : points_(points), gone_(gone) {
     add_variant(&FaceSpace::Point::with_extrapolation);

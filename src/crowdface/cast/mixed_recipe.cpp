@@ -21,7 +21,7 @@ BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t,
 
 Recipe mixed(const Recipe& from, const Recipe& to, double t, const SmoothingLevelScale& scale) {
   Recipe recipe = to;
-  set_target(recipe, mixed_weights(target_head_weights(from), target_head_weights(to), t));
+  set_target_heads(recipe, mixed_weights(target_head_weights(from), target_head_weights(to), t));
   recipe.asymmetry = mixed(from.asymmetry, to.asymmetry, t);
   recipe.mirrored = from.mirrored;
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {

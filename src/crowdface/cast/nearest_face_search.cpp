@@ -44,8 +44,8 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
       bounds.box.low[d] = bounds.box.high[d] = points_.coordinate(begin, static_cast<Index>(d));
     }
     for (Index at = begin; at < end; ++at) {
-      bounds.min_number = std::min(bounds.min_number, points_.point_number(at));
-      bounds.max_number = std::max(bounds.max_number, points_.point_number(at));
+      bounds.min_point_number = std::min(bounds.min_point_number, points_.point_number(at));
+      bounds.max_point_number = std::max(bounds.max_point_number, points_.point_number(at));
       for (std::size_t d = 0; d < LeadingCoordinatesBox::kDimensions; ++d) {
         const float value = points_.coordinate(at, static_cast<Index>(d));
         bounds.box.low[d] = std::min(bounds.box.low[d], value);
@@ -57,10 +57,10 @@ PointTree::PointTree(Index dimensions, const std::vector<const PointBlocks*>& po
 }
 
 void PointTree::search(const std::vector<float>& query, Index begin, Index end,
-                       double enough_squared, NearestPoint& best) const {
+                       double sufficient_squared_distance, NearestPoint& best) const {
   const auto wanted = [&](float squared, const Bounds& node) {
-    return !(best.squared_distance < enough_squared) && node.min_number < end &&
-           node.max_number >= begin &&
+    return !(best.squared_distance < sufficient_squared_distance) && node.min_point_number < end &&
+           node.max_point_number >= begin &&
            static_cast<double>(squared) * (1 - PointBlocks::kRoundingTolerance) <=
                best.squared_distance;
   };
@@ -70,8 +70,8 @@ void PointTree::search(const std::vector<float>& query, Index begin, Index end,
 void PointTrees::add(const Eigen::VectorXf& point) {
   newest_points_.add(size_++, newest_points_.padded_query(point).data());
   if (newest_points_.size() < kMaxNewestPoints) return;
-  // Merge the newest points with the last tree, as long as this tree contains at most as many
-  // points as have been merged so far.
+  // Merge the newest points with the last tree. Repeat with the tree before it, as long as that
+  // tree contains no more points than the merged set.
   std::vector<const PointBlocks*> joined = {&newest_points_};
   Index count = newest_points_.size();
   std::size_t kept = trees_.size();
@@ -86,12 +86,12 @@ void PointTrees::add(const Eigen::VectorXf& point) {
 }
 
 NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit_squared, Index begin,
-                                 Index end, double enough_squared) const {
+                                 Index end, double sufficient_squared_distance) const {
   NearestPoint best{-1, limit_squared};
   const std::vector<float> padded = newest_points_.padded_query(query);
   for (const PointTree& tree : trees_) {
-    tree.search(padded, begin, end, enough_squared, best);
-    if (best.point >= 0 && best.squared_distance < enough_squared) return best;
+    tree.search(padded, begin, end, sufficient_squared_distance, best);
+    if (best.point >= 0 && best.squared_distance < sufficient_squared_distance) return best;
   }
   const Index first_newest = size_ - newest_points_.size();
   const Index last = std::min(end - first_newest, newest_points_.size());
@@ -111,16 +111,16 @@ void NearestFaceSearch::add(const FaceSpace::Point& point) {
 
 NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point& point,
                                                           double limit_mm, Index begin, Index end,
-                                                          double enough_mm) const {
+                                                          double sufficient_distance_mm) const {
   if (end < 0) end = size();
-  const double enough_squared = enough_mm * enough_mm;
+  const double sufficient_squared_distance = sufficient_distance_mm * sufficient_distance_mm;
   NearestPoint hit = trees_with_extrapolation_.nearest(
-      point.with_extrapolation, limit_mm * limit_mm, begin, end, enough_squared);
-  const bool done = hit.point >= 0 && hit.squared_distance < enough_squared;
+      point.with_extrapolation, limit_mm * limit_mm, begin, end, sufficient_squared_distance);
+  const bool done = hit.point >= 0 && hit.squared_distance < sufficient_squared_distance;
   if (!done &&
       (has_extrapolated_faces_ || point.with_extrapolation != point.without_extrapolation)) {
     const NearestPoint other = trees_without_extrapolation_.nearest(
-        point.without_extrapolation, hit.squared_distance, begin, end, enough_squared);
+        point.without_extrapolation, hit.squared_distance, begin, end, sufficient_squared_distance);
     if (other.point >= 0) hit = other;
   }
   if (hit.point < 0) return {};

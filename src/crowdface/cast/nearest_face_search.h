@@ -20,13 +20,14 @@ class PointTree {
   PointTree(Index dimensions, const std::vector<const PointBlocks*>& points);
 
   const PointBlocks& points() const { return points_; }
-  void search(const std::vector<float>& query, Index begin, Index end, double enough_squared,
-              NearestPoint& best) const;
+  void search(const std::vector<float>& query, Index begin, Index end,
+              double sufficient_squared_distance, NearestPoint& best) const;
 
-  /// The box around the points of a node, and the range of their numbers.
+  /// The bounding box of the points of a node, and the range of these points' numbers.
   struct Bounds {
     LeadingCoordinatesBox box;
-    Index min_number, max_number;  ///< smallest and largest number of a point in the node
+    /// smallest and largest number of a point in the node
+    Index min_point_number, max_point_number;
   };
   /// Visits the blocks of points in the leaves. Of two child nodes, visits the child nearer to the
   /// query first.
@@ -76,10 +77,10 @@ class PointTrees {
   /// `limit_squared`; of equally near points, the first. The result does not depend on the other
   /// points, not even in its last bits.
   ///
-  /// \param enough_squared  Squared distance, at most `limit_squared`. The search ends at the first
-  ///                        point that is nearer than this.
+  /// \param sufficient_squared_distance  Squared distance, at most `limit_squared`. The search ends
+  ///                        at the first point that is nearer than this.
   NearestPoint nearest(const Eigen::VectorXf& query, double limit_squared, Index begin, Index end,
-                       double enough_squared = 0) const;
+                       double sufficient_squared_distance = 0) const;
 
  private:
   Index dimensions_;
@@ -106,9 +107,9 @@ class NearestFaceSearch {
   /// `limit_mm`.
   ///
   /// \param end        If negative, the number of faces.
-  /// \param enough_mm  The search ends at the first face that is nearer than this.
+  /// \param sufficient_distance_mm  The search ends at the first face that is nearer than this.
   NearestFace nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
-                      Index end = -1, double enough_mm = 0) const;
+                      Index end = -1, double sufficient_distance_mm = 0) const;
 
  private:
   /// one set of trees for each variant of the points, see FaceSpace::Point

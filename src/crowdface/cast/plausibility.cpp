@@ -44,8 +44,9 @@ Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::Vecto
   return metric;
 }
 
-/// Returns zᵀ (Σ + ridge·I)⁻¹ z with Σ = YᵀY/(H − 1). Computes it by the Woodbury identity as (‖z‖²
-/// − (Y z)ᵀ (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
+/// Returns the squared Mahalanobis distance zᵀ (Σ + ridge·I)⁻¹ z. Here z is the point minus the
+/// mean of the H heads, Y has one row of `head_offsets` per head, and Σ = YᵀY/(H − 1). The Woodbury
+/// identity gives (‖z‖² − (Y z)ᵀ (ridge·(H − 1)·I + Y Yᵀ)⁻¹ (Y z)) / ridge.
 double Plausibility::squared_distance(const Metric& metric, const Eigen::VectorXf& point) {
   std::vector<double> z(metric.mean.size()), along;
   for (std::size_t d = 0; d < z.size(); ++d) {

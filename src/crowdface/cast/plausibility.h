@@ -27,16 +27,17 @@ class Plausibility {
     std::vector<double> mean;  ///< mean of the points of the heads, #D
     /// for each head: the head's point minus the mean, #D
     std::vector<std::vector<double>> head_offsets;
-    std::vector<std::vector<double>>
-        cholesky_factor;  ///< Cholesky factor of ridge·(H − 1)·I + Y Yᵀ
+    /// Cholesky factor of ridge·(H − 1)·I + Y Yᵀ, where H is the number of heads and Y has one row
+    /// of `head_offsets` per head
+    std::vector<std::vector<double>> cholesky_factor;
     double ridge = 1;
   };
   /// Returns the metric of all heads except one.
   ///
-  /// \param heads           The heads, then their mirror images if faces may be mirrored.
-  /// \param head_count  Number of heads without mirror images.
-  /// \param left_out        Head that is left out together with its mirror image; −1: no head is
-  ///                        left out.
+  /// \param heads          The heads, then their mirror images if faces may be mirrored.
+  /// \param head_count     Number of heads without mirror images.
+  /// \param left_out  Head that is left out together with its mirror image; −1: no head is
+  ///                       left out.
   static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index head_count,
                                Index left_out);
   static double squared_distance(const Metric& metric, const Eigen::VectorXf& point);

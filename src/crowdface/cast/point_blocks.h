@@ -38,9 +38,9 @@ struct LeadingCoordinatesBox {
       const float distance_outside = std::max(std::max(low[d] - query[d], query[d] - high[d]), 0.F);
       squared_distances_outside[d] = distance_outside * distance_outside;
     }
-    float sum_of_squares = 0;
-    for (const float square : squared_distances_outside) sum_of_squares += square;
-    return sum_of_squares;
+    float sum_of_squared_distances = 0;
+    for (const float square : squared_distances_outside) sum_of_squared_distances += square;
+    return sum_of_squared_distances;
   }
 };
 

@@ -20,9 +20,9 @@ std::size_t PopulationBalance::bin_of(const TraitTarget& target, const Positions
   return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
 }
 
-/// Updates Trait::squared_excess_after_adding. A face that joins the crowd changes
-/// `cumulative_excess` of bin b by −(b + 1)/kBins if its own bin is above b, and otherwise by
-/// 1 − (b + 1)/kBins.
+/// Updates Trait::squared_excess_after_adding. If a face joins the crowd, the requested number of
+/// faces in bins 0 to b increases by (b + 1)/kBins, so `cumulative_excess` of bin b decreases by
+/// this amount. If the face lies in one of these bins, `cumulative_excess` also increases by 1.
 void PopulationBalance::update_squared_excess(Trait& trait) {
   const auto lacks = [&](std::size_t b) {
     return trait.cumulative_excess[b] - static_cast<double>(b + 1) / static_cast<double>(kBins);

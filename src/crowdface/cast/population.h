@@ -31,8 +31,8 @@ class PopulationBalance {
   static constexpr std::size_t kBins = 256;
   struct Trait {
     TraitTarget target;
-    /// for each bin: the number of faces in this bin and all lower bins, minus the number requested
-    /// for these bins
+    /// for each bin: the number of faces in this bin and all lower bins, minus the number that the
+    /// requested distribution has in these bins
     std::vector<double> cumulative_excess;
     /// Entry b: the sum of the squares of `cumulative_excess` over all bins, as it would be after
     /// adding one face to bin b.

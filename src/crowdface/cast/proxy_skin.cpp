@@ -32,15 +32,14 @@ void mark_neighbourhood(const Adjacency& adjacency, const Triangle& t, std::uint
   }
 }
 
-/// Returns the pairs of triangles that are near each other on the mean head but are not neighbours.
-std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
-                                       const Positions& mean) {
+/// Returns the pairs of triangles that lie near each other on the mean head, without the pairs that
+/// are also near along the surface.
+std::vector<TrianglePair> nearby_non_adjacent_pairs(const std::vector<Triangle>& triangles,
+                                                    const Positions& mean) {
   const Adjacency adjacency = build_adjacency(topology_of(triangles, mean.rows()));
   std::vector<TrianglePair> pairs;
-  std::vector<std::uint32_t> neighbour_of(static_cast<std::size_t>(mean.rows()),
-                                          // for each vertex, the last triangle whose neighbourhood
-                                          // contains it
-                                          kNoIndex);
+  // for each vertex, the most recently visited triangle whose neighbourhood contains the vertex
+  std::vector<std::uint32_t> neighbour_of(static_cast<std::size_t>(mean.rows()), kNoIndex);
   std::uint32_t first = kNoIndex;
   for (const TrianglePair& pair : near_pairs(triangles, mean, kReach)) {
     if (pair.first != first) {
@@ -59,7 +58,7 @@ std::vector<TrianglePair> facing_pairs(const std::vector<Triangle>& triangles,
 
 ProxySkin::ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
                      const std::vector<Positions>& heads)
-    : triangles_(std::move(triangles)), nearby_pairs_(facing_pairs(triangles_, mean)) {
+    : triangles_(std::move(triangles)), nearby_pairs_(nearby_non_adjacent_pairs(triangles_, mean)) {
   for (const Positions& head : heads) head_targets_.push_back(target_of_samples(head));
 }
 

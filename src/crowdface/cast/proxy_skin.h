@@ -29,8 +29,8 @@ class ProxySkin {
   }
   Target target_of_samples(const Positions& samples) const;
 
-  /// Returns the number of triangles that intersect other triangles where the target's triangles do
-  /// not. Considers only pairs of triangles that are near each other on the mean head but are not
+  /// Returns the number of triangles that take part in intersections that the target does not have.
+  /// Considers only pairs of triangles that are near each other on the mean head but are not
   /// neighbours, as at lips, lids, nostrils and folds.
   Index intersecting_triangles(const Positions& samples, const Target& target) const;
 

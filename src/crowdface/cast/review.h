@@ -18,8 +18,9 @@ struct ReviewMark {
   };
   std::string id;
   Verdict verdict = Verdict::kKeep;
-  /// Bands of regions that stay the same when the face is redrawn; each is given as region · #bands
-  /// + band. Without bands, each is the index of a region.
+  /// Bands of regions that stay the same when the face is redrawn. The number of a band is (index
+  /// of the region) · #bands + (index of the band). If the crowd has no bands, #bands is 1, and the
+  /// numbers are the indices of the regions.
   std::vector<std::size_t> locked_bands;
   std::optional<std::string> note;
 };
@@ -31,7 +32,7 @@ struct FaceChange {
   enum class AgeStep { kOlder, kYounger };
   std::string id;
   std::optional<AgeStep> age_step;
-  std::optional<double> age;  ///< age from −1 to 1, see apply_age; excludes `age_step`
+  std::optional<double> age;  ///< age from −1 to 1, see apply_age; not together with `age_step`
   /// id of another face; this face becomes a variant of that face
   std::optional<std::string> variant_of;
   double variant_distance_mm = 1.5;  ///< distance between this face and `variant_of`
@@ -64,8 +65,8 @@ struct Review {
   /// Faces with larger numbers are cast after the review, so that a larger crowd changes no
   /// reviewed face. Empty: the whole crowd was reviewed.
   std::optional<std::uint64_t> reviewed_face_count;
-  /// The reviewer saw the results of this many earlier reviews, the first ones in the list of
-  /// reviews; see merged_reviews. Empty: the reviewer saw the results of all earlier reviews.
+  /// Number of reviews, from the start of the list of reviews, whose results the reviewer saw; see
+  /// merged_reviews. Empty: the reviewer saw the results of all earlier reviews.
   std::optional<std::uint64_t> review_count_seen_by_reviewer = {};
   /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes,
   /// so that these faces stay the same if the crowd's value changes later. Empty: the crowd's

@@ -15,7 +15,8 @@ namespace crowdface {
 /// lower lip in different cells, even where the lips touch.
 struct SampleCells {
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  /// #V: index of the sample whose cell contains the vertex; kNone outside the skin
+  /// for each vertex, the index of the sample whose cell contains the vertex; kNone outside the
+  /// skin
   std::vector<std::uint32_t> sample_of_vertex;
 };
 SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
@@ -24,7 +25,7 @@ SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
 /// Returns the weight of each sample: the area of the sample's cell, divided by the total area of
 /// all cells.
 ///
-/// \param areas  #V, the area of each vertex; not negative.
+/// \param areas  the area of each vertex; not negative.
 /// \throws InvalidInput if all areas are zero.
 std::vector<double> sample_weights(const SampleCells& cells, const FaceSamples& samples,
                                    const std::vector<double>& areas);

@@ -57,8 +57,9 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     std::fill(change.begin(), change.end(), 0.F);
-    // S_L G − G at the region's samples, for each level of the region.
-    for (const LevelShares& at : level_shares(recipe, k)) {
+    // Add the displacements S_L G − G at the region's samples, for each level L of the region (see
+    // weights_by_level).
+    for (const LevelWeights& at : weights_by_level(recipe, k)) {
       for (const WeightedTrajectoryRow& level : interpolation_rows(heads.levels, at.level)) {
         for (const SourceWeight& part : at.shares) {
           const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
@@ -83,7 +84,7 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   return face;  // Eq. 7
 }
 
-/// Returns property(heads), property(mirror images of the heads), or a blend of both: whichever the
+/// Returns property(heads), property(mirror images of the heads), or a blend of both, as the
 /// recipe's mirroring and asymmetry require.
 template <class Property>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {

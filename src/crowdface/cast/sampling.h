@@ -99,11 +99,11 @@ const auto& weighted_choice(const Things& things, double random_number, const We
     if (remaining < std::invoke(weight, thing)) return thing;
     remaining -= std::invoke(weight, thing);
   }
-  // because of rounding errors, `random_number` can exceed the sum of the weights
+  // rounding errors can leave a remainder after the last weight
   return things.back();
 }
 
-/// Whether faces are mirrored, each as a whole.
+/// Whether whole faces are mirrored.
 enum class Mirroring {
   kNone,
   kRandom,  ///< half of the faces are mirrored, chosen at random
@@ -151,7 +151,7 @@ inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampli
 /// A group of sampled faces that have their own sampling parameters.
 struct Group {
   std::string name;
-  /// number of faces; groups with a count get their faces before groups with a share
+  /// Number of faces. Groups with a count get their faces before groups with a share.
   std::optional<std::uint64_t> count;
   /// used if `count` is empty: fraction (0 … 1) of the faces that are in no group with a count
   double share = 0;
@@ -165,7 +165,7 @@ struct Group {
 struct ManualRecipe {
   struct Band {
     std::optional<PlanePoint> position;
-    /// weights of the heads that lend detail; empty: not given; excludes `position`
+    /// weights of the heads that lend detail; empty: not given. Not together with `position`.
     std::vector<WeightedHead> weights;
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;

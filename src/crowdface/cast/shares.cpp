@@ -23,8 +23,8 @@ std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether face `n` must be assigned to a share. Otherwise, for some m from n to n +
-/// horizon, some share q could not get ⌊q·m⌋ of the first m faces.
+/// Returns whether face `n` must be assigned to a share, because otherwise the shares q could not
+/// all get ⌊q·m⌋ of the first m faces, for some m from n to n + horizon.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -35,8 +35,8 @@ bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::ui
   return false;
 }
 
-/// Returns whether it is still possible that each share q gets at least ⌊q·m⌋ of the first m faces,
-/// for all m > n.
+/// Returns whether each share q can still get at least ⌊q·m⌋ of the first m faces, for all m from n
+/// to n + horizon.
 bool can_serve(const std::vector<double>& shares, const std::vector<std::uint64_t>& served,
                std::uint64_t n, std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -94,7 +94,7 @@ std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint6
   };
   const std::size_t none = shares.size();
   shares.push_back(std::max(0.0, 1 - std::reduce(shares.begin(), shares.end())));
-  // can_serve looks `horizon` faces ahead. Among so many faces, the smallest share must get two.
+  // can_serve looks `horizon` faces ahead. Among this many faces, the smallest share gets two.
   double smallest = 1;
   for (const double share : shares) {
     if (share > kRounding) smallest = std::min(smallest, share);

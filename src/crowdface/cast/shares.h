@@ -29,9 +29,9 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
 std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint64_t count,
                                           std::uint64_t seed, const std::string& purpose);
 
-/// Returns for each sampled face the index of its group, or −1 if the face has no group; #count.
-/// Groups with a fixed count get their faces first, in the order of the groups, then groups with a
-/// share. The first n entries do not depend on `count`.
+/// Returns for each sampled face the index of its group, or −1 if the face has no group. Groups
+/// with a fixed count get their faces first, in the order of the groups, then groups with a share.
+/// The first n entries do not depend on `count`.
 ///
 /// \param pool_size_factor  Factor on the groups' counts: the size of the pool of candidates, in
 ///                          multiples of the crowd's size.

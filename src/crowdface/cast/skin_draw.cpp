@@ -27,8 +27,8 @@ std::vector<Index> heads_like(Index head, const HeadTags& tags) {
   return heads;
 }
 
-/// Returns a mixture of two of the heads, whose weights give the mixture this tone. If all heads
-/// are lighter or all are darker, returns the head with the nearest tone alone.
+/// Returns a mixture of two of the heads that has the given tone. If all heads are lighter or all
+/// are darker, returns the head with the nearest tone alone.
 std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>& heads,
                                           const std::vector<double>& tones) {
   const auto tone_of = [&](Index head) { return tones[static_cast<std::size_t>(head)]; };

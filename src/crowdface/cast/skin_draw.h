@@ -15,21 +15,22 @@ namespace crowdface {
 /// Parameters for choosing the skin colours of children.
 struct SkinOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> head_names;  ///< names of the heads; some parents of families are heads
+  std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
   HeadTags tags;                        ///< the tags of each head
-  /// #heads: tone of each head, which is the mean optical density of its colour texture
+  /// tone of each head: the mean optical density of the head's colour texture
   std::vector<double> tones;
-  /// Returns the weights of the heads in a face's colours, #heads, summing to one.
+  /// Returns one weight per head: the head's share in a face's colours. The weights sum to one.
   std::function<std::vector<double>(const Recipe&)> colour_weights;
-  /// names of families whose members are twins, who share one tone
+  /// names of the families whose members are twins; twins share one tone
   std::set<std::string> twin_families = {};
 };
 
 /// Gives each face with parents its own colours, Recipe::colours. The tone of the face's skin then
 /// lies between the tones of its parents, at a random fraction from 0.2 to 0.8. The colours are a
 /// mixture of two heads of the face's sex and age class: the head with the next lighter tone and
-/// the head with the next darker tone. If all such heads are lighter or all are darker, the head
-/// with the nearest tone alone lends its colours. Faces that already have colours keep these.
+/// the head with the next darker tone. If all such heads are lighter, or all are darker, the head
+/// with the nearest tone alone lends its colours. Faces that already have colours keep their
+/// colours.
 ///
 /// \param crowd  In the order of the plan: parents before children.
 void choose_skin_colours_of_children(const SkinOptions& options, std::vector<FacePlan>& crowd);

@@ -32,10 +32,10 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
 
 /// Picks candidates from a pool, one after the other. Each pick is the candidate farthest from the
 /// initial crowd and from the candidates picked before (greedy farthest point). The smallest
-/// distance between two picks is at least half of the largest possible smallest distance in a set
-/// of as many candidates (Gonzalez 1985; Ravi, Rosenkrantz & Tayi 1994). This holds if the distance
-/// is a metric (all extrapolation factors are 1), there are no groups, and the initial crowd is
-/// empty.
+/// distance between two picks is at least half of the optimum, which is the largest value that any
+/// equally large set of candidates can reach (Gonzalez 1985; Ravi, Rosenkrantz & Tayi 1994). This
+/// holds if the distance is a metric (all extrapolation factors are 1), there are no groups, and
+/// the initial crowd is empty.
 class FarthestPoints {
  public:
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);

@@ -12,14 +12,14 @@ namespace crowdface {
 /// made of women's heads, a woman's head replaces each head of the father. The substitute is the
 /// head of the group that has the most tags in common with the replaced head. If several heads have
 /// equally many tags in common, heads that no parent uses come first. Among these, the head with
-/// the nearest point in face space is chosen, after subtraction of the difference between the mean
-/// of the group and the mean of all other heads.
+/// the nearest point in face space is chosen. For this comparison, the replaced head's point is
+/// moved by the mean of the group minus the mean of all other heads.
 class SubstituteHeads {
  public:
   /// Makes an object that replaces no head.
   SubstituteHeads() = default;
   /// \param group  Heads of the group; ascending, not empty.
-  /// \param tags   #heads, or empty if tags are unknown.
+  /// \param tags   the tags of each head; empty if tags are unknown.
   /// \param taken  Heads that the parents use.
   SubstituteHeads(const std::vector<Index>& group, const HeadTags& tags,
                   const std::vector<Index>& taken, const FaceSpace& space);
@@ -28,11 +28,11 @@ class SubstituteHeads {
   ///
   /// \param shares  Weights, by ascending head.
   std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& shares) const;
-  /// Returns whether the group contains every head in `shares`.
+  /// Returns whether the group contains every head in `weights`.
   bool contains_all(const std::vector<SourceWeight>& shares) const;
 
  private:
-  /// #heads: substitute of each head; empty if no head is replaced
+  /// the substitute of each head; empty if no head is replaced
   std::vector<Index> substitutes_;
 };
 

@@ -47,7 +47,7 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   if (!tags) return;
   item.tags = *tags;
   const bool any = !heads_with_tags(*tags, draft.config.faces).empty();
-  if (!any && draft.heads_known && draft.tags_known) {
+  if (!any && draft.are_heads_known && draft.are_tags_known) {
     draft.complaints.add_at(node,
                             "no head has all of these tags, so no face would get this attachment");
   }
@@ -151,7 +151,7 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
 }
 
 /// Returns the first item whose kind, name or colour is this word; null if there is no such item. A
-/// quota for the word counts as a quota for items of this item's kind.
+/// quota for the word is a quota for attachments of this item's kind.
 const Attachment* first_item_matching(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(attachments.items, [&](const Attachment& item) {
     return matches_kind_name_or_colour(item, word);
@@ -289,14 +289,14 @@ void read_attachments_of_folder(const YamlNode& node, Attachments& attachments,
     return;
   }
   const std::filesystem::path folder_of_config = std::exchange(draft.folder, *folder);
-  const bool tags_known = std::exchange(draft.tags_known, false);
+  const bool are_tags_known = std::exchange(draft.are_tags_known, false);
   read_keys(section->value, attachments_file_keys(), attachments, draft);
   if (const YamlEntry* items = section->value.find("items")) {
     check_excluded(items->value, attachments, draft);
   }
   draft.folder = folder_of_config;
-  draft.tags_known = tags_known;
-  if (!draft.heads_known || !tags_known) return;
+  draft.are_tags_known = are_tags_known;
+  if (!draft.are_heads_known || !are_tags_known) return;
   const bool any = !attachments.items.empty();
   remove_unwearable(attachments, draft.config.faces);
   if (any && attachments.items.empty()) {
@@ -321,11 +321,11 @@ const Keys<Attachments>& attachments_keys() {
   return keys;
 }
 
-/// If the config has `none` or `quotas`, all shares of the folder are lost. Warns if this concerns
-/// kinds that the config does not mention.
+/// If the config has `none` or `quotas`, the keys `none` and `quotas` of the attachments' folder
+/// are ignored. Warns about the kinds of attachments that only the folder's keys mention.
 ///
-/// \param from  the shares that the folder sets.
-void warn_of_lost_shares(const YamlNode& node, const Attachments& from, ConfigDraft& draft) {
+/// \param from  the attachments as the folder specifies them.
+void warn_of_ignored_quotas(const YamlNode& node, const Attachments& from, ConfigDraft& draft) {
   const Attachments& own = draft.config.attachments;
   std::set<std::string> kinds, lost;
   const auto add_kinds = [&](const std::map<std::string, double>& shares, auto& to) {
@@ -368,7 +368,7 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
   }
   read_keys(node, attachments_keys(), config.attachments, draft);
   if (node.find("none") != nullptr || node.find("quotas") != nullptr) {
-    warn_of_lost_shares(node, of_folder, draft);
+    warn_of_ignored_quotas(node, of_folder, draft);
   }
   if (items != nullptr) check_excluded(items->value, config.attachments, draft);
 }

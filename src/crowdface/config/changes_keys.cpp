@@ -20,7 +20,7 @@ void read_change_of_age(const YamlNode& node, FaceChange& change, ConfigDraft& d
     const bool is_older = word.value == AgeStep::kOlder;
     const SamplingOptions& sampling = draft.config.sampling;
     if ((is_older ? sampling.heads_tagged_old : sampling.heads_tagged_young).empty() &&
-        draft.tags_known && draft.heads_known) {
+        draft.are_tags_known && draft.are_heads_known) {
       draft.complaints.add_at(
           node, concat("no head is tagged ", is_older ? "old" : "young", " under faces.tags"));
     }
@@ -132,7 +132,7 @@ void read_variant_of(const YamlNode& node, FaceChange& change, ConfigDraft& draf
 }
 
 std::string write_locked(const FaceChange& change, const WriteContext& context) {
-  const std::vector<std::string> parts = context.config.part_names();
+  const std::vector<std::string> parts = context.config.region_band_names();
   return change.locked_bands.empty()
              ? ""
              : flow_list(texts_of(change.locked_bands,
@@ -207,7 +207,8 @@ void check_change(const YamlEntry& entry, const FaceChange& change, ConfigDraft&
   }
   check_hair(change, node, draft);
   check_takes_off(change, node, draft);
-  if ((change.variant_of || change.needs_redraw()) && !is_sampled_face(change.id, draft.config)) {
+  if ((change.variant_of || change.needs_redraw()) &&
+      !is_sampled_face_id(change.id, draft.config)) {
     draft.complaints.add(
         entry.key_place,
         concat(quoted(entry.key),

@@ -41,7 +41,7 @@ Codec<double> fraction() {
 Codec<double> relief_size() {
   return restricted(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;
-    const bool bounded = draft.smoothing_known && !smoothing.max_iterations;
+    const bool bounded = draft.is_smoothing_known && !smoothing.max_iterations;
     if (!bounded || size <= smoothing.max_size_mm) return true;
     draft.complaints.expected(
         node, concat("a size up to smoothing.max_size, ", smoothing.max_size_mm, " mm"));
@@ -239,7 +239,7 @@ Codec<Range> range(const Codec<double>& one) {
 Codec<Range> age() {
   return restricted(range(number(-1, 1)), [](Range age, const YamlNode& node, ConfigDraft& draft) {
     const auto has = [&](const std::vector<Eigen::Index>& heads, const char* tag) {
-      if (!heads.empty() || !draft.tags_known || !draft.heads_known) return true;
+      if (!heads.empty() || !draft.are_tags_known || !draft.are_heads_known) return true;
       draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
       return false;
     };

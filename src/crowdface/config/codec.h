@@ -62,7 +62,8 @@ Codec<Range> asymmetry();  ///< from 0 to kMaxAsymmetry
 /// from −1 to 1; an age below 0 needs heads with the tag `young`, an age above 0 heads with the tag
 /// `old`
 Codec<Range> age();
-Codec<Range> extrapolation();  ///< the factor e, from −kMaxExtrapolation to kMaxExtrapolation
+/// Codec for the extrapolation factor e, from −kMaxExtrapolation to kMaxExtrapolation.
+Codec<Range> extrapolation();
 /// Codec for a smoothness, given as a fraction (0 to 1), as a size with a unit, or as a range of
 /// fractions or sizes.
 Codec<SmoothnessDistribution> smoothness();

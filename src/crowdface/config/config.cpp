@@ -16,7 +16,7 @@ std::vector<std::string> Config::region_names() const {
   return regions.names.empty() ? std::vector<std::string>{"all"} : regions.names;
 }
 
-std::vector<std::string> Config::part_names() const {
+std::vector<std::string> Config::region_band_names() const {
   if (sampling.bands.empty()) return region_names();
   std::vector<std::string> of_bands;
   for (const std::string& region : region_names()) {

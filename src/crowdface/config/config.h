@@ -65,11 +65,10 @@ enum class SheetTexture {
 
 /// How the smoothed versions of each head are represented.
 enum class LevelRepresentation {
-  /// as displacement fields fitted to each head; their number is as large as `tolerance_mm`
-  /// requires
+  /// displacement fields fitted to each head; `tolerance_mm` determines the number of fields
   kBasis,
-  kExact,  ///< not stored: the smoothing filter computes every level
-  kCubic,  ///< for each vertex, as the paper's cubic polynomial in the level L (§5.1)
+  kExact,  ///< nothing is stored; the smoothing filter computes each level on demand
+  kCubic,  ///< for each vertex, a cubic polynomial of the smoothing level L (§5.1 of the paper)
 };
 
 /// How rendered images show a material. This overrides the kind of surface that the material's name
@@ -129,7 +128,7 @@ struct Config {
   } regions;
 
   struct Smoothing {
-    double max_size_mm = 240;
+    double max_size_mm = 240;  ///< smoothing can remove detail up to this size (wavelength)
     std::optional<std::uint64_t> max_iterations;  ///< if set, replaces max_size_mm
     Boundary boundary = Boundary::kFixed;
     OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< value of the key `operator`
@@ -149,7 +148,7 @@ struct Config {
     bool follow = true;  ///< false with `parts: none`: everything is blended like skin
     PartShape shape = PartShape::kTarget;
     std::vector<std::string> skin, rigid, bound;
-    /// each inner list names parts that move together as one rigid part
+    /// Groups of parts. The parts of each group move together as one rigid part.
     std::vector<std::vector<std::string>> together;
   } parts;
 
@@ -160,10 +159,9 @@ struct Config {
     /// folder that contains a subfolder with shapes for each head; empty: none
     std::filesystem::path heads_directory;
     std::vector<std::string> names;  ///< names of the shapes; empty: there are no shapes
-    /// #names, files of the template's shapes; the path is empty if the template lacks the
-    /// shape
+    /// for each name: the file of the template's shape; empty if the template lacks the shape
     std::vector<std::filesystem::path> template_files;
-    /// #heads by #names, files of the heads' shapes; the path is empty if the head lacks the
+    /// for each head, and for each name: the file of the head's shape; empty if the head lacks the
     /// shape
     std::vector<std::vector<std::filesystem::path>> head_files;
   } shapes;
@@ -226,8 +224,8 @@ struct Config {
     std::optional<std::uint64_t> size;
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// Key `alike`, used for ColourWeights::kSampled: the tags in which the head that lends
-    /// textures must equal the face's target. nullopt: all tags.
+    /// Key `alike`, used for ColourWeights::kSampled: tags in which the heads that lend textures
+    /// must agree with the face's target. nullopt: all tags.
     std::optional<std::vector<std::string>> matching_tags;
   } textures;
 
@@ -266,10 +264,10 @@ struct Config {
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
-    /// #files, the text of each file, with the key `count` added where it was missing
+    /// the text of each file; the key `count` is added to a text that lacks this key
     std::vector<std::string> texts;
-    std::vector<std::string> original_texts;  ///< #files, the text of each file as it was read
-    std::vector<Review> reviews;              ///< #files, the review read from each file
+    std::vector<std::string> original_texts;  ///< the unchanged text of each file
+    std::vector<Review> reviews;              ///< the review read from each file
     /// whether the reviews stored in the crowd's folder are ignored
     bool ignores_kept_reviews = false;
   } review;
@@ -305,7 +303,8 @@ struct Config {
     std::filesystem::path directory;
     /// mesh formats to write, without duplicates; may be empty
     std::vector<MeshFormat> meshes = {MeshFormat::kObj};
-    /// levels of detail: for each level, its percentage of the triangles; descending
+    /// for each level of detail: percentage of the mesh's triangles that the level keeps;
+    /// descending
     std::vector<double> lods;
     /// subdivision scheme that is declared in USD files
     Subdivision subdivision = Subdivision::kNone;
@@ -321,9 +320,10 @@ struct Config {
 
   /// Returns `regions.names`, or {"all"} if the config has no regions. Plans use these names.
   std::vector<std::string> region_names() const;
-  /// Returns the names of the parts that can be locked or inherited. Without bands, these are the
-  /// regions; with bands, "top/build", "top/skin", ….
-  std::vector<std::string> part_names() const;
+  /// Returns the names of all pairs of a region and a band, such as "top/build"; without bands, the
+  /// names of the regions. Users can lock each pair, and a child can inherit each pair from a
+  /// parent.
+  std::vector<std::string> region_band_names() const;
   PlanNames plan_names() const;
   /// Returns the measurements that the config mentions, as ascending indices into measurements().
   std::vector<std::size_t> named_traits() const;
@@ -336,14 +336,14 @@ struct Config {
 /// \param directory  the folder to which written paths are relative.
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
-/// Returns the part of the effective config on which a face's files may depend, apart from the
-/// face's recipe and the input files: every key that is not marked with
-/// Key::not_affecting_face_files. Keys with their default value are left out. So when a new version
-/// adds a key, existing faces stay up to date.
+/// Returns every key of the effective config that is not marked with Key::not_affecting_face_files.
+/// The files of a face depend only on these keys, the face's recipe and the input files. Omits keys
+/// that have their default value. Existing faces therefore stay up to date if a new version of the
+/// program adds a key.
 std::string face_settings_yaml(const Config& config);
 
-/// Returns the part of the effective config on which a plan depends, apart from reviews: every key
-/// that is not marked with Key::not_affecting_recipes, and `changes`.
+/// Returns every key of the effective config that is not marked with Key::not_affecting_recipes,
+/// and `changes`. Apart from reviews, a plan depends only on these keys.
 ///
 /// \param directory  the folder to which the paths are relative.
 std::string plan_settings_yaml(const Config& config, const std::filesystem::path& directory);

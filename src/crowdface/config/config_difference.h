@@ -30,9 +30,10 @@ std::optional<std::uint64_t> number_in_config(const std::string& text, std::stri
 /// The smallest distances that a config requires between the faces of a crowd.
 struct RequiredDistances {
   double min_distance_mm = 0;  ///< smallest distance between any two faces
-  /// Other values of `min_distance_mm` for the first faces of the crowd, by the number of the last
-  /// face that a value applies to; see DiversityOptions::min_distance_of_first_mm.
-  std::map<std::uint64_t, double> min_distance_of_first_mm;
+  /// Values that replace `min_distance_mm` for the first faces of the crowd. Each key is the number
+  /// of the last face to which the value applies; see
+  /// DiversityOptions::min_distance_mm_by_last_face.
+  std::map<std::uint64_t, double> min_distance_mm_by_last_face;
 };
 
 /// Returns the smallest distances that a config.yaml requires. Returns nothing if the distances

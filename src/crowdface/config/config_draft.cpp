@@ -32,7 +32,7 @@ std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& 
   const auto& names = draft.config.faces.names;
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return found - names.begin();
-  if (draft.heads_known) {
+  if (draft.are_heads_known) {
     draft.complaints.add(
         place, concat(path, ": no head is called ", quoted(name), suggestion(name, names)));
   }
@@ -62,7 +62,7 @@ std::vector<std::string> remove_age_tags(std::vector<std::string> tags) {
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config) {
   const std::vector<std::string> regions = config.region_names();
   const std::vector<std::string> bands = config.plan_names().bands;
-  const std::vector<std::string> parts = config.part_names();
+  const std::vector<std::string> parts = config.region_band_names();
   const std::size_t each = parts.size() / regions.size();
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -82,7 +82,7 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
       heads.push_back(static_cast<Eigen::Index>(i));
     }
   }
-  if (heads.empty() && draft.heads_known && draft.tags_known) {
+  if (heads.empty() && draft.are_heads_known && draft.are_tags_known) {
     for (const auto& head_tags : tags)
       known.insert(known.end(), head_tags.begin(), head_tags.end());
     draft.complaints.add(place, concat(path, ": no head and no tag is called ", quoted(name),

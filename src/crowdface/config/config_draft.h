@@ -24,18 +24,19 @@ struct ConfigDraft {
   std::optional<double> former_min_distance_mm;     ///< see ConfigOverrides
   std::filesystem::path ignored_reviews_folder;     ///< see ConfigOverrides
   std::vector<std::string> warnings;                ///< see ConfigReading
-  /// Whether the heads, tags, regions and smoothing are valid. A complaint about
-  /// one of these makes its flag false. Values that refer to invalid names are then not checked,
-  /// so that one mistake gives only one message.
-  bool heads_known = false;
-  bool tags_known = true;
-  bool regions_known = true;
-  bool smoothing_known = true;
+  /// Whether the heads, tags, regions and smoothing are valid. A complaint sets the flag of its
+  /// section to false. Values that refer to this section are then not checked, so that one mistake
+  /// gives only one message.
+  bool are_heads_known = false;
+  bool are_tags_known = true;
+  bool are_regions_known = true;
+  bool is_smoothing_known = true;
 };
 
-/// Returns the parts that a name selects, as indices into part_names(). The name of a region
-/// selects all bands of the region, the name of a band selects the band in all regions, and the
-/// name of a part selects this part. Returns nothing if no region, band or part has the name.
+/// Returns the pairs of region and band that a name selects, as indices into region_band_names().
+/// The name of a region selects all bands of the region. The name of a band selects this band in
+/// all regions. A name such as "top/build" selects one pair. Returns an empty list for an unknown
+/// name.
 std::vector<std::size_t> find_parts(const std::string& name, const Config& config);
 
 /// Returns whether the tags of a head contain all of `tags`.
@@ -56,8 +57,8 @@ std::filesystem::path resolve(const std::filesystem::path& folder, const std::st
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what = "the file ");
 
-/// Returns the head with a name. If no head has the name, returns nothing and, if `heads_known`,
-/// adds a complaint.
+/// Returns the head with a name. If no head has the name, returns nothing and, if
+/// `are_heads_known`, adds a complaint.
 std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& place,
                                       const std::string& path, ConfigDraft& draft);
 /// Returns the head that has this name, or all heads that have this tag. If there is no such head,

@@ -85,16 +85,16 @@ struct Key {
     };
     return key;
   }
-  /// Returns a copy of this key with the mark that a new value of the key does not make finished
-  /// face files out of date. (Face files may still depend on the input files that the key names,
-  /// and on the recipes that the key affects; other digests cover both.)
+  /// Returns a copy of this key with `affects_face_files` false: a new value of the key does not
+  /// make finished face files out of date. (Face files may still depend on the input files that the
+  /// key names, and on the recipes that the key affects; other digests cover both.)
   Key not_affecting_face_files() const {
     Key key = *this;
     key.affects_face_files = false;
     return key;
   }
-  /// Returns a copy of this key with the mark that no recipe depends on the key. Users may change
-  /// such a key after the crowd is finished.
+  /// Returns a copy of this key with `affects_recipes` false: users may change the key after the
+  /// crowd is finished.
   Key not_affecting_recipes() const {
     Key key = *this;
     key.affects_recipes = false;
@@ -304,9 +304,9 @@ std::string write_changes(const std::vector<FaceChange>& changes, const WriteCon
 /// Reads a list of parts to lock, as ascending part numbers: region · #bands + band. Each entry of
 /// the list is a region (all its bands), a band (in all regions), or one band of one region.
 std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& draft);
-/// is_sampled_face: whether a sampled face of this config's crowd has this id. is_face: whether any
-/// face of the crowd has this id.
-bool is_sampled_face(const std::string& id, const Config& config);
+/// is_sampled_face_id: whether a sampled face of this config's crowd has this id. is_face:
+/// whether any face of the crowd has this id.
+bool is_sampled_face_id(const std::string& id, const Config& config);
 bool is_face(const std::string& id, const Config& config);
 /// Returns the ids of a family's members and of the parents that casting makes for the family.
 std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const std::string& crowd);

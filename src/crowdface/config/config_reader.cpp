@@ -94,7 +94,7 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
       draft.warnings.push_back(std::move(text));
     }
   }
-  return {std::move(draft.config), complete, draft.heads_known, root && draft.regions_known,
+  return {std::move(draft.config), complete, draft.are_heads_known, root && draft.are_regions_known,
           std::move(draft.warnings)};
 }
 

@@ -26,8 +26,8 @@ struct ConfigOverrides {
   bool without_reviews = false;
   /// whether to apply the stored reviews even if the folder contains the crowd of another config
   bool keep_reviews_of_other_configs = false;
-  /// Reviews stored in the crowd's folder. They are read first. If the config lists a copy of such
-  /// a review, the copy is ignored.
+  /// Reviews stored in the crowd's folder. The program reads these reviews first. If the config
+  /// lists a copy of one of these reviews, the copy is ignored.
   std::vector<std::filesystem::path> kept_reviews = {};
   /// Number of sampled faces of the crowd in the output folder. Stored reviews that do not state a
   /// number of faces get this number.
@@ -43,9 +43,9 @@ struct ConfigOverrides {
 struct ConfigReading {
   /// If there were problems, use only the parts that the flags below declare valid.
   Config config;
-  bool is_complete = false;    ///< true if there was no problem, so that the whole config is valid
-  bool heads_known = false;    ///< faces.files and faces.names are valid
-  bool regions_known = false;  ///< regions.names and regions.mask are valid
+  bool is_complete = false;  ///< true if there was no problem, so that the whole config is valid
+  bool are_heads_known = false;    ///< faces.files and faces.names are valid
+  bool are_regions_known = false;  ///< regions.names and regions.mask are valid
   /// Warnings about keys that are overridden by other keys, if the config is complete; one line for
   /// each key.
   std::vector<std::string> warnings = {};

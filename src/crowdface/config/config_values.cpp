@@ -21,8 +21,8 @@ std::string unknown_key(const YamlNode& map, const std::string& key,
                 hint.empty() ? concat("; expected one of ", join(keys)) : hint);
 }
 
-/// Returns the node's text so that it can be parsed as a number. Adds a complaint if the number is
-/// in quotes or has leading zeros.
+/// Returns the text of a node that must hold a number. Adds a complaint if the number is in quotes
+/// or has leading zeros.
 std::optional<std::string> number_text(const YamlNode& node, const std::string& expected,
                                        Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar) return out.expected(node, expected);
@@ -123,7 +123,7 @@ std::optional<std::string> read_name(const YamlNode& node, Complaints& out) {
   return node.text;
 }
 
-void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out) {
+void expect_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out) {
   const std::string hint =
       node.kind == YamlNode::Kind::kScalar ? suggestion(node.text, words) : std::string();
   out.add_at(node, concat("expected ", join(words, " or "), ", found ", describe(node), hint));

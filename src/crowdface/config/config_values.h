@@ -62,7 +62,7 @@ std::vector<std::string> texts_of(const Items& items, const Text& text) {
 }
 
 /// Adds a complaint that lists the words that are accepted.
-void expected_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out);
+void expect_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out);
 /// Reads one of the words, and returns the value that the word stands for.
 template <class Value>
 std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words, Complaints& out) {
@@ -71,7 +71,7 @@ std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words
   if (node.kind == YamlNode::Kind::kScalar && found != texts.end()) {
     return words[static_cast<std::size_t>(found - texts.begin())].value;
   }
-  expected_one_of(node, texts, out);
+  expect_one_of(node, texts, out);
   return std::nullopt;
 }
 

@@ -28,7 +28,7 @@ void merge_recipes(const YamlNode& recipes, YamlNode& config_recipes) {
 
 }  // namespace
 
-void merge_faces(const YamlNode& faces, YamlNode& config_faces) {
+void merge_faces_section(const YamlNode& faces, YamlNode& config_faces) {
   const YamlEntry* also = faces.find("also");
   if (also == nullptr) return;
   const auto there = std::ranges::find(config_faces.entries, "also", &YamlEntry::key);
@@ -45,7 +45,7 @@ void merge_edits(const YamlNode& edits, YamlNode& root) {
     } else if (edit.key == "recipes") {
       merge_recipes(edit.value, own->value);
     } else if (edit.key == "faces") {
-      merge_faces(edit.value, own->value);
+      merge_faces_section(edit.value, own->value);
     } else {
       own->value = edit.value;
     }

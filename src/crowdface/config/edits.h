@@ -8,12 +8,12 @@
 
 namespace crowdface {
 
-/// Appends heads to the config's section `faces`: the heads under `faces.also` in the edits.
-void merge_faces(const YamlNode& faces, YamlNode& config_faces);
+/// Appends the heads that the edits list under `faces.also` to the config's section `faces`.
+void merge_faces_section(const YamlNode& faces, YamlNode& config_faces);
 
 /// Merges edits into the config `root`. A section of the edits replaces the same section of `root`,
-/// with two exceptions: `faces` (see merge_faces) and `recipes`. Each edited recipe replaces the
-/// recipe with the same id or, if there is none, is appended.
+/// with two exceptions: `faces` (see merge_faces_section) and `recipes`. Each edited recipe
+/// replaces the recipe with the same id or, if there is none, is appended.
 void merge_edits(const YamlNode& edits, YamlNode& root);
 
 /// If the config has the key `edits`, merges the file that the key names into `root`.

@@ -66,7 +66,7 @@ void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft)
     std::string where = concat(" in ", quoted(node.text));
     if (files.empty())
       where += concat(" (OBJ, PLY, GLB, glTF, FBX, USD, NumPy)", suggested_head_pattern(*folder));
-    draft.heads_known = expect_head_count(node, files.size(), where, draft.complaints);
+    draft.are_heads_known = expect_head_count(node, files.size(), where, draft.complaints);
     add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
   } catch (const MissingInput& error) {
     draft.complaints.add_at(node, error.what(), error.code());
@@ -78,7 +78,7 @@ void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   if (!pattern) return;
   std::vector<fs::path> files = files_matching(*pattern);
   std::erase_if(files, [](const fs::path& file) { return !is_head_file(file); });
-  draft.heads_known = expect_head_count(
+  draft.are_heads_known = expect_head_count(
       node, files.size(), concat(" that match ", quoted(node.text)), draft.complaints);
   add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);
 }
@@ -115,7 +115,7 @@ void read_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   std::vector<const YamlNode*> nodes;
   const bool is_valid = read_file_list(node, files, nodes, draft);
   add_heads(files, nodes, faces, draft);
-  draft.heads_known =
+  draft.are_heads_known =
       is_valid && expect_head_count(node, node.items.size(), " files", draft.complaints);
 }
 
@@ -129,8 +129,9 @@ void read_more_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   for (std::size_t h = 0; h < files.size(); ++h) {
     add_head(files[h], files[h].stem().string(), *nodes[h], faces, draft);
   }
-  draft.heads_known = draft.heads_known && is_valid &&
-                      expect_head_count(node, faces.files.size(), " with these", draft.complaints);
+  draft.are_heads_known =
+      draft.are_heads_known && is_valid &&
+      expect_head_count(node, faces.files.size(), " with these", draft.complaints);
 }
 
 std::string write_files(const Faces& faces, const WriteContext& context) {
@@ -207,7 +208,7 @@ const Keys<Faces>& faces_keys() {
         return StarterLines{name_of(facts.front), "the axis along which the faces look"};
       }),
       word_key("align", &Faces::align).with_starter_lines([](const StarterFacts& facts) {
-        if (!facts.align_rigidly)
+        if (!facts.uses_rigid_alignment)
           return StarterLines{
               std::string(word_of(Align::kCheck)),
               "warn about heads in another pose than the others; rigid aligns them"};
@@ -225,12 +226,12 @@ const Keys<Faces>& faces_keys() {
 void warn_of_lost_tags(const Faces& faces, ConfigDraft& draft) {
   Complaints complaints;
   ConfigDraft beside(complaints);
-  beside.heads_known = true;
+  beside.are_heads_known = true;
   Faces& tagged = beside.config.faces;
   tagged.files = faces.files;
   tagged.names = faces.names;
   tagged.tags.resize(faces.names.size());
-  read_tags_beside_heads(tagged, beside);
+  read_tags_from_head_folders(tagged, beside);
   std::vector<std::string> lost;
   for (std::size_t h = 0; h < faces.names.size() && complaints.empty(); ++h) {
     if (faces.tags[h].empty() && !tagged.tags[h].empty()) lost.push_back(faces.names[h]);
@@ -256,7 +257,7 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   }
   read_keys(section, faces_keys(), faces, draft);
   if (node.find("tags") == nullptr) {
-    read_tags_beside_heads(faces, draft);
+    read_tags_from_head_folders(faces, draft);
   } else {
     warn_of_lost_tags(faces, draft);
   }

@@ -40,7 +40,7 @@ Codec<std::size_t> group() {
 
 /// Reads a parent of a family.
 ///
-/// \param role  "mother" or "father". If casting makes the parent, the parent's id ends with it.
+/// \param role  "mother" or "father". The id of a parent that casting makes ends with this word.
 std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
                                   const FamilyOptions& family, ConfigDraft& draft) {
   Parent drawn{std::nullopt, concat(family.name, '_', role), true};
@@ -65,7 +65,7 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const auto& recipes = draft.config.recipes;
   const bool known = std::ranges::find(recipes, *name, &ManualRecipe::id) != recipes.end() ||
                      is_face_of_family(*name, draft.config);
-  if (!known && draft.heads_known) {
+  if (!known && draft.are_heads_known) {
     draft.complaints.add_at(node, concat("expected drawn, a head, a recipe's id or a member of ",
                                          "an earlier family (smith_01), found ", quoted(*name)));
   }
@@ -99,12 +99,12 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
   if (node.kind == YamlNode::Kind::kMap && family.parents.empty()) {
     draft.complaints.add_at(node, "expected inherit only in a family with parents; add parents");
   }
-  if (!draft.regions_known && node.kind == YamlNode::Kind::kMap) return;
+  if (!draft.are_regions_known && node.kind == YamlNode::Kind::kMap) return;
   // Later names override earlier names: the name of a band overrides the names of regions, and a
   // name such as "top/skin" overrides both.
   std::vector<std::string> names = draft.config.region_names();
   for (const std::string& more : draft.config.plan_names().bands) names.push_back(more);
-  for (const std::string& part : draft.config.part_names()) {
+  for (const std::string& part : draft.config.region_band_names()) {
     if (!draft.config.sampling.bands.empty()) names.push_back(part);
   }
   const MapReader map(node, names, draft.complaints);
@@ -113,17 +113,17 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     if (from == nullptr) continue;
     const int parent = word<int>().read(*from, draft).value_or(-1);
     for (const std::size_t part : find_parts(name, draft.config))
-      family.inherited_parents[part] = parent;
+      family.parent_of_band[part] = parent;
   }
 }
 
 std::string write_inherit(const FamilyOptions& family, const WriteContext& context) {
   if (family.parents.empty()) return "";
-  const std::vector<std::string> names = context.config.part_names();
+  const std::vector<std::string> names = context.config.region_band_names();
   std::vector<std::string> entries;
   for (std::size_t part = 0; part < names.size(); ++part) {
-    entries.push_back(yaml_entry(write_scalar(names[part]),
-                                 std::string(word_of(family.inherited_parents[part]))));
+    entries.push_back(
+        yaml_entry(write_scalar(names[part]), std::string(word_of(family.parent_of_band[part]))));
   }
   return flow_map(entries);
 }
@@ -176,7 +176,7 @@ void read_families(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.complaints.expect_list(node, "a list of families, [{name: smith, members: 6, …}]");
   for (const YamlNode& item : node.items) {
     FamilyOptions family;
-    family.inherited_parents.assign(config.part_names().size(), -1);
+    family.parent_of_band.assign(config.region_band_names().size(), -1);
     if (!read_keys(item, family_keys(), family, draft)) continue;
     if (!family.name.empty()) check_name(item.find("name")->value, family, draft);
     constexpr double kTwinsMm = 0.1, kChildren = 0.4;

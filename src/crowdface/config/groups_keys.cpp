@@ -16,10 +16,10 @@ constexpr double kRounding = 1e-9;
 /// equally.
 constexpr double kUnsetShare = -1;
 
-/// Removes the old heads and the young heads for which `wanted` is false. If no old head would
-/// remain, keeps all old heads; the same holds for young heads.
+/// Removes the heads for which `wanted` is false from the list of old heads, unless no old head
+/// would remain. Does the same with the list of young heads.
 template <class Wanted>
-void bind_ages(SamplingOptions& sampling, const Wanted& wanted) {
+void restrict_old_and_young_heads(SamplingOptions& sampling, const Wanted& wanted) {
   for (auto* heads : {&sampling.heads_tagged_old, &sampling.heads_tagged_young}) {
     std::vector<Eigen::Index> left = *heads;
     std::erase_if(left, [&](Eigen::Index head) { return !wanted(head); });
@@ -35,11 +35,12 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   group.sampling.sources = heads_with_tags(*tags, draft.config.faces);
   for (const Eigen::Index head : group.sampling.sources)
     group.sampling.targets.push_back({head, 1});
-  if (group.sampling.targets.empty() && draft.heads_known && draft.tags_known) {
+  if (group.sampling.targets.empty() && draft.are_heads_known && draft.are_tags_known) {
     draft.complaints.add_at(node, "no head has all of these tags");
   }
   const auto of_any_age = heads_with_tags(remove_age_tags(*tags), draft.config.faces);
-  bind_ages(group.sampling, [&](Eigen::Index head) { return contains(of_any_age, head); });
+  restrict_old_and_young_heads(group.sampling,
+                               [&](Eigen::Index head) { return contains(of_any_age, head); });
 }
 
 /// If a group has both `tags` and `targets`: keeps only the targets that have all of the tags, with
@@ -47,7 +48,8 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
 /// tags.
 void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const YamlEntry *tags = node.find("tags"), *targets = node.find("targets");
-  if (tags == nullptr || targets == nullptr || !draft.heads_known || !draft.tags_known) return;
+  if (tags == nullptr || targets == nullptr || !draft.are_heads_known || !draft.are_tags_known)
+    return;
   const std::vector<std::string> wanted =
       texts_of(tags->value.items, [](const YamlNode& item) { return item.text; });
   const std::vector<Eigen::Index> bound = heads_with_tags(wanted, draft.config.faces);
@@ -81,12 +83,13 @@ void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
 void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, bearded]").read(node, draft);
   if (!tags) return;
-  const bool known = draft.heads_known && draft.tags_known;
+  const bool known = draft.are_heads_known && draft.are_tags_known;
   SamplingOptions& sampling = group.sampling;
   const bool had_some = !sampling.targets.empty() && !sampling.sources.empty();
   for (const std::string& tag : remove_age_tags(*tags)) {
     const auto tagged = heads_with_tags({tag}, draft.config.faces);
-    bind_ages(sampling, [&](Eigen::Index head) { return !contains(tagged, head); });
+    restrict_old_and_young_heads(sampling,
+                                 [&](Eigen::Index head) { return !contains(tagged, head); });
   }
   std::vector<std::string> emptied;  // names of bands without a remaining head
   for (const std::string& tag : *tags) {

@@ -50,10 +50,10 @@ void read_head_tags(const YamlNode& node, Config::Faces& faces, ConfigDraft& dra
     faces.tags[static_cast<std::size_t>(*head)] =
         read_tags_of_head(entry.value, faces, draft.complaints);
   }
-  draft.tags_known = draft.complaints.size() == complaints_before;
+  draft.are_tags_known = draft.complaints.size() == complaints_before;
 }
 
-void read_tags_beside_heads(Config::Faces& faces, ConfigDraft& draft) {
+void read_tags_from_head_folders(Config::Faces& faces, ConfigDraft& draft) {
   const std::size_t complaints_before = draft.complaints.size();
   std::set<std::filesystem::path> folders;
   for (const std::filesystem::path& head : faces.files) folders.insert(head.parent_path());
@@ -73,7 +73,7 @@ void read_tags_beside_heads(Config::Faces& faces, ConfigDraft& draft) {
                   [&](const YamlEntry& entry) { return !contains(faces.names, entry.key); });
     read_head_tags(of_heads, faces, draft);
   }
-  draft.tags_known = draft.complaints.size() == complaints_before;
+  draft.are_tags_known = draft.complaints.size() == complaints_before;
 }
 
 }  // namespace crowdface

@@ -12,6 +12,6 @@ void read_head_tags(const YamlNode& node, Config::Faces& faces, ConfigDraft& dra
 /// Reads tags from the key `faces.tags` of the file tags.yaml, in each folder that contains heads.
 /// (`crowdface synth` and `crowdface import` write this file.) Ignores names that are not heads of
 /// the config.
-void read_tags_beside_heads(Config::Faces& faces, ConfigDraft& draft);
+void read_tags_from_head_folders(Config::Faces& faces, ConfigDraft& draft);
 
 }  // namespace crowdface

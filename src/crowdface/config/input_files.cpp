@@ -52,8 +52,8 @@ bool may_hold_mesh(const fs::path& path) {
 }
 
 /// Returns whether a name matches a pattern with the wildcards `*` and `?`. After a mismatch, the
-/// asterisk met last takes one more character of the name. Earlier asterisks keep their characters,
-/// so the number of steps is at most the product of the two lengths.
+/// most recent asterisk takes one more character of the name. Earlier asterisks keep their
+/// characters, so the number of steps is at most the product of the two lengths.
 bool matches_wildcards(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, after_asterisk = pattern.npos, taken = 0;
   while (n < name.size()) {

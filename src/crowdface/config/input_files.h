@@ -43,14 +43,14 @@ std::string invalid_head_name_message(const std::string& name, const std::filesy
 /// \throws MissingInput if a folder cannot be read.
 std::vector<std::filesystem::path> files_matching(const std::filesystem::path& pattern);
 
-/// Returns a name for each head, which is the stem of its file's name. If two stems are equal, the
-/// names are the parts in which the paths differ: the name of "people/ann/neutral.obj" is then
+/// Returns the name of each head: the stem of the file's name. If two stems are equal, the names
+/// consist of the parts in which the paths differ. The name of "people/ann/neutral.obj" is then
 /// "ann".
 std::vector<std::string> names_of_heads(const std::vector<std::filesystem::path>& files);
 
 /// Returns every file that the config names: the config itself, heads, shapes, points, rig, neck,
-/// attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Material
-/// files and textures are not included, because the config does not name them; the heads' files do.
+/// attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Does not
+/// return material files and textures, because only the heads' files name these files.
 std::vector<std::filesystem::path> input_files(const Config& config);
 
 /// Checks that a config can store a path.

@@ -122,7 +122,7 @@ std::string write_surfaces(const Output& output, const WriteContext&) {
 }
 
 /// Adds a complaint about the key `shapes` of a contact sheet if the config has no shapes or writes
-/// no meshes. Always returns true.
+/// no meshes. Always returns true, because this function itself reports an invalid value.
 ///
 /// \param faces  number of faces whose shapes the sheet should show.
 bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {

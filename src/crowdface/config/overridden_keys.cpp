@@ -225,8 +225,8 @@ class OverriddenKeys {
 
   const YamlNode& root_;
   const Config& config_;
-  std::vector<std::uint64_t> sampled_;  ///< #groups: number of sampled faces
-  /// #groups: number of faces, including the faces of families
+  std::vector<std::uint64_t> sampled_;  ///< for each group: number of sampled faces
+  /// for each group: number of faces, including the faces of families
   std::vector<std::uint64_t> faces_of_;
   std::vector<std::string> told_;
 };

@@ -105,7 +105,7 @@ void read_regions_of(const YamlNode& node, ManualRecipe& recipe, ConfigDraft& dr
   const std::vector<std::string>& names = draft.config.regions.names;
   std::vector<std::string> keys = names;
   keys.emplace_back("all");
-  if (!draft.regions_known) {
+  if (!draft.are_regions_known) {
     for (const YamlEntry& entry : node.entries) keys.push_back(entry.key);
   }
   const MapReader map(node, keys, draft.complaints);
@@ -229,7 +229,7 @@ std::optional<ManualRecipe> parse_manual_recipe(std::string_view text, const std
   Complaints complaints;
   ConfigDraft draft(complaints);
   draft.config = config;
-  draft.heads_known = true;
+  draft.are_heads_known = true;
   std::optional<ManualRecipe> recipe;
   if (const auto node = parse_yaml(text, source, complaints)) recipe = read_recipe(*node, draft);
   complaints.report_to(problems);

@@ -69,7 +69,7 @@ void read_region_names(const YamlNode& node, Regions& regions, ConfigDraft& draf
   } else {
     for (const YamlNode& item : node.items) read_region_name(item, regions, draft.complaints);
   }
-  draft.regions_known = draft.complaints.size() == complaints_before;
+  draft.are_regions_known = draft.complaints.size() == complaints_before;
 }
 
 const Keys<Regions>& regions_keys() {
@@ -86,7 +86,7 @@ const Keys<Regions>& regions_keys() {
 
 void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (is_word(node, "none")) return;
-  draft.regions_known = false;
+  draft.are_regions_known = false;
   if (!draft.complaints.expect_map(node, "none or a mapping with the keys names, mask")) return;
   read_keys(node, regions_keys(), config.regions, draft);
   config.sampling.regions.resize(config.region_names().size());

@@ -145,10 +145,13 @@ std::string add_missing_keys(std::string text, const Review& review, const Revie
   return text;
 }
 
-/// Adds a review file to the config, unless the file is a copy of an earlier review file. If the
-/// review does not state how many faces were reviewed, adds this number to the config's copy of the
-/// review. If the review is stored in the crowd's folder and states no minimum distance, also adds
-/// the crowd's former minimum distance (if it has changed) to this copy.
+/// Adds a review file to the config, unless the file is a copy of an earlier review file. The
+/// config stores the text of the review. If the file lacks one of these values, adds the value to
+/// the stored text:
+///
+/// - the number of faces that were reviewed;
+/// - for a review in the crowd's folder, the minimum distance that the crowd had before the config
+///   changed.
 void add_review(const std::filesystem::path& file, const YamlNode& where, Config& config,
                 ConfigDraft& draft) {
   if (!expect_file(where, file, draft)) return;
@@ -185,7 +188,7 @@ std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& 
 
 }  // namespace
 
-bool is_sampled_face(const std::string& id, const Config& config) {
+bool is_sampled_face_id(const std::string& id, const Config& config) {
   const std::string start = concat(config.crowd.name, '_');
   if (!id.starts_with(start)) return false;
   const auto index = parse_unsigned(std::string_view(id).substr(start.size()));
@@ -194,7 +197,7 @@ bool is_sampled_face(const std::string& id, const Config& config) {
 }
 
 bool is_face(const std::string& id, const Config& config) {
-  return is_sampled_face(id, config) || contains(named_ids(config), id);
+  return is_sampled_face_id(id, config) || contains(named_ids(config), id);
 }
 
 std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& draft) {
@@ -213,7 +216,7 @@ std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& dr
     if (!name) continue;
     const std::vector<std::size_t> found =
         names.empty() ? std::vector<std::size_t>() : find_parts(*name, draft.config);
-    if (found.empty() && draft.regions_known) {
+    if (found.empty() && draft.are_regions_known) {
       draft.complaints.add_at(
           item, names.empty()
                     ? "the config has no regions, so nothing can be locked"
@@ -224,7 +227,7 @@ std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& dr
   }
   std::ranges::sort(locked);
   locked.erase(std::unique(locked.begin(), locked.end()), locked.end());
-  if (!names.empty() && locked.size() == draft.config.part_names().size()) {
+  if (!names.empty() && locked.size() == draft.config.region_band_names().size()) {
     draft.complaints.add_at(
         node, "every region is locked, so nothing is left to redraw; unlock at least one");
   }
@@ -259,7 +262,7 @@ std::optional<FaceChange> parse_change(const std::string& id, std::string_view t
 }
 
 std::string format_review(const Review& review, const Config& config) {
-  const std::vector<std::string> parts = config.part_names();
+  const std::vector<std::string> parts = config.region_band_names();
   std::vector<std::string> entries = {"schema: 1"};
   if (review.reviewed_face_count) entries.push_back(concat("count: ", *review.reviewed_face_count));
   if (review.review_count_seen_by_reviewer)
@@ -282,7 +285,7 @@ Review parse_review(std::string_view text, const std::string& source, const Conf
   Complaints complaints;
   ConfigDraft draft(complaints);
   draft.config = config;
-  draft.heads_known = true;
+  draft.are_heads_known = true;
   Review review = read_marks(parse_yaml(text, source, complaints), draft);
   complaints.report_to(problems);
   return review;

@@ -49,7 +49,7 @@ const Keys<Config::Smoothing>& smoothing_keys() {
 }
 
 void check_smoothing(const YamlNode&, bool is_valid, ConfigDraft& draft) {
-  draft.smoothing_known = is_valid;
+  draft.is_smoothing_known = is_valid;
 }
 
 const Keys<Config::Blending>& blending_keys() {
@@ -88,7 +88,7 @@ void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
   if (textures.matching_tags && textures.colours != ColourWeights::kSampled) {
     complain("alike", "requires colours: drawn");
   }
-  if (!textures.matching_tags || !draft.heads_known) return;
+  if (!textures.matching_tags || !draft.are_heads_known) return;
   for (const std::string& tag : *textures.matching_tags) {
     const bool known = std::ranges::any_of(draft.config.faces.tags,
                                            [&](const auto& tags) { return contains(tags, tag); });
@@ -123,7 +123,7 @@ const Keys<Plane>& plane_keys() {
 /// Adds a complaint about `layout: manual` if a head has no anchor.
 void check_plane(const YamlNode& node, bool is_valid, ConfigDraft& draft) {
   const Config& config = draft.config;
-  if (config.plane.layout != Layout::kManual || !draft.heads_known || !is_valid) return;
+  if (config.plane.layout != Layout::kManual || !draft.are_heads_known || !is_valid) return;
   std::vector<std::string> missing;
   for (std::size_t h = 0; h < config.faces.names.size(); ++h) {
     if (!config.plane.anchors.contains(static_cast<Eigen::Index>(h))) {
@@ -297,7 +297,7 @@ const Keys<Config>& root_keys() {
 }
 
 std::string one_line_text(std::string_view value) {
-  // a value that may differ between regions begins with this text
+  // A value that applies to all regions is written as a map with the key `default`.
   constexpr std::string_view kEverywhere = "\ndefault: ";
   if (value.starts_with(kEverywhere)) value.remove_prefix(kEverywhere.size());
   return std::string(value);

@@ -36,8 +36,8 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
     split.whole = node;
     return split;
   }
-  // An entry is the value of one region, the default value, or a parameter of a single value that
-  // all regions share.
+  // An entry is one of three: the value of one region; the value `default`; or, if all regions have
+  // the same value, a parameter of this value.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
   direct.entries.clear();
@@ -54,7 +54,7 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
       split.whole = entry.value;
     } else if (contains(parameters, entry.key)) {
       direct.entries.push_back(entry);
-    } else if (draft.regions_known) {
+    } else if (draft.are_regions_known) {
       Names keys = parameters;
       keys.insert(keys.end(), regions.begin(), regions.end());
       keys.emplace_back("default");

@@ -44,8 +44,8 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
   return shapes;
 }
 
-/// Reads the OBJ files of a folder as shapes, except the neutral mesh. (So the key `neutral` is
-/// read before.)
+/// Reads the OBJ files of a folder as shapes, except the neutral mesh. The key `neutral` must
+/// therefore be read before this key.
 void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) {
   const auto folder = path("a folder of OBJ files").read(node, draft);
   if (!folder) return;
@@ -81,7 +81,7 @@ void read_shape_heads(const YamlNode& node, Shapes& shapes, ConfigDraft& draft) 
         node, concat("the folder ", quoted(folder->string()), " does not exist"),
         ExitCode::kMissingInput);
   }
-  if (!draft.heads_known) return;
+  if (!draft.are_heads_known) return;
   const Config::Faces& faces = draft.config.faces;
   std::vector<ShapeFiles> found(faces.files.size());
   for (std::size_t h = 0; h < faces.files.size(); ++h) {
@@ -151,7 +151,7 @@ void check_shapes(const YamlNode& node, const Shapes& shapes, ConfigDraft& draft
         "directory (the folder of its shapes), or heads (a folder that "
         "has a subfolder of shapes for each head), or all three");
   }
-  if (shapes.heads_directory.empty() ? shapes.names.empty() : !draft.heads_known) return;
+  if (shapes.heads_directory.empty() ? shapes.names.empty() : !draft.are_heads_known) return;
   if (shapes.names.empty() || shapes.names.size() > kMaxShapes) {
     return draft.complaints.add_at(
         node, concat("expected 1 to ", kMaxShapes, " shapes, found ", shapes.names.size()));

@@ -36,7 +36,7 @@ bool has_attachments(const std::filesystem::path& folder, const StarterFacts& fa
   ConfigDraft draft(complaints);
   draft.config.faces.names = facts.head_names;
   draft.config.faces.tags = facts.tags;
-  draft.heads_known = true;
+  draft.are_heads_known = true;
   YamlNode from, section;
   from.kind = YamlNode::Kind::kScalar;
   from.path = "attachments.from";

@@ -24,7 +24,7 @@ struct StarterFacts {
   Axis up = {1, 1};
   Axis front = {2, 1};
   /// true if some heads are rotated or shifted relative to the other heads
-  bool align_rigidly = false;
+  bool uses_rigid_alignment = false;
   std::string crowd_name = "crowd";
   std::string mask_file;  ///< region mask, relative to the config's folder; empty: none
   std::vector<std::string> regions = {"top", "middle", "bottom"};  ///< names of the mask's channels

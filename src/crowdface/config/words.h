@@ -115,7 +115,7 @@ inline const auto& all_words() {
                          {"teeth", SurfaceKind::kTeeth},
                          {"gums", SurfaceKind::kGums},
                          {"hidden", SurfaceKind::kHidden}},
-      // for FamilyOptions::inherited_parents; `drawn`: a random parent
+      // for FamilyOptions::parent_of_band; `drawn`: a random parent
       Words<int>{{"mother", 0}, {"father", 1}, {"drawn", -1}}};
   return words_of_each_enum;
 }

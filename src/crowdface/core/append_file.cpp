@@ -23,7 +23,7 @@ AppendFile::AppendFile(const std::filesystem::path& path)
 
 void AppendFile::append(std::string_view bytes) {
   const std::lock_guard lock(mutex_);
-  if (!write_all(file_.get(), bytes) || !sync(file_.get())) {
+  if (!write_all(file_.get(), bytes) || !sync_to_disk(file_.get())) {
     throw_with_errno<IoError>(path_, "appending failed");
   }
 }

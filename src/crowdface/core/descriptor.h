@@ -94,7 +94,7 @@ inline bool write_all(int fd, std::string_view bytes) {
 
 /// Flushes the file to disk (fsync).
 /// \return whether the flush succeeded; true for files that are not on a disk, such as pipes.
-inline bool sync(int fd) {
+inline bool sync_to_disk(int fd) {
   while (::fsync(fd) != 0) {
     if (errno == EINTR) continue;
     return errno == EINVAL || errno == ENOTSUP;

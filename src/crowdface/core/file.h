@@ -54,8 +54,8 @@ enum class OnTruncation {
 
 /// Read-only view of a file's bytes, valid while the object or a copy of it lives. After a call of
 /// watch_mapped_files() files are memory-mapped: the kernel can drop and reload their pages, so
-/// large inputs do not count as memory of this process. Without that call the bytes are copied,
-/// because a mapped file that is truncated would kill the process without the SIGBUS handler.
+/// large inputs do not count as memory of this process. Without that call, the bytes are copied,
+/// because without the SIGBUS handler a read from a truncated mapped file would kill the process.
 class MappedFile {
  public:
   MappedFile() = default;

@@ -20,7 +20,7 @@ enum class LockKind {
 class FileLock {
  public:
   /// Waits until the lock is free.
-  /// \param path     an empty file, created if it does not exist; its folder must exist.
+  /// \param path        an empty file, created if it does not exist; its folder must exist.
   /// \param waiting  called once if the lock is not free; may be empty.
   /// \throws CannotCreate if the file cannot be created; IoError if it cannot be locked;
   ///         Interrupted if a signal arrives while waiting.

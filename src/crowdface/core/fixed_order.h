@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linear algebra that adds terms in a fixed order, so that results are the same bit for bit with
-// every compiler and instruction set. Linear algebra libraries do not ensure this: their order
-// depends on the machine.
+// every compiler and instruction set. Linear algebra libraries do not ensure this, because the
+// order of their sums depends on the machine.
 #pragma once
 
 #include <cmath>

@@ -47,7 +47,7 @@ class DirectoryHandle {
   explicit DirectoryHandle(const std::filesystem::path& folder);
   /// Checks that the path still leads to the directory that this object opened: nobody has moved or
   /// replaced the directory.
-  /// \throws IoError if not.
+  /// \throws IoError if the path leads elsewhere.
   void require_still_at_path() const;
 
  private:

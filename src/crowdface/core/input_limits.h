@@ -28,8 +28,8 @@ const InputLimits& input_limits();
 ///         (image_bytes: 2^50).
 void set_input_limit(std::string_view assignment);
 
-/// Lowers the limit `image_bytes` to `bytes` if the limit is larger than `bytes`. Call it at
-/// program start.
+/// Lowers the limit `image_bytes` to `bytes` if the limit is larger than `bytes`. Call this
+/// function at program start.
 void limit_image_memory(std::uint64_t bytes);
 
 /// Names and default values of all limits, for help texts: "vertices (67108864), faces (…), …".

@@ -66,12 +66,12 @@ void catch_interrupts() {
   }
 }
 
-bool interrupted() {
+bool is_interrupted() {
   return signal_seen != 0 || is_cancelled();
 }
 
 void throw_if_interrupted() {
-  if (interrupted()) {
+  if (is_interrupted()) {
     throw Interrupted(signal_seen != 0 ? kMessage : "cancelled; run again to continue");
   }
 }

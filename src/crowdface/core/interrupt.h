@@ -4,17 +4,17 @@
 namespace crowdface {
 
 /// After this call, the first SIGINT, SIGTERM, SIGHUP or SIGXCPU only sets the flag that
-/// `interrupted` returns. If the program still runs 0.7 s later, it ends at once with
-/// ExitCode::kInterrupted. At a second signal, that signal ends the program at once. Signals that
-/// are ignored (SIGHUP under nohup) stay ignored. Only programs may call this function, not
-/// libraries. It also uses the signal SIGRTMIN.
+/// `is_interrupted` returns. If the program still runs 0.7 s later, it ends at once with
+/// ExitCode::kInterrupted. A second signal ends the program at once. Signals that are ignored
+/// (SIGHUP under nohup) stay ignored. Only programs may call this function, not libraries. It also
+/// uses the signal SIGRTMIN.
 void catch_interrupts();
 
 /// Whether a signal that catch_interrupts watches has arrived, or work is cancelled (cancel.h).
-bool interrupted();
+bool is_interrupted();
 
 /// Ends the work if it is interrupted. Long loops call this function between units of work.
-/// \throws Interrupted if `interrupted` is true.
+/// \throws Interrupted if `is_interrupted` is true.
 void throw_if_interrupted();
 
 }  // namespace crowdface

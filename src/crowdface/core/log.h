@@ -15,7 +15,7 @@ enum class LogLevel { kQuiet, kNormal, kVerbose };
 /// lines.
 void set_log_level(LogLevel level);
 LogLevel log_level();
-/// Opens one more log file. All later lines are appended to it and to the earlier log files.
+/// Opens one more log file. All later lines are appended to this file and to the earlier log files.
 /// \throws CannotCreate.
 void add_log_file(const std::filesystem::path& path);
 /// Stops writing to the log file added last.

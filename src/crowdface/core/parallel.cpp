@@ -52,12 +52,12 @@ class HandOver {
 #endif
 };
 
-/// Runs the items of a loop. ThreadSanitizer sees all items as ordered after the code that precedes
-/// the loop and before the code that follows it, but not among themselves, so it reports races
-/// between items. The first exception is kept until the loop ends, and items that have not started
-/// by then are skipped. TBB must not see exceptions: TBB would cancel the loops that run inside
-/// other items, including Embree's loops, and the cancelled loops would return incomplete results
-/// without an error.
+/// Runs the items of a loop. ThreadSanitizer sees that all items run after the code that precedes
+/// the loop and before the code that follows the loop. ThreadSanitizer sees no order between the
+/// items, so it reports races between items. The first exception is kept until the loop ends, and
+/// items that have not started by then are skipped. TBB must not see exceptions: TBB would cancel
+/// the loops that run inside other items, including Embree's loops, and the cancelled loops would
+/// return incomplete results without an error.
 class LoopItems {
  public:
   ~LoopItems() { after_.take(); }
@@ -117,8 +117,8 @@ void detail::run_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
   if (blocks == 1) return body(0, count);
   LoopItems items;
   items.begin();
-  // Run the loop in isolation, so that a thread that waits for it does not start another heavy item
-  // of an outer loop.
+  // Run the loop in isolation, so that a thread that waits for this loop does not start another
+  // heavy item of an outer loop.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::ptrdiff_t{0}, blocks, [&](std::ptrdiff_t b) {
       items.run([&] {

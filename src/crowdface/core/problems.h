@@ -19,8 +19,8 @@ class Problems {
   std::size_t size() const { return messages_.size(); }
   const std::vector<std::string>& messages() const { return messages_; }
 
-  /// The exit code of the most basic of the collected errors. Code 64 is more basic than 66, 66
-  /// more than 65, and 65 more than any other. Returns 0 if there is no error.
+  /// The exit code of the collected errors: the first of 64, 66 and 65 that occurs, or else the
+  /// code of the first error. Returns 0 if there is no error.
   ExitCode code() const;
 
   /// \throws RecoverableError with all messages, one per line, if there are any.

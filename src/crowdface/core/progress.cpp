@@ -46,12 +46,13 @@ SecondsClock steady_seconds_clock() {
   };
 }
 
-Progress::Progress(std::string stage, std::size_t total, std::size_t burst, SecondsClock clock)
+Progress::Progress(std::string stage, std::size_t total, std::size_t simultaneous_steps,
+                   SecondsClock clock)
     : stage_(std::move(stage)),
       total_steps_(total),
       clock_(std::move(clock)),
       start_seconds_(clock_()),
-      rate_(burst),
+      rate_(simultaneous_steps),
       last_shown_seconds_(start_seconds_) {
   tell_listener(stage_, 0, total_steps_);
 }

@@ -24,9 +24,9 @@ class Progress {
  public:
   /// \param stage  name of the stage, such as "reading heads".
   /// \param total  number of steps.
-  /// \param burst  number of steps that may end at almost the same time.
+  /// \param simultaneous_steps  number of steps that may end at almost the same time.
   Progress(std::string stage, std::size_t total,
-           std::size_t burst = static_cast<std::size_t>(thread_count()),
+           std::size_t simultaneous_steps = static_cast<std::size_t>(thread_count()),
            SecondsClock clock = steady_seconds_clock());
   /// Logs how long the stage took, if all steps are done.
   ~Progress();

@@ -76,7 +76,7 @@ void remove_if_exists(const fs::path& path) {
 
 OpenedFile open_for_reading(const fs::path& path) {
   int fd = -1;
-  do {  // O_NONBLOCK: open() would wait for the writer of a pipe; the check below rejects pipes
+  do {  // O_NONBLOCK: do not wait for the writer of a pipe; the check below rejects pipes
     fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   } while (fd < 0 && errno == EINTR);
   if (fd < 0) {

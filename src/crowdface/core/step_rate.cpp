@@ -9,7 +9,7 @@ void StepRate::record(double seconds, std::size_t finished_steps) {
   constexpr double kMinInterval = 0.05;
   if (samples_.empty()) {
     first_seconds_ = seconds;
-  } else if (finished_steps < samples_.back().finished_steps + burst_ ||
+  } else if (finished_steps < samples_.back().finished_steps + simultaneous_steps_ ||
              seconds < samples_.back().seconds + kMinInterval) {
     return;
   }

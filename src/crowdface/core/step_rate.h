@@ -13,15 +13,15 @@ namespace crowdface {
 /// crowd that is nearly full.
 class StepRate {
  public:
-  /// \param burst  number of steps that may end at almost the same time, such as the number of
-  ///     threads. Measured times are at least this many steps apart.
-  explicit StepRate(std::size_t burst = 1) : burst_(burst) {}
+  /// \param simultaneous_steps  number of steps that may end at almost the same time, such as the
+  ///     number of threads. Measured times are at least this many steps apart.
+  explicit StepRate(std::size_t simultaneous_steps = 1) : simultaneous_steps_(simultaneous_steps) {}
 
   /// Records the number of finished steps.
   /// \param seconds  time of the call; must not be less than in the previous call.
   void record(double seconds, std::size_t finished_steps);
-  /// Returns the steps per second; nothing until `burst` steps have ended since the first call of
-  /// `record`.
+  /// Returns the steps per second. Returns nothing until `simultaneous_steps` steps have ended
+  /// since the first call of `record`.
   std::optional<double> rate() const;
 
  private:
@@ -29,7 +29,7 @@ class StepRate {
     double seconds = 0;
     std::size_t finished_steps = 0;
   };
-  std::size_t burst_;
+  std::size_t simultaneous_steps_;
   double first_seconds_ = 0;
   /// The samples in the second half of the time that has passed since the first step, and the last
   /// sample before that half.

@@ -37,8 +37,8 @@ std::string lower_case(std::string_view text);
 /// control characters (except line ends) become hexadecimal escapes.
 std::string printable(std::string_view text);
 
-/// `text` in double quotes, printable. Escapes line ends, quotes and backslashes too. Keeps only
-/// the first 80 bytes of the text.
+/// `text` in double quotes, made safe as by `printable`. Also escapes line ends, quotes and
+/// backslashes. Keeps only the first 80 bytes of the text.
 std::string quoted(std::string_view text);
 /// These overloads exist because overload resolution would otherwise choose std::quoted for their
 /// argument types.
@@ -51,9 +51,9 @@ inline std::string quoted(const char* text) {
 
 inline constexpr std::size_t kMaxNameLength = 64;
 inline constexpr std::size_t kMaxIdLength = 2 * kMaxNameLength + 22;  ///< form: CROWD_FAMILY_NUMBER
-/// Whether `text` can be a file name on any system. It must have 1 to `longest` characters, each a
-/// letter (A–Z, a–z), digit, '_', '-' or '.', and must not start with '.'. "__proto__" is refused
-/// because in JavaScript it would set an object's prototype.
+/// Whether `text` can be a file name on any system. The text must have 1 to `longest`
+/// characters, each a letter (A–Z, a–z), digit, '_', '-' or '.', and must not start with '.'.
+/// "__proto__" is refused because in JavaScript it would set an object's prototype.
 bool is_name(std::string_view text, std::size_t longest = kMaxNameLength);
 
 /// The candidate with the least edit distance to `word`; nothing if `word` is too different from

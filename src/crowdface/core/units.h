@@ -39,10 +39,11 @@ std::string name_of(LengthUnit unit);
 /// Parses the name of a unit or a length with a unit, such as "243.84 cm"; nothing if the text is
 /// neither of these, or if the length is outside 1e-6 mm … 1e9 mm.
 std::optional<LengthUnit> parse_length_unit(std::string_view text);
-/// The unit among `units` in which `length` comes closest to `typical_mm` (ratio closest to 1).
+/// The unit among `units` for which `length` units are closest to `typical_mm` (ratio closest to
+/// 1).
 LengthUnit nearest_unit(double length, double typical_mm, std::span<const LengthUnit> units);
-/// The unit in which `length` equals `typical_mm`. The unit's length is rounded to two significant
-/// digits.
+/// The unit for which `length` units equal `typical_mm`. The unit's length is rounded to two
+/// significant digits.
 LengthUnit fitting_unit(double length, double typical_mm);
 /// Parses a length with its unit, such as "8 mm" or "1.5cm". Returns millimetres; nothing if the
 /// text is not a length.

@@ -60,9 +60,9 @@ class TemporaryFile {
       path_ = target;
       path_.replace_filename(temporary_name());
       file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-      if (!file_.valid() && errno == EEXIST) continue;  // a leftover, or a file of another machine
+      if (!file_.valid() && errno == EEXIST) continue;  // made by a killed run or another machine
       if (!file_.valid()) throw_with_errno<CannotCreate>(target, "cannot be created");
-      if (lock_if_still_own()) return;
+      if (lock_unless_claimed_for_removal()) return;
     }
     throw CannotCreate(
         concat(target.string(), ": cannot be created: every temporary file name is taken"));
@@ -94,7 +94,7 @@ class TemporaryFile {
 
   /// Syncs the file to disk, then closes it; the lock stays.
   void finish() {
-    if (!sync(file_.get())) fail("writing to disk");
+    if (!sync_to_disk(file_.get())) fail("writing to disk");
     // Large new files should not displace other data from the page cache.
     if (written_ >= kWritebackSize) ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);
     lock_ = Descriptor(::dup(file_.get()));  // keeps the lock after the file is closed
@@ -108,8 +108,8 @@ class TemporaryFile {
   }
 
  private:
-  /// Locks the file. Returns false if remove_temporary_files locked or removed the file first.
-  bool lock_if_still_own() const {
+  /// Locks the file. Returns false if remove_temporary_files has locked or removed it already.
+  bool lock_unless_claimed_for_removal() const {
     if (claim(file_.get()) == Claim::kTaken) return false;
     struct stat status {};
     if (::fstat(file_.get(), &status) == 0) return status.st_nlink > 0;
@@ -141,7 +141,7 @@ void sync_directory(const fs::path& directory) {
   const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // Accept this error: a folder that is writable but not readable cannot be synced.
   if (!descriptor.valid() && errno == EACCES) return;
-  if (!descriptor.valid() || !sync(descriptor.get())) {
+  if (!descriptor.valid() || !sync_to_disk(descriptor.get())) {
     throw_with_errno<IoError>(directory, "cannot be synchronised");
   }
 }

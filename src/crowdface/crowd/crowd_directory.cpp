@@ -123,7 +123,7 @@ void remove_crowd(const CrowdDirectory& directory) {
   for (const fs::path& path : files) remove_file(path);
   for (const fs::path& ledger : directory.ledgers()) {
     for (const LedgerEntry& entry : read_ledger(ledger).entries) {
-      for (const LedgerEntry::File& file : entry.files) remove_recorded(directory.root, file);
+      for (const LedgerEntry::File& file : entry.files) remove_recorded_file(directory.root, file);
     }
   }
   std::vector<fs::path> folders = crowd_folders(directory);
@@ -401,7 +401,7 @@ void open_crowd_directory(const CrowdDirectory& directory, const CrowdConfig& co
                           Replace replace) {
   check_crowd_directory(directory, config, replace);
   make_directories(directory.root);
-  if (config.rename_review_folder) set_reviews_aside(directory);
+  if (config.renames_review_folder) set_reviews_aside(directory);
   refuse_unread_reviews(directory, config);
   const bool is_others = path_exists(directory.config())
                              ? !config.differences(read_file(directory.config())).empty()

@@ -185,7 +185,7 @@ struct CrowdConfig {
   /// one per review: the content of the review file at the time when this run read the file
   std::vector<std::string> original_reviews = {};
   /// Whether to rename the existing folder of reviews to a name with the date.
-  bool rename_review_folder = false;
+  bool renames_review_folder = false;
 };
 
 /// Checks whether open_crowd_directory would succeed, but changes nothing. For use before any heavy

@@ -63,8 +63,8 @@ std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory
   return ids;
 }
 
-/// Returns the number of shards: the number of tasks that was last submitted to a farm; without a
-/// submission, the number in the file names of shards; 1 if there are no shards.
+/// Returns the number of shards. The number comes from the last submission to a farm or, without a
+/// submission, from the file names of shards. Returns 1 if there are no shards.
 std::uint64_t shard_count(const CrowdDirectory& directory) {
   const auto job = parse_shallow_json(text_of(directory.cluster_task_folder() / "job.json"));
   if (job.is_object() && job.contains("shards") && job["shards"].is_number_unsigned()) {
@@ -106,15 +106,15 @@ void add_notes(const CrowdDirectory& directory, ShardStatus& status) {
   }
 }
 
-/// For a task that died without writing a report into the crowd's folder: adds the error from the
-/// task's log to the status.
+/// Adds the error in the task's log to the status, because a task that died may have written no
+/// notes to the crowd's folder.
 void add_task_end(const CrowdDirectory& directory, ShardStatus& status) {
   const TaskEnd end = parse_task_end(text_of(directory.cluster_task_folder() / "log" /
                                              concat("blend-", status.shard.index, ".log")));
   if (!end.exit_code || *end.exit_code == 0) return;
   constexpr auto kAgain = static_cast<std::uint64_t>(ExitCode::kInterrupted);
   status.state = *end.exit_code == kAgain ? ShardState::kInterrupted : ShardState::kFailed;
-  status.requeued = end.requeued;
+  status.is_requeued = end.is_requeued;
   if (!end.reason.empty() || status.reason.empty()) {
     status.reason = end.reason.empty() ? concat("ended with code ", *end.exit_code) : end.reason;
   }
@@ -133,7 +133,7 @@ void finish(const CrowdDirectory& directory, ShardStatus& status) {
   if (status.face_count > 0 && status.finished_face_count == status.face_count) {
     status.state = ShardState::kDone;
     status.reason.clear();
-    status.requeued = false;
+    status.is_requeued = false;
   }
   if (status.state != ShardState::kWorking) return;
   status.seconds_since_write =
@@ -150,7 +150,7 @@ void add_failures(const CrowdDirectory& directory, CrowdStatus& status) {
   };
   for (const fs::path& log : list_files(directory.cluster_task_folder() / "log", is_log)) {
     const TaskEnd end = parse_task_end(text_of(log));
-    if (!end.exit_code || *end.exit_code == 0 || end.requeued) continue;
+    if (!end.exit_code || *end.exit_code == 0 || end.is_requeued) continue;
     status.failures.push_back(concat(log.stem().string(), ": ended with code ", *end.exit_code,
                                      end.reason.empty() ? "" : ": ", end.reason));
   }
@@ -164,9 +164,9 @@ TaskEnd parse_task_end(std::string_view log) {
   for (const std::string_view line : split_lines(log.substr(0, log.rfind('\n') + 1))) {
     if (line.starts_with("=== ended with code ")) {
       end.exit_code = parse_unsigned(line.substr(line.rfind(' ') + 1));
-      end.requeued = false;
+      end.is_requeued = false;
     } else if (line == "=== requeued") {
-      end.requeued = true;
+      end.is_requeued = true;
     } else if (line.starts_with("===")) {
       end = {};
     } else if (line.find("error: ") != line.npos) {

@@ -25,10 +25,10 @@ struct ShardStatus {
   std::string machine;
   std::string reason;  ///< why the last run ended early
   /// Whether the last run ended early and Slurm will run the shard's task again.
-  bool requeued = false;
+  bool is_requeued = false;
 
   /// The state for users: "requeued", or the name of `state`.
-  std::string_view state_name() const { return requeued ? "requeued" : name_of(state); }
+  std::string_view state_name() const { return is_requeued ? "requeued" : name_of(state); }
 };
 
 struct CrowdStatus {
@@ -46,7 +46,7 @@ struct CrowdStatus {
 struct TaskEnd {
   std::optional<std::uint64_t> exit_code;  ///< nothing if the task has not ended
   std::string reason;                      ///< last error in the log
-  bool requeued = false;                   ///< the task has asked Slurm to run it again
+  bool is_requeued = false;                ///< the task has asked Slurm to run it again
 };
 TaskEnd parse_task_end(std::string_view log);
 

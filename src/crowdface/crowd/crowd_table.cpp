@@ -143,8 +143,8 @@ bool has_any_tag(const HeadTags& tags) {
 }
 
 /// Adds the columns with the identity of a face, such as id, family and role.
-void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names, const TagsAndKinds& facts,
-             TableColumns& columns) {
+void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names,
+             const HeadTagsAndAttachmentKinds& facts, TableColumns& columns) {
   using Face = const FacePlan&;
   const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
   const auto kinds = facts.attachment_kinds;
@@ -255,7 +255,7 @@ std::string srgb_hex(const Eigen::Array3d& linear_colour) {
 }
 
 TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
-                               const Digest& settings, const TagsAndKinds& facts) {
+                               const Digest& settings, const HeadTagsAndAttachmentKinds& facts) {
   const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
   return text_of_items(crowd.size(), [&crowd, &names, settings, parenthood, tags = facts.head_tags,
                                       is_tagged = has_any_tag(facts.head_tags)](std::size_t i) {
@@ -272,7 +272,8 @@ TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNam
 }
 
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
-                      const std::vector<Eigen::Array3d>& neck_colours, const TagsAndKinds& facts) {
+                      const std::vector<Eigen::Array3d>& neck_colours,
+                      const HeadTagsAndAttachmentKinds& facts) {
   TableColumns columns = table_columns(names);
   add_who(crowd, names, facts, columns);
   add_neck_colours(crowd, neck_colours, columns);

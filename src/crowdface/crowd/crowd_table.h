@@ -16,8 +16,8 @@ namespace crowdface {
 
 inline const std::vector<Eigen::Array3d> kNoNeckColours;
 
-/// Tags of heads and kinds of attachments, for the columns that describe the person.
-struct TagsAndKinds {
+/// Tags of heads and kinds of attachments, for the columns of the table that describe the person.
+struct HeadTagsAndAttachmentKinds {
   HeadTags head_tags;                         ///< the tags of each head; or empty
   std::vector<std::string> attachment_kinds;  ///< the kind of each attachment; or empty
 };
@@ -29,13 +29,13 @@ struct TagsAndKinds {
 ///                      vertices at the neck; or empty
 TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
                       const std::vector<Eigen::Array3d>& neck_colours = kNoNeckColours,
-                      const TagsAndKinds& facts = {});
+                      const HeadTagsAndAttachmentKinds& facts = {});
 
 /// Returns the text of plan.jsonl: the result of plan_text with additional keys for each face. Adds
 /// `sex` and `tags` if the heads have tags. Adds `family_role` for parents and children; other
 /// members of a family have only the key `family`. `crowd` and `names` must outlive the text.
 TextPieces annotated_plan_text(const std::vector<FacePlan>& crowd, const PlanNames& names,
-                               const Digest& settings, const TagsAndKinds& facts);
+                               const Digest& settings, const HeadTagsAndAttachmentKinds& facts);
 
 /// Converts a colour in linear light to sRGB text such as "#C89F8A".
 std::string srgb_hex(const Eigen::Array3d& linear_colour);

@@ -155,7 +155,7 @@ LedgerLines read_ledger(const fs::path& path, std::string_view item) {
   return std::move(reader.lines);
 }
 
-void remove_recorded(const fs::path& root, const LedgerEntry::File& file) {
+void remove_recorded_file(const fs::path& root, const LedgerEntry::File& file) {
   fs::path path = root / file.name;
   if (!is_inside_folder(path, root) || !has_content(path, file.content)) return;
   std::error_code error;
@@ -357,7 +357,7 @@ void Ledger::remove_outdated_files() const {
     for (const LedgerEntry::File& file : item.lines.front().files) kept.insert(file.name);
   }
   for (const LedgerEntry::File& file : outdated) {
-    if (!kept.contains(file.name)) remove_recorded(root_, file);
+    if (!kept.contains(file.name)) remove_recorded_file(root_, file);
   }
 }
 

@@ -63,7 +63,7 @@ bool files_match(const std::filesystem::path& root, const LedgerEntry& entry);
 /// Removes a file of a crowd if the file still has the recorded content. Then removes the file's
 /// parent folders that became empty. Keeps altered files and files outside the crowd's folder.
 /// \throws IoError.
-void remove_recorded(const std::filesystem::path& root, const LedgerEntry::File& file);
+void remove_recorded_file(const std::filesystem::path& root, const LedgerEntry::File& file);
 
 /// Records finished work in a crowd's folder, so that another run can continue. A run appends lines
 /// to the ledger and, at the end, sorts the lines, so that equal crowds have equal ledgers. All
@@ -79,7 +79,7 @@ class Ledger {
   Ledger(std::filesystem::path root, const std::filesystem::path& own_ledger,
          const std::vector<std::filesystem::path>& others);
 
-  /// Returns a ledger line of the item that has this key and whose files are unchanged. Such a line
+  /// Returns a ledger line with this item and this key whose files are unchanged. Such a line
   /// proves that the item is finished.
   std::optional<LedgerEntry> find_verified(const std::string& item, const Digest& key);
 
@@ -101,9 +101,9 @@ class Ledger {
   void record_existing(const LedgerEntry::File& file);
 
   /// Records files that were made again, possibly in another format than the config demands. If a
-  /// file of an item changed, the item gets another key. The next run does not look for this key.
-  /// So it makes the item again as the config demands. Items with unchanged files keep their lines.
-  /// \param item, file_names  an item and its present files
+  /// file of an item changed, the item gets a key that no run looks for, so that the next run makes
+  /// the item again as the config demands. Items with unchanged files keep their lines.
+  /// \param item, file_names  an item, and the names of its present files
   /// \param remade_folders    folders with remade files; files of other items in these folders are
   ///                          hashed again, too
   void record_remade_files(const std::string& item, const std::vector<std::string>& file_names,
@@ -118,8 +118,9 @@ class Ledger {
   void require_files() const;
 
  private:
-  /// The ledger lines of one item. `is_finished` false: the lines that existed when this run began.
-  /// `is_finished` true: a single line, which this run recorded or found to match the item's files.
+  /// The ledger lines of one item. At first, these are the lines that earlier runs wrote. As soon
+  /// as this run has recorded the item, or has found that a line matches the item's files,
+  /// `is_finished` is true and only the recorded or matching line is left.
   struct Item {
     std::vector<LedgerEntry> lines;
     bool is_finished = false;
@@ -134,7 +135,7 @@ class Ledger {
   std::filesystem::path root_, own_ledger_;
   std::vector<std::filesystem::path> other_ledgers_;
   std::map<std::string, Item> items_;
-  /// files listed by lines of the ledger that newer lines replaced
+  /// files of replaced ledger lines that the newer lines of the same items do not list
   std::vector<LedgerEntry::File> replaced_files_;
   bool has_appended_ = false;  ///< whether this run has appended lines
   std::mutex mutex_;

@@ -84,7 +84,7 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
 
 CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
                              const std::vector<FaceSpace::Point>& points) {
-  constexpr std::size_t kNeighbours = 6;  // for each face: two rows on its gallery page
+  constexpr std::size_t kNeighbours = 6;  // per face: fills two rows of the gallery page
   CrowdLikeness likeness{anchors, find_likeness(points, kNeighbours)};
   for (std::vector<Neighbour>& near : likeness.likeness.neighbours) {
     for (Neighbour& other : near) other.distance_mm = rounded(other.distance_mm);

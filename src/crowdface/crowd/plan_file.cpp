@@ -40,7 +40,7 @@ class LineReader {
     if (json.contains("group")) face.group = file_name(json, "group", kMaxNameLength);
     face.recipe.target = head(text(json, "target"), "target");
     if (const Json* mixture = found(json, "mixture")) {
-      set_target(face.recipe, shares(*mixture, "mixture"));
+      set_target_heads(face.recipe, shares(*mixture, "mixture"));
     }
     if (const Json* colours = found(json, "colours")) {
       face.recipe.colours = shares(*colours, "colours");

@@ -37,8 +37,9 @@ std::filesystem::path shard_path(const std::filesystem::path& path, const Shard&
 std::vector<std::filesystem::path> existing_shard_paths(const std::filesystem::path& path);
 
 enum class ShardState {
-  kWaiting,      ///< no run has begun
-  kWorking,      ///< at work, or killed without notice; the time since its last write tells which
+  kWaiting,  ///< no run has begun
+  /// working, or killed without notice; only the time since the last write distinguishes the two
+  kWorking,
   kDone,         ///< all faces of the shard are done
   kInterrupted,  ///< stopped by a signal; the next run continues
   kFailed

@@ -14,7 +14,7 @@ struct CrowdCheck {
   std::size_t file_count = 0;              ///< number of files in the ledger
   std::vector<std::string> missing_files;  ///< missing files, relative to the folder
   std::vector<std::string> altered_files;  ///< files with other content
-  /// ids of the faces in the plan, and files of plan and report, that no ledger lists as finished
+  /// ids of planned faces, and names of the plan file and the report file, that no ledger lists
   std::vector<std::string> unfinished_items;
   std::vector<std::string> remarks;  ///< problems of the ledger itself, and leftovers
 

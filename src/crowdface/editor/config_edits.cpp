@@ -111,20 +111,20 @@ fs::path put_recipe(const ManualRecipe& recipe, const Config& config) {
   return put_sections(config.file, concat("recipes: [", single_line_yaml(node), "]\n"));
 }
 
-fs::path put_regions(const fs::path& config, const std::vector<std::string>& names,
-                     const std::vector<fs::path>& masks) {
+fs::path save_regions_in_edits(const fs::path& config, const std::vector<std::string>& names,
+                               const std::vector<fs::path>& masks) {
   return put_sections(config, concat("regions: {names: ", flow_list_of_names(names),
                                      ", mask: ", paths_from(config, masks), "}\n"));
 }
 
-fs::path put_heads(const fs::path& config, const std::vector<fs::path>& heads) {
+fs::path save_heads_in_edits(const fs::path& config, const std::vector<fs::path>& heads) {
   const YamlNode faces =
       parsed(concat("faces: {also: ", paths_from(config, heads), "}\n"), "edits");
   return put_edit(config, [&](YamlNode& edits) {
     YamlEntry* own = nullptr;
     for (YamlEntry& edit : edits.entries) own = edit.key == "faces" ? &edit : own;
     if (own == nullptr) return edits.entries.push_back(faces.entries.front());
-    merge_faces(faces.entries.front().value, own->value);
+    merge_faces_section(faces.entries.front().value, own->value);
   });
 }
 

@@ -21,19 +21,19 @@ std::filesystem::path put_recipe(const ManualRecipe& recipe, const Config& confi
 /// Saves regions in the edits. These regions replace all regions of the config.
 /// \param config  file of the config.
 /// \return the file of the edits.
-/// \throws Error as put_recipe does, for example if another part of the config names a region that
-///         the new regions lack.
-std::filesystem::path put_regions(const std::filesystem::path& config,
-                                  const std::vector<std::string>& names,
-                                  const std::vector<std::filesystem::path>& masks);
+/// \throws Error as put_recipe does, for example if another part of the config names a
+///         region that the new regions lack.
+std::filesystem::path save_regions_in_edits(const std::filesystem::path& config,
+                                            const std::vector<std::string>& names,
+                                            const std::vector<std::filesystem::path>& masks);
 
 /// Saves a list of heads in the file of edits: the config's heads, followed by new heads.
 /// \param config  file of the config.
 /// \param heads   mesh files of the new heads.
 /// \return the file of the edits.
 /// \throws Error as put_recipe does, for example if two heads would have the same name.
-std::filesystem::path put_heads(const std::filesystem::path& config,
-                                const std::vector<std::filesystem::path>& heads);
+std::filesystem::path save_heads_in_edits(const std::filesystem::path& config,
+                                          const std::vector<std::filesystem::path>& heads);
 
 /// The value of a section in a file of edits, as YAML on one line; nothing if the file has no such
 /// section.
@@ -43,7 +43,8 @@ std::optional<std::string> section_in_edits(const std::filesystem::path& edits,
 
 /// Restores a section of the edits to a value that section_in_edits returned earlier.
 /// \return the file of the edits.
-/// \throws Error as put_recipe does, or if the text `value` contains more than one YAML value.
+/// \throws Error as put_recipe does, or if the text `value` contains more than one YAML
+///     value.
 std::filesystem::path restore_section(const std::filesystem::path& config,
                                       const std::string& section,
                                       const std::optional<std::string>& value);

@@ -13,9 +13,10 @@ namespace crowdface {
 
 /// A request to sample several faces. The user chooses among the sampled faces.
 struct SampleRequest {
-  FacePlan start_face;  ///< the face to sample anew: supplies the id and all locked parts
-  /// bands that do not change, indexed as in ReviewMark::locked_bands; if there are any, the target
-  /// does not change either
+  /// the face to sample again; supplies the id and the values of the locked bands
+  FacePlan start_face;
+  /// bands that do not change, indexed as in ReviewMark::locked_bands. If the list is not empty,
+  /// the target does not change either.
   std::vector<std::size_t> locked_bands;
   std::optional<FacePlan> original;  ///< if set, sample variations of this face
   /// 0 to 1: how far a variation moves from `original` (0) towards an independently sampled face

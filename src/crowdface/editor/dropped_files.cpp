@@ -47,7 +47,7 @@ void DroppedFiles::discard() {
   if (expected_bytes_.empty()) return;
   std::error_code ignored;
   fs::remove_all(upload_folder_, ignored);
-  fs::remove(added_folder_, ignored);  // only if it is empty
+  fs::remove(added_folder_, ignored);  // deletes the folder only if the folder is empty
   expected_bytes_.clear();
   received_bytes_.clear();
 }

@@ -103,7 +103,7 @@ void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& o
 
   std::mutex opening, answering;
   std::shared_ptr<OpenedJob>
-      opened;  // guarded by `answering`; requests to an older job still finish
+      opened;  // guarded by `answering`; a running request keeps its job alive
   std::function<void()> open_again;
   const auto open = [&](Job next) {
     auto made =
@@ -124,7 +124,7 @@ void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& o
                      options.port);
   lock.write_address(server.address());
   started(server.address());
-  server.run(interrupted);
+  server.run(is_interrupted);
 }
 
 }  // namespace crowdface

@@ -31,7 +31,7 @@ EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, b
       expressions_(session.job()),
       dropped_(session.job().config.file.parent_path()),
       painting_(session, folder.path() / "strokes.jsonl") {
-  folder_.finish_saves(session_.job(), mesh_writer());
+  folder_.finish_interrupted_saves(session_.job(), mesh_writer());
 }
 
 HttpAnswer EditApi::answer(const HttpRequest& request) {
@@ -52,7 +52,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/steer", &EditApi::steer},
                                             {"GET", "api/faces/", &EditApi::face_picture},
                                             {"GET", "api/state", &EditApi::state},
-                                            {"POST", "api/state", &EditApi::take_over},
+                                            {"POST", "api/state", &EditApi::take_over_editing},
                                             {"PUT", "api/state", &EditApi::save_state},
                                             {"POST", "api/save", &EditApi::save},
                                             {"POST", "api/recipes", &EditApi::put_recipe},
@@ -132,7 +132,7 @@ FacePlan EditApi::face_of(const Json& body, const std::string& key) const {
                       session_.job().config);
 }
 
-std::vector<std::size_t> EditApi::parts_in(const Json& body, const std::string& key) const {
+std::vector<std::size_t> EditApi::bands_in(const Json& body, const std::string& key) const {
   std::vector<std::size_t> parts;
   if (!body.contains(key)) return parts;
   for (const Json& name : body[key]) {
@@ -146,9 +146,9 @@ std::vector<std::size_t> EditApi::parts_in(const Json& body, const std::string& 
 
 HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   constexpr double kMaxFaces = 64;
-  constexpr std::uint32_t kAttempts = 4096;  // more than one request needs
+  constexpr std::uint32_t kAttempts = 4096;  // upper limit of the attempts for one request
   const Json body = parse_json_body(request);
-  SampleRequest sampling{face_of(body), parts_in(body, "locked"), std::nullopt};
+  SampleRequest sampling{face_of(body), bands_in(body, "locked"), std::nullopt};
   if (body.contains("like") && !body["like"].is_null()) sampling.original = face_of(body, "like");
   if (body.contains("amount")) sampling.variation = number_in(body, "amount", 0, 1);
   if (body.contains("count")) {
@@ -171,7 +171,7 @@ HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
   const Json body = parse_json_body(request);
   const FacePlan face =
       session_.steer(face_of(body), text_in(body, "trait"),
-                     number_in(body, "value", -kFarthest, kFarthest), parts_in(body, "locked"));
+                     number_in(body, "value", -kFarthest, kFarthest), bands_in(body, "locked"));
   Json answer = measures_json(session_.measure(face, opened_id(body)));
   answer["recipe"] = recipe_to_json(face, session_.casting(), session_.job().config);
   return json_answer(answer);
@@ -206,12 +206,12 @@ nlohmann::ordered_json EditApi::measures_json(const FaceMeasures& measures) cons
   const auto& names = session_.job().names.heads;
   Json json;
   json["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.nearest_head)]},
-                          {"mm", measures.nearest_head_mm},
-                          {"as_built_mm", measures.nearest_head_as_built_mm}};
+                          {"mm", measures.nearest_head_distance_mm},
+                          {"as_built_mm", measures.nearest_head_distance_as_built_mm}};
   json["nearest_face"] = nullptr;
   if (measures.nearest_face) {
     json["nearest_face"] = {{"id", (*session_.crowd())[*measures.nearest_face].id},
-                            {"mm", measures.nearest_face_mm}};
+                            {"mm", measures.nearest_face_distance_mm}};
   }
   json["traits"] = Json::array();
   for (const FaceMeasures::Trait& one : measures.traits) {
@@ -222,7 +222,7 @@ nlohmann::ordered_json EditApi::measures_json(const FaceMeasures& measures) cons
                               {"value", one.value},
                               {"low", one.low},
                               {"high", one.high},
-                              {"more", one.above_mean}});
+                              {"more", one.difference_from_mean}});
   }
   json["warnings"] = measures.warnings;
   return json;

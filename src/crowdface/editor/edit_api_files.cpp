@@ -49,8 +49,8 @@ HttpAnswer EditApi::state(const HttpRequest&, const std::string&) {
   return {200, "application/json", text.empty() ? "null" : std::move(text)};
 }
 
-HttpAnswer EditApi::take_over(const HttpRequest& request, const std::string& rest) {
-  folder_.set_editing_page(text_in(parse_json_body(request), "page"));
+HttpAnswer EditApi::take_over_editing(const HttpRequest& request, const std::string& rest) {
+  folder_.set_only_saving_page(text_in(parse_json_body(request), "page"));
   return state(request, rest);
 }
 
@@ -158,7 +158,7 @@ HttpAnswer EditApi::review(const HttpRequest& request, const std::string&) {
     return json_answer(file_json(folder_.save_change(session_.job().config, *change)));
   }
   if (body.contains("verdict")) mark.verdict = word_in<ReviewMark::Verdict>(body, "verdict");
-  mark.locked_bands = parts_in(body, "lock");
+  mark.locked_bands = bands_in(body, "lock");
   if (!mark.locked_bands.empty()) mark.verdict = ReviewMark::Verdict::kReject;
   if (body.contains("note")) {
     mark.note = text_in(body, "note");
@@ -240,7 +240,8 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
       edits = restore_section(config, "regions", optional_text_in(body, "back"));
     } else {
       const PaintedRegions regions = painting_.changed_regions(body);
-      edits = put_regions(config, regions.names, painting_.save(regions, unused_mask_path()));
+      edits =
+          save_regions_in_edits(config, regions.names, painting_.save(regions, unused_mask_path()));
     }
     painting_.delete_stored_strokes();
   }
@@ -286,7 +287,7 @@ HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& res
   }
   const std::vector<std::filesystem::path> heads = dropped_.move_to_config_folder();
   try {
-    const auto edits = put_heads(config.file, heads);
+    const auto edits = save_heads_in_edits(config.file, heads);
     try {
       open_again_();
     } catch (...) {

@@ -63,7 +63,7 @@ class EditAttachments {
   const std::vector<FacePlan>* crowd_;
   std::mutex mutex_;
   std::map<std::string, BindingFuture>
-      bindings_;  ///< by name: the attachments that any face has worn
+      bindings_;  ///< the bindings of the attachments that a face has worn, by name
   AttachmentSurfaces surfaces_;
   ShownAttachments shown_;
 };

@@ -195,14 +195,14 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
   FaceMeasures measures;
   const NearestFaceSearch::NearestFace head = judge.nearest_head(point);
   measures.nearest_head = head.face;
-  measures.nearest_head_mm = head.distance_mm;
-  measures.nearest_head_as_built_mm =
+  measures.nearest_head_distance_mm = head.distance_mm;
+  measures.nearest_head_distance_as_built_mm =
       (point.with_extrapolation - judge.space().head_point(head.face).with_extrapolation).norm();
   if (crowd_) {
     const NearestFaceSearch::NearestFace nearest = nearest_other_face(point, recipe, opened_id);
     if (nearest.face >= 0) {
       measures.nearest_face = static_cast<std::size_t>(nearest.face);
-      measures.nearest_face_mm = nearest.distance_mm;
+      measures.nearest_face_distance_mm = nearest.distance_mm;
     }
   }
   if (judging.traits) measure_traits(*judging.traits, *judging.rules, recipe, measures);

@@ -34,20 +34,20 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
-  /// The smaller of two distances to `nearest_head`: `nearest_head_as_built_mm`, and the distance
-  /// without extrapolation (all extrapolation factors 1).
-  double nearest_head_mm = 0;
+  /// The smaller of two distances to `nearest_head`: `nearest_head_distance_as_built_mm`, and the
+  /// distance without extrapolation (all extrapolation factors 1).
+  double nearest_head_distance_mm = 0;
   /// distance from the face, as built with its own extrapolation factors, to `nearest_head`
-  double nearest_head_as_built_mm = 0;
+  double nearest_head_distance_as_built_mm = 0;
   /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
   /// which the user began the edit.
   std::optional<std::size_t> nearest_face;
-  double nearest_face_mm = 0;
-  /// A measurement of the face. `value` is in the unit of the measurement; `above_mean` is the
-  /// value minus the heads' mean.
+  double nearest_face_distance_mm = 0;
+  /// A measurement of the face. `value` is in the unit of the measurement; `difference_from_mean`
+  /// is the value minus the heads' mean.
   struct Trait {
     std::size_t trait = 0;  ///< index into measurements()
-    double value = 0, above_mean = 0;
+    double value = 0, difference_from_mean = 0;
     double low = 0, high = 0;  ///< smallest and largest value of any head
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads

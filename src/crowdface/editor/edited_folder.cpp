@@ -90,7 +90,7 @@ std::string EditedFolder::saved_state() const {
   return path_exists(file) ? read_file(file) : std::string();
 }
 
-void EditedFolder::set_editing_page(std::string page) {
+void EditedFolder::set_only_saving_page(std::string page) {
   const std::lock_guard lock(mutex_);
   editing_page_id_ = std::move(page);
 }
@@ -131,7 +131,7 @@ fs::path EditedFolder::save(const Job& job, const FacePlan& face, MeshFormat for
   return path_ / concat(face.id, ending);
 }
 
-void EditedFolder::finish_saves(const Job& job, const WriteMesh& write) {
+void EditedFolder::finish_interrupted_saves(const Job& job, const WriteMesh& write) {
   const std::lock_guard lock(mutex_);
   for (const fs::path& saving : list_folder(path_)) {
     const std::string name = saving.filename().string();

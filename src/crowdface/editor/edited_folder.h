@@ -40,10 +40,11 @@ class EditedFolder {
   std::string saved_state() const;
   /// Makes `page` the only page that may save the state, because two pages would overwrite each
   /// other's steps.
-  void set_editing_page(std::string page);
+  void set_only_saving_page(std::string page);
   /// Saves the state of a page.
-  /// \param page  the page that sends the state, or empty if no page has called set_editing_page
-  /// \return false if another page is the editing page; the state is then not saved
+  /// \param page  the page that sends the state, or empty if no page has called
+  ///              set_only_saving_page
+  /// \return false if only another page may save; the state is then not saved
   bool save_state(std::string_view text, const std::string& page);
 
   /// Writes the mesh of a face in one format.
@@ -57,7 +58,7 @@ class EditedFolder {
                              const WriteMesh& write);
   /// Completes saves that a crash or a disk error interrupted: writes each mesh that is older than
   /// the recipe of the same face.
-  void finish_saves(const Job& job, const WriteMesh& write);
+  void finish_interrupted_saves(const Job& job, const WriteMesh& write);
   /// Writes a mark or a change of a face to review.yaml, where it replaces the earlier mark or
   /// change of this face. An empty change removes the earlier change. If a run has already applied
   /// the review in this file to the crowd, begins a new review, so that no mark applies twice.
@@ -72,7 +73,7 @@ class EditedFolder {
   std::filesystem::path path_;
   DirectoryHandle handle_;
   std::mutex mutex_;
-  std::string editing_page_id_;  ///< see set_editing_page
+  std::string editing_page_id_;  ///< see set_only_saving_page
 };
 
 }  // namespace crowdface

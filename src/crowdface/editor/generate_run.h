@@ -16,7 +16,7 @@ namespace crowdface {
 struct RunProgress {
   std::uint64_t done = 0, total = 0;
   double seconds_left = 0;
-  std::string message;  ///< the last line without "info: "
+  std::string message;  ///< the last line of the log; a prefix "info: " is removed
 };
 RunProgress read_progress(std::string_view log);
 

@@ -134,7 +134,7 @@ FacePlan face_of_json(const Json& recipe, const CastingOptions& casting, const C
         "asymmetry and mirrored: expected a config that has sampling.asymmetry, "
         "sampling.mirror or a recipe with either");
   }
-  if (!mixture.empty()) set_target(face.recipe, std::move(mixture));
+  if (!mixture.empty()) set_target_heads(face.recipe, std::move(mixture));
   return face;
 }
 

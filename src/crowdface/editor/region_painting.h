@@ -61,8 +61,8 @@ class RegionPainting {
   /// \throws InvalidInput if the heads have no texture coordinates; CannotCreate.
   std::vector<std::filesystem::path> save(const PaintedRegions& regions,
                                           const std::filesystem::path& path) const;
-  /// Deletes the stored strokes. Call this once the config's masks contain the effect of the
-  /// strokes.
+  /// Deletes the stored strokes. Call this function after the config's masks contain the effect of
+  /// the strokes.
   void delete_stored_strokes() { strokes_.clear(); }
 
  private:

@@ -18,8 +18,8 @@ constexpr const char* kPaintedOn = "painted_on";
 
 }  // namespace
 
-StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
-    : file_(std::move(file)), painted_on_(painted_on) {
+StrokeLog::StrokeLog(std::filesystem::path file, const Digest& preview_digest)
+    : file_(std::move(file)), preview_digest_(preview_digest) {
   if (!path_exists(file_)) return;
   std::istringstream lines(read_file(file_));
   bool known = false;
@@ -30,7 +30,7 @@ StrokeLog::StrokeLog(std::filesystem::path file, const Digest& painted_on)
       strokes_.push_back(std::move(stroke));
       continue;
     }
-    known = stroke.contains(kPaintedOn) && stroke[kPaintedOn] == painted_on_.hex();
+    known = stroke.contains(kPaintedOn) && stroke[kPaintedOn] == preview_digest_.hex();
     if (!known) break;
   }
   if (!known) {
@@ -45,14 +45,14 @@ void StrokeLog::add(const Json& stroke) {
   std::string lines;
   if (!append_file_) {
     // Rewrite the whole file, because the last line of the file may be incomplete.
-    lines = Json({{kPaintedOn, painted_on_.hex()}}).dump() + '\n';
+    lines = Json({{kPaintedOn, preview_digest_.hex()}}).dump() + '\n';
     for (const Json& before : strokes_) lines += before.dump() + '\n';
     write_file(file_, lines);
     append_file_ = std::make_unique<AppendFile>(file_);
   }
   try {
     append_file_->append(stroke.dump() + '\n');
-  } catch (...) {  // the file may hold part of the line, so the next stroke rewrites it
+  } catch (...) {  // the file may hold a part of the line; the next stroke rewrites the file
     append_file_.reset();
     throw;
   }

@@ -18,9 +18,9 @@ class StrokeLog {
  public:
   /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete
   /// last line.
-  /// \param painted_on  identifies the masks and the preview. Strokes that were painted on other
-  ///                    masks are discarded with a log message.
-  StrokeLog(std::filesystem::path file, const Digest& painted_on);
+  /// \param preview_digest  hash of the masks and of the preview. Strokes that were painted on
+  ///                    other masks are discarded with a log message.
+  StrokeLog(std::filesystem::path file, const Digest& preview_digest);
 
   /// All stored strokes, oldest first.
   const std::vector<nlohmann::ordered_json>& strokes() const { return strokes_; }
@@ -28,12 +28,14 @@ class StrokeLog {
   /// Appends a stroke.
   /// \throws CannotCreate, IoError: in this case the file does not contain the stroke.
   void add(const nlohmann::ordered_json& stroke);
-  /// Removes all strokes. Call this once the saved masks contain the effect of the strokes.
+  /// Removes all strokes. Call this function after the saved masks contain the effect of the
+  /// strokes.
   void clear();
 
  private:
   std::filesystem::path file_;
-  Digest painted_on_;  ///< hash of the masks and of the preview on which the strokes are painted
+  /// hash of the masks and of the preview on which the strokes are painted
+  Digest preview_digest_;
   std::vector<nlohmann::ordered_json> strokes_;
   std::unique_ptr<AppendFile> append_file_;  ///< open since the first call of `add`
 };

@@ -82,8 +82,8 @@ HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_materi
       row->second = static_cast<std::uint32_t>(placed.files.size());
       placed.files.push_back({path, found->second});
     } else if (is_new && !find_tiles(found->second).empty()) {
-      // a missing UDIM tile; the reader of the material file has already reported all other missing
-      // files
+      // Report a missing UDIM tile. The reader of the material file has already reported all other
+      // missing files.
       missing.push_back(path);
     }
     placed.file_of_face[f] = row->second;
@@ -98,7 +98,7 @@ bool FoundTextureFiles::has_files() const {
                              [](const HeadTextureFiles& placed) { return !placed.files.empty(); });
 }
 
-bool FoundTextureFiles::heads_differ() const {
+bool FoundTextureFiles::heads_have_different_textures() const {
   const auto paths_of = [](const HeadTextureFiles& placed) {
     std::vector<fs::path> paths;
     for (const HeadTextureFiles::File& file : placed.files) paths.push_back(file.path);
@@ -113,7 +113,7 @@ bool FoundTextureFiles::heads_differ() const {
   return false;
 }
 
-void remove_files(FoundTextureFiles& textures, const std::set<fs::path>& files) {
+void leave_out_files(FoundTextureFiles& textures, const std::set<fs::path>& files) {
   for (HeadTextureFiles& placed : textures.heads) {
     std::vector<std::uint32_t> row(placed.files.size(), kNoIndex);
     std::vector<HeadTextureFiles::File> kept;
@@ -129,7 +129,7 @@ void remove_files(FoundTextureFiles& textures, const std::set<fs::path>& files) 
   }
 }
 
-std::vector<std::string> remove_unreadable_files(FoundTextureFiles& textures) {
+std::vector<std::string> leave_out_unreadable_files(FoundTextureFiles& textures) {
   std::vector<std::string> warnings;
   std::set<fs::path> seen, unreadable;
   for (const HeadTextureFiles& placed : textures.heads) {
@@ -143,7 +143,7 @@ std::vector<std::string> remove_unreadable_files(FoundTextureFiles& textures) {
       }
     }
   }
-  remove_files(textures, unreadable);
+  leave_out_files(textures, unreadable);
   return warnings;
 }
 

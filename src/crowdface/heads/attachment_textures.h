@@ -22,32 +22,34 @@ struct HeadTextureFiles {
     std::filesystem::path name;  ///< as in the material file; may contain <UDIM>
   };
   std::vector<File> files;  ///< without duplicates, in the order in which polygons first use them
-  std::vector<std::uint32_t>
-      file_of_face;  ///< #F, index into `files` or kNoIndex; empty if no head has any
+  /// for each polygon, an index into `files`, or kNoIndex; empty if no head has such files
+  std::vector<std::uint32_t> file_of_face;
 };
 
 /// All heads' textures of one kind, and warnings about missing files.
 struct FoundTextureFiles {
   TextureKind kind = TextureKind::kColour;
   std::vector<HeadTextureFiles> heads;  ///< #heads
-  /// #F, column and row of each polygon's UDIM tile
+  /// column and row of each polygon's UDIM tile
   std::vector<std::array<std::int32_t, 2>> tile;
-  std::vector<std::string> warnings;  ///< without duplicates, each with the heads concerned
+  std::vector<std::string> warnings;  ///< without duplicates; each names the heads that it concerns
 
   bool has_files() const;
   /// Whether two heads have different textures.
-  bool heads_differ() const;
+  bool heads_have_different_textures() const;
 };
 
-/// Removes files from `textures`; the polygons that use a removed file then have no texture.
-void remove_files(FoundTextureFiles& textures, const std::set<std::filesystem::path>& files);
-/// Removes the files that are not readable images. \return a warning for each removed file.
-std::vector<std::string> remove_unreadable_files(FoundTextureFiles& textures);
+/// Removes files from the lists of `textures`, so that their polygons have no texture. No file is
+/// deleted.
+void leave_out_files(FoundTextureFiles& textures, const std::set<std::filesystem::path>& files);
+/// Calls leave_out_files for the files that are not readable images.
+/// \return one warning per file.
+std::vector<std::string> leave_out_unreadable_files(FoundTextureFiles& textures);
 
 /// Reads material files and checks which textures exist, without reading the textures. Warnings
 /// about material files are in the item of the colour textures.
 /// \param heads  topology and texture coordinates that all heads share
-/// \param files  #heads
+/// \param files  the file of each head
 /// \return one item per kind of texture: always the colours, then each kind that any head has.
 std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
                                                   std::span<const ObjFile> files);

@@ -163,7 +163,7 @@ std::shared_ptr<const TextureMap> compose(
 
 /// Sets the size of each image in the layout.
 /// \param sizes  size of each file
-/// \param rows   #heads by #pictures, see rows_in_pictures
+/// \param rows   rows[head][picture]: the files that are merged, see rows_in_pictures
 void choose_sizes(const FoundTextureFiles& found, const std::map<fs::path, ImageSize>& sizes,
                   const std::vector<std::vector<std::vector<std::uint32_t>>>& rows,
                   std::optional<std::uint64_t> size, TextureLayout& layout) {

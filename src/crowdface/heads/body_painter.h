@@ -11,9 +11,9 @@
 namespace crowdface {
 
 /// Paints a texture of the body for each face, so that body and face have the same colours at the
-/// ring of the neck. At each vertex of the ring, the body's optical densities become those of the
-/// face. With growing distance from the ring, this change of the densities approaches its mean over
-/// the ring, and at the distance `falloff_mm` it equals this mean.
+/// ring of the neck. At each vertex of the ring, the body gets the face's optical densities. With
+/// growing distance from the ring, this change of the densities approaches its mean over the ring,
+/// and at the distance `falloff_mm` it equals this mean.
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
@@ -36,8 +36,8 @@ class BodyPainter {
   std::shared_ptr<const TextureMap> map_;
   std::unique_ptr<const SurfaceTexels> texels_;
   Positions body_optical_densities_;  ///< the body's colours at the ring of the neck, #rim by 3
-  /// spreads colour differences at the ring over the body as NeckBend spreads displacements: the
-  /// differences fade with the distance from the ring
+  /// Spreads colour differences from the ring over the body, with the method that NeckBend uses for
+  /// displacements. The differences fade with the distance from the ring.
   NeckBend fade_;
 };
 

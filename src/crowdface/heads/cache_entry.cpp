@@ -36,9 +36,10 @@ std::string_view as_bytes(const void* data, std::size_t size) {
   return {static_cast<const char*>(data), size};
 }
 
-/// The bit patterns of absolute values have the same order as the values; infinity and NaN come
-/// last. The function therefore compares the bit patterns as integers, which vectorizes. If a value
-/// exceeds the limit, the difference limit − value is negative.
+/// Whether all absolute values are at most 1e9 (kLargest). Compares bit patterns as integers,
+/// because compilers can vectorize this loop. The bit patterns of absolute values have the same
+/// order as the values; infinity and NaN come last. If a value exceeds kLargest, the difference is
+/// negative.
 template <class Integer, class T>
 bool all_coordinates(std::span<const T> values) {
   constexpr auto kMagnitude = std::numeric_limits<Integer>::max();

@@ -69,7 +69,7 @@ constexpr std::array<char, 4> number_type() {
 struct EntryArray {
   std::string name;  ///< at most 23 bytes
   std::array<char, 4> type;
-  /// How many numbers one element, or one row of a row-major matrix, has; they are contiguous.
+  /// Number of contiguous numbers in one element, or in one row of a row-major matrix.
   std::uint32_t columns;
   std::uint64_t rows;
   const void* data;
@@ -139,7 +139,8 @@ bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end);
 /// lives.
 class CacheEntry {
  public:
-  /// \param known  the file's checksum, if known already; otherwise the function hashes the file.
+  /// \param known  the file's checksum, if it is known; otherwise the function hashes the
+  ///                        file.
   /// \return nothing if the file does not exist.
   /// \throws InvalidInput if the file is damaged or has another version or another key.
   static std::optional<CacheEntry> open(const std::filesystem::path& cache, const CacheKey& key,

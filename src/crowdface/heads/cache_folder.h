@@ -17,9 +17,9 @@ std::filesystem::path cache_directory();
 /// again.
 struct CacheFolder {
   std::filesystem::path path;  ///< empty: no cache
-  /// Whether a head file or cache entry that was read completely before, and has not been written
-  /// to since, is accepted without hashing (see FileFingerprint).
-  bool trusts_seen_files = false;
+  /// Whether a head file or cache entry is accepted without hashing if it was read completely
+  /// before and has not been written to since (see FileFingerprint).
+  bool skips_hash_of_unchanged_files = false;
 
   CacheFolder() = default;
   CacheFolder(std::filesystem::path folder) : path(std::move(folder)) {}  // NOLINT(*-explicit-*)

@@ -18,9 +18,10 @@
 
 namespace crowdface {
 
-/// Opens an entry. If the cache trusts seen files, an unchanged entry is not hashed again (see
-/// FileFingerprint). \return nothing if there is no such entry or no cache. \throws InvalidInput
-/// like CacheEntry::open.
+/// Opens an entry. With `skips_hash_of_unchanged_files`, an unchanged entry is not hashed again
+/// (see FileFingerprint).
+/// \return nothing if there is no such entry or no cache.
+/// \throws InvalidInput like CacheEntry::open.
 std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& key);
 
 /// Warns that a value is computed again because its entry cannot be used.
@@ -31,7 +32,8 @@ void warn_of_unusable_entry(const RecoverableError& error);
 ///                  value is valid. `is_sound` may also fill in members that the entry does not
 ///                  store.
 /// \param value     initial value, into which the arrays are read
-/// \return nothing if the entry does not exist or, with a warning, cannot be used.
+/// \return nothing if the entry does not exist. Also nothing, with a warning, if the entry cannot
+/// be used.
 template <class Value, class Visit, class IsSound>
 std::optional<Value> find_cached(const CacheFolder& cache, const CacheKey& key, const Visit& visit,
                                  const IsSound& is_sound, Value value = {}) {
@@ -64,7 +66,8 @@ std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,
            std::string_view what = "data computed from the heads");
 
-/// Returns the value from the cache; if it is not there, calls `make()` and stores the result.
+/// Returns the value from the cache. If the cache lacks the value, calls `make()` and stores the
+/// result.
 template <class Make, class Visit, class IsSound>
 auto read_or_make(const CacheFolder& cache, const CacheKey& key, const Make& make,
                   const Visit& visit, const IsSound& is_sound, decltype(make()) value = {}) {

@@ -56,7 +56,7 @@ FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
   auto tables = find_cached(
       cache, key, kFaceSpaceArrays,
       [&](const FaceSpaceTables& found, const CacheEntry&) {
-        return FaceSpace::tables_fit(found, heads);
+        return FaceSpace::have_matching_sizes(found, heads);
       },
       std::move(room));
   if (tables) return FaceSpace(std::move(heads), weights, *std::move(tables));

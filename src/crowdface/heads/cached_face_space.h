@@ -9,7 +9,7 @@
 namespace crowdface {
 
 /// Makes a FaceSpace (see the constructor of FaceSpace). Reads the tables of the FaceSpace from the
-/// cache if they are there.
+/// cache if the cache has them.
 FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
                             const std::vector<double>& weights, std::size_t bands);
 

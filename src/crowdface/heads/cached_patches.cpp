@@ -28,15 +28,15 @@ CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index 
   const auto in_file = [&] {
     CachedPatches kept;
     const bool path_exists =
-        find_cached<PatchLists>(cache, entry_key, kPatchArrays,
-                                [&](PatchLists& lists, const CacheEntry& entry) {
-                                  lists.memory_owner = kept.mapped_file = entry.file();
-                                  auto patches =
-                                      FieldPatches::from_lists(lists, vertex_count, ranks);
-                                  if (!patches) return false;
-                                  kept.patches = *std::move(patches);
-                                  return true;
-                                })
+        find_cached<PatchArrays>(cache, entry_key, kPatchArrays,
+                                 [&](PatchArrays& lists, const CacheEntry& entry) {
+                                   lists.memory_owner = kept.mapped_file = entry.file();
+                                   auto patches =
+                                       FieldPatches::from_arrays(lists, vertex_count, ranks);
+                                   if (!patches) return false;
+                                   kept.patches = *std::move(patches);
+                                   return true;
+                                 })
             .has_value();
     return path_exists ? std::optional(std::move(kept)) : std::nullopt;
   };

@@ -20,9 +20,10 @@ struct CachedPatches {
   std::shared_ptr<const MappedFile> mapped_file;
 };
 
-/// Returns the patches from the cache; if they are not there, calls `make()` and stores the result.
+/// Returns the patches from the cache. If the cache lacks the patches, calls `make()` and stores
+/// the result.
 /// \param key    hash of everything that the patches depend on
-/// \param ranks  #heads: the number of fields of each head
+/// \param ranks  the number of fields of each head
 CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index vertex_count,
                              std::span<const Index> ranks,
                              const std::function<FieldPatches()>& make);

@@ -181,7 +181,8 @@ Index used_vertices(const Topology& topology) {
 
 /// Makes a head with the polygons of `head`, in which corners with the same number in `vertices`
 /// share a vertex. The result has no positions.
-/// \param vertices  #C; the function renumbers the vertices in the order of the corners
+/// \param vertices  one number per corner; the function renumbers the vertices in the order of the
+///                  corners
 HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
   std::map<std::uint32_t, std::uint32_t> numbers;
   for (std::uint32_t& vertex : vertices) {
@@ -199,8 +200,8 @@ HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
 
 /// Finds the mesh of heads whose exports may have split vertices. Corners share a vertex in the
 /// result if they share a vertex in any head and have the same position in each head.
-/// \param heads  their polygons are the same, and reading has not joined vertices
-/// \param made   receives the mesh if no head has it
+/// \param heads  heads with the same polygons, whose vertices the reader has not joined
+/// \param made   receives the mesh if no head has this mesh
 /// \return a head with the mesh
 const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
   DisjointSets sets(heads[0]->mesh->topology.corner_vertices.size());
@@ -256,8 +257,8 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
   return made;
 }
 
-/// The largest set of heads that agree in the sequence of corner counts of their polygons. If
-/// several sets are equally large: the set whose first head comes first.
+/// Returns the largest set of heads whose polygons have the same numbers of corners in the same
+/// order. If several sets are equally large, returns the set with the lowest-numbered head.
 std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads) {
   std::vector<std::vector<const HeadFile*>> kinds;
   for (const HeadFile& head : heads) {
@@ -273,7 +274,7 @@ std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads)
   return *std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.size(); });
 }
 
-/// Finds the common mesh that `give_common_mesh` gives to the heads.
+/// Finds the common mesh that `convert_to_common_mesh` gives to the heads.
 /// \param made  receives the common mesh if no head has this mesh
 /// \return a head that has the common mesh, or `made`
 const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& made) {
@@ -344,8 +345,8 @@ std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
       return std::nullopt;
     }
   }
-  // Vertices without a polygon cannot be matched by polygons; the two meshes' vertices of this kind
-  // are matched in their order.
+  // Vertices without a polygon cannot be matched by polygons. Match the n-th such vertex of one
+  // mesh with the n-th such vertex of the other mesh.
   std::uint32_t loose = 0;
   for (std::uint32_t& vertex : vertices) {
     if (vertex != kNoIndex) continue;
@@ -358,7 +359,7 @@ std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
   return vertices;
 }
 
-void give_common_mesh(std::vector<HeadFile>& heads) {
+void convert_to_common_mesh(std::vector<HeadFile>& heads) {
   HeadFile made;
   const HeadFile& common = find_common_mesh(heads, made);
   std::vector<std::string> changes(heads.size());

@@ -19,15 +19,15 @@ void replace_mesh(HeadFile& head, const HeadFile& mesh_source, const ColourRows&
 /// export may have numbered the vertices anew, split vertices at seams or joined vertices that have
 /// the same position.
 /// \param found_positions  positions of `found`
-/// \return #V, a vertex of `found` for each vertex of `expected`; nothing if the corners of an
-///         expected vertex have several positions, or if the meshes differ otherwise.
+/// \return for each vertex of `expected`, the matching vertex of `found`. Nothing if the corners of
+///         an expected vertex have several positions, or if the meshes differ otherwise.
 std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
     const Topology& expected, const Topology& found, const Positions& found_positions);
 
-/// Gives heads a common mesh if their meshes differ only by their export: in the order of vertices
-/// and polygons, by triangulation, by vertices that are split at seams, or by vertices that are
-/// joined because they have the same position. The common mesh is the mesh of most heads; its
-/// vertices at seams are joined if any head joins them. Logs each change.
-void give_common_mesh(std::vector<HeadFile>& heads);
+/// Converts all heads to a common mesh if only the export made their meshes different. An export
+/// may change the order of vertices and polygons, triangulate polygons, split vertices at seams,
+/// and join vertices at the same position. The common mesh is the mesh of most heads; its vertices
+/// at seams are joined if any head joins them. Logs each change.
+void convert_to_common_mesh(std::vector<HeadFile>& heads);
 
 }  // namespace crowdface

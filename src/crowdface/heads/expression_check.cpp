@@ -23,7 +23,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMinHeads = 4, kMinVertices = 50;
-constexpr std::size_t kMaxItems = 20'000;  ///< edges or vertices that are measured in a box
+constexpr std::size_t kMaxItems = 20'000;  ///< largest number of edges or vertices measured per box
 
 /// A box around a facial feature. Lengths are multiples of the distance from mouth to eyes.
 struct Box {
@@ -117,7 +117,8 @@ double mean_length(const Positions& positions, const std::vector<Edge>& edges) {
   return sum / static_cast<double>(edges.size());
 }
 
-/// Replaces each row by the mean of itself and of its neighbours' mean, `times` times.
+/// Applies `times` smoothing steps. A step replaces each row by the average of the row and the mean
+/// of its neighbours.
 void smooth(Positions& rows, const std::vector<Edge>& edges, int times) {
   Eigen::VectorXd neighbours = Eigen::VectorXd::Zero(rows.rows());
   for (const auto& [a, b] : edges) {
@@ -140,8 +141,8 @@ void smooth(Positions& rows, const std::vector<Edge>& edges, int times) {
 using Differences = Eigen::MatrixXd;
 
 /// Measures how far the edges are stretched or compressed: |log(length / length on the median)|.
-/// A face of another person is larger or smaller over wide areas, which the similarity fit removes
-/// for the most part; a smile, a kiss or an open mouth stretches the skin next to them.
+/// Another person's proportions change lengths over wide areas; the similarity fit removes most of
+/// this change. A smile, a pursed or an open mouth stretches only the skin near the mouth.
 /// \param mm  millimetres per file unit
 Differences edge_strains(AlignedPart part, const std::vector<Edge>& edges, double mm) {
   // Displacements of dense meshes are smoothed over kPatchMm. Otherwise pores and the noise of a
@@ -167,7 +168,8 @@ Differences edge_strains(AlignedPart part, const std::vector<Edge>& edges, doubl
   return strains;
 }
 
-/// Distances of the vertices from those of the median head, in millimetres.
+/// For each head, the distances between its vertices and the same vertices of the median head, in
+/// millimetres.
 Differences vertex_distances(const AlignedPart& part, double mm) {
   std::vector<Index> rows(static_cast<std::size_t>(part.middle.rows()));
   std::iota(rows.begin(), rows.end(), Index{0});
@@ -182,9 +184,10 @@ Differences vertex_distances(const AlignedPart& part, double mm) {
 
 /// Limits beyond which a head counts as different from the other heads.
 struct OutlierLimits {
-  double quantile;  ///< over the items of a head
-  /// added to the denominator of each relative difference, so that a tiny difference is no outlier
-  /// where all heads agree; in the unit of the differences
+  /// A head's difference is this quantile of the differences of its edges or vertices.
+  double quantile;
+  /// added to the denominator of each relative difference, so that a tiny difference is not an
+  /// outlier where all heads are almost equal; in the unit of the differences
   double min_difference;
   double min_score;              ///< smallest score of an outlier
   double min_score_over_median;  ///< smallest ratio of an outlier's score to the median score
@@ -233,8 +236,9 @@ std::vector<Outlier> outliers(const Differences& differences, const OutlierLimit
 
 }  // namespace
 
-std::vector<std::string> odd_expressions(const HeadSet& head_set, const std::vector<bool>& skin,
-                                         const HeadAxes& axes, double mm) {
+std::vector<std::string> odd_expression_warnings(const HeadSet& head_set,
+                                                 const std::vector<bool>& skin,
+                                                 const HeadAxes& axes, double mm) {
   if (head_set.heads.size() < kMinHeads) return {};
   const HeadShape head{middle_head(head_set), skin, {}};
   const auto marks = find_face_marks(head_set.topology, head, axes);

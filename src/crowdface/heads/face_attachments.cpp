@@ -92,9 +92,11 @@ std::size_t FaceAttachments::memory_bytes() const {
   return bytes;
 }
 
-/// The sum over the kinds of attachments: a face wears at most one attachment of each kind.
-std::size_t FaceAttachments::placed_bytes() const {
-  // copies in memory at once: the bent mesh, and the mesh before and after the push off the skin
+/// Adds up, for each kind of attachment, the memory for the largest attachment of the kind. A face
+/// wears at most one attachment of each kind.
+std::size_t FaceAttachments::placement_memory_bytes() const {
+  // Three copies of a mesh are in memory at once: the bent mesh, and the mesh before and after it
+  // is pushed off the skin.
   constexpr std::size_t kCopies = 3;
   std::map<std::string, std::size_t> largest;
   for (const Attachment& item : inputs_.attachments.items) {

@@ -50,7 +50,7 @@ class FaceAttachments {
   /// Memory of this object, in bytes.
   std::size_t memory_bytes() const;
   /// Maximum memory of one face's attachments, in bytes.
-  std::size_t placed_bytes() const;
+  std::size_t placement_memory_bytes() const;
 
  private:
   /// An attachment mesh bound to the fitted head.
@@ -60,13 +60,13 @@ class FaceAttachments {
     std::unique_ptr<const ShapeBend> bend;
   };
   /// Binds the meshes of the wanted attachments to the fitted head.
-  /// \param is_wanted  #items: whether to bind the attachment
+  /// \param is_wanted  for each item, whether to bind the attachment
   void bind_meshes(const Config& config, const std::vector<bool>& is_wanted);
 
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< null if there are no attachments
   std::vector<BoundMesh> bound_meshes_;
-  std::vector<std::size_t> mesh_of_item_;  ///< #items, index into `bound_meshes_`
+  std::vector<std::size_t> mesh_of_item_;  ///< for each item, an index into `bound_meshes_`
 };
 
 }  // namespace crowdface

@@ -37,15 +37,15 @@ double power(double base, std::uint64_t exponent) {
 
 /// Returns the weights of the heads' shape sets in a region, normalised to the sum 1. Before the
 /// normalisation, the weight of head h is t(h) − Σ_b w_b(h) r_b. t(h) is the weight of h in the
-/// target. w_b(h) is the weight of h in band b (see level_shares). r_b is the fraction of the shape
-/// that smoothing to the level of band b removes.
+/// target. w_b(h) is the weight of h in band b (see weights_by_level). r_b is the fraction of the
+/// shape that smoothing to the level of band b removes.
 /// \param kept  result of kept_by_smoothing
 ShapeSetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);
   for (const SourceWeight& part : target_head_weights(recipe)) {
     shares[static_cast<std::size_t>(part.head)] += part.weight;
   }
-  for (const LevelShares& band : level_shares(recipe, region, Extrapolation::kNone)) {
+  for (const LevelWeights& band : weights_by_level(recipe, region, Extrapolation::kNone)) {
     const double lost = 1 - power(kept, band.level);
     for (const SourceWeight& part : band.shares) {
       shares[static_cast<std::size_t>(part.head)] -= lost * part.weight;
@@ -69,14 +69,14 @@ FaceShapes::FaceShapes(const Config& config, const Inputs& inputs) : inputs_(inp
                                               head_axes(config), set, inputs.regions);
   if (set.head_shapes.empty()) return;
   for (const Shape& shape : set.shapes) {
-    fractions_after_smoothing_.push_back(
+    shape_fractions_after_one_iteration_.push_back(
         kept_by_smoothing(inputs.adjacency, shape.moves, config.smoothing.operator_kind));
   }
 }
 
 std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
   std::vector<RegionShares> shares;
-  for (const double kept : fractions_after_smoothing_) {
+  for (const double kept : shape_fractions_after_one_iteration_) {
     RegionShares& of_shape = shares.emplace_back();
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
       of_shape.push_back(shares_in(recipe, k, inputs_.head_set.heads.size(), kept));
@@ -99,8 +99,9 @@ std::vector<Displacements> FaceShapes::shapes_of_head(Index head) const {
   if (!transfer_) return {};
   const ShapeSetShares own = {{static_cast<std::uint32_t>(head), 1}};
   const RegionShares everywhere(static_cast<std::size_t>(inputs_.regions.alpha.cols()), own);
-  return transfer_->carry(head, inputs_.head_set.heads[static_cast<std::size_t>(head)].positions,
-                          std::vector<RegionShares>(fractions_after_smoothing_.size(), everywhere));
+  return transfer_->carry(
+      head, inputs_.head_set.heads[static_cast<std::size_t>(head)].positions,
+      std::vector<RegionShares>(shape_fractions_after_one_iteration_.size(), everywhere));
 }
 
 std::size_t FaceShapes::memory_bytes() const {

@@ -15,8 +15,8 @@
 namespace crowdface {
 namespace {
 
-/// Colour variation with a longer wavelength is blended as a weighted mean. Variation with a
-/// shorter wavelength keeps its contrast: brows, lip borders, freckles, stubble, pores.
+/// Colour variation with a wavelength above this limit is blended as a weighted mean. Variation
+/// below the limit keeps its contrast: brows, lip borders, freckles, stubble, pores.
 constexpr double kDetailMm = 24;
 /// Distance on the skin over which the strength (contrast) of detail is averaged.
 constexpr double kStrengthMm = 48;
@@ -139,7 +139,7 @@ std::uint64_t FaceTextures::blend_bytes() const {
 }
 
 std::uint64_t texture_bytes(const Inputs& inputs) {
-  std::set<const TextureMap*> maps;  // each once: heads may share maps
+  std::set<const TextureMap*> maps;  // a set, because heads may share maps
   const auto add = [&](const HeadTextures& textures) {
     for (const auto& of_picture : textures.blended.maps) {
       for (const auto& map : of_picture) maps.insert(map.get());

@@ -54,7 +54,7 @@ class FaceTextures {
 
  private:
   void blend_textures(const Config& config);
-  /// #heads: the weight of each head in the mean colour of the whole face.
+  /// The weight of each head in the mean colour of the whole face.
   std::vector<double> colour_fractions(const Recipe& recipe) const;
 
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
@@ -66,8 +66,8 @@ class FaceTextures {
   const Inputs& inputs_;
   /// whether colours are blended; if not, a face has the colours of its target
   bool are_blended_;
-  std::vector<double> region_area_fractions_;  ///< share of each region in the face
-  /// #V: whether a vertex, such as one of an eye, gets the colours of the target and no blend
+  std::vector<double> region_area_fractions_;  ///< fraction of the face's area in each region
+  /// for each vertex, whether it gets the target's colours without blending, as the eyes do
   std::vector<bool> uses_target_colours_only_;
   std::optional<SeamColours> seam_;  ///< empty without colours at the neck's ring
   std::unique_ptr<const BodyPainter> body_;

@@ -72,7 +72,7 @@ Eigen::Matrix3d product(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return result;
 }
 
-/// x ↦ a(b(x)). Scales are 1 here and below.
+/// The composed motion x ↦ a(b(x)). All motions in this file have the scale 1.
 RigidMotion after(const RigidMotion& a, const RigidMotion& b) {
   return {.rotation = product(a.rotation, b.rotation),
           .pivot = b.pivot,
@@ -94,7 +94,7 @@ RigidMotion motion_of_mirror_image(const RigidMotion& motion, const MirrorPlane&
           .moved_pivot = plane.mirrored(motion.moved_pivot)};
 }
 
-/// Interpolates two motions: the translation at `pivot` and the turn vector are linear in w.
+/// Interpolates two motions. The image of `pivot` and the rotation vector are linear in w.
 /// \param w  from 0 (gives a) to 1 (gives b)
 RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
                     const Eigen::Vector3d& pivot) {

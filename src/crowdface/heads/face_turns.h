@@ -35,7 +35,8 @@ class FacePoses {
   /// the heads above the bend of the neck, in file units, as placed on the body
   SampledHeads placed_heads_;
   SampledHeads turned_heads_;  ///< `placed_heads_`, rotated to the common pose
-  RigidMotion mean_motion_;    ///< the mean head's motion from its placed to the common pose
+  /// motion of the mean head from its pose on the body to the common pose
+  RigidMotion mean_motion_;
 };
 
 }  // namespace crowdface

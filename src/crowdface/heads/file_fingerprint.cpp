@@ -35,7 +35,7 @@ std::optional<FileFingerprint::Stamp> FileFingerprint::stamp_of(const fs::path& 
 
 FileFingerprint::FileFingerprint(const CacheFolder& cache, const fs::path& file)
     : file_(file), cache_(cache.path) {
-  if (!cache.trusts_seen_files || cache.path.empty()) return;
+  if (!cache.skips_hash_of_unchanged_files || cache.path.empty()) return;
   stamp_ = stamp_of(file);
   if (!stamp_) return;
   try {

@@ -11,21 +11,22 @@
 
 namespace crowdface {
 
-/// Finds the stored hash of a file that is about to be read, if the cache trusts seen files and the
-/// file has not changed since it was last read. A file counts as unchanged if device, inode, size,
-/// mtime and ctime (which no program can set) are the same. Without stored hashes, the program
-/// would have to hash gigabytes before it could show anything.
+/// Finds the stored hash of a file that is about to be read, if the file has not changed since it
+/// was last read. Requires `CacheFolder::skips_hash_of_unchanged_files`. A file counts as unchanged
+/// if device, inode, size, mtime and ctime (which no program can set) are the same. Without stored
+/// hashes, the program would have to hash gigabytes before it could show anything.
 class FileFingerprint {
  public:
   /// \param cache  the cache that stores the fingerprints of files that were read before
   FileFingerprint(const CacheFolder& cache, const std::filesystem::path& file);
 
-  /// The stored hash of the file's bytes. Empty if the cache does not trust seen files, has no hash
-  /// of this file, or if the file has changed since it was last read.
+  /// The stored hash of the file's bytes. Empty if `CacheFolder::skips_hash_of_unchanged_files` is
+  /// false, if the cache has no hash of this file, or if the file has changed since it was last
+  /// read.
   const std::optional<Digest>& digest() const { return digest_; }
   /// Stores the hash of the file's bytes in the cache. The caller must construct this object before
   /// reading the file, and must call this function only if the bytes are valid. Stores nothing if
-  /// the cache does not trust seen files (see CacheFolder), or if the file has changed since the
+  /// `CacheFolder::skips_hash_of_unchanged_files` is false, or if the file has changed since the
   /// construction. Also stores nothing if the file was changed less than a second ago, because a
   /// further change might then leave mtime and ctime the same.
   void remember(const Digest& digest) const;

@@ -53,7 +53,7 @@ bool is_head(PreparedHead& head, const HeadCacheSizes& sizes) {
     firsts = LevelFields::tile_count(static_cast<std::size_t>(sizes.vertex_count)) + 1;
   }
   const Index nodes = sizes.levels == LevelRepresentation::kBasis ? sizes.level_node_count : 0;
-  return head.smoothing_trajectory.rows() == sizes.trajectory_level_count &&
+  return head.smoothing_trajectory.rows() == sizes.levels_per_smoothing_trajectory &&
          head.smoothing_trajectory.cols() == 3 * sizes.sample_count &&
          coefficients.rows() == nodes && coefficients.cols() <= nodes &&
          fields.first_field_of_tile.size() == firsts && are_fields(fields) &&

@@ -22,14 +22,14 @@ struct StoredLevels {
   LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
   std::shared_ptr<const MappedFile> mapped_file;
-  /// For `levels: basis`, #nodes by rank: coefficients of the level functions φ_p(L), see
-  /// LevelBasis::mixing
+  /// For `levels: basis`: coefficients of the level functions φ_p(L), one row per node and one
+  /// column per function (see LevelBasis::function_coefficients).
   Eigen::MatrixXd function_coefficients;
-  BasisError error;  ///< `levels: basis`
+  BasisError error;  ///< error of the fitted levels; only for `levels: basis`
 };
 
-/// The cached data of a head: the trajectories of the sample points during smoothing and, unless
-/// `levels: exact`, the fitted levels.
+/// The cached data of a head: the trajectories of the sample points during smoothing, and the
+/// fitted levels. With `levels: exact`, there are no fitted levels.
 struct PreparedHead {
   Trajectory smoothing_trajectory;  ///< of the sample points
   StoredLevels levels;
@@ -38,8 +38,9 @@ struct PreparedHead {
 /// The sizes that a usable entry must have.
 struct HeadCacheSizes {
   Index vertex_count = 0;
-  Index sample_count = 0;            ///< number of sample points with a trajectory
-  Index trajectory_level_count = 0;  ///< levels (numbers of smoothing iterations) per trajectory
+  Index sample_count = 0;  ///< number of sample points with a trajectory
+  /// levels (numbers of smoothing iterations) per trajectory
+  Index levels_per_smoothing_trajectory = 0;
   /// number of levels at which the level functions are interpolated (LevelNodes); unused unless
   /// `levels` is kBasis
   Index level_node_count = 0;

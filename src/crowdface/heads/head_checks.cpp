@@ -145,7 +145,8 @@ void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& pro
 
 std::optional<std::string> check_orientation_and_size(const Config& config, const Inputs& inputs) {
   if (config.faces.align == Align::kNone) return std::nullopt;
-  // the skin only, without eyeballs: the face is found by the skin's relief alone
+  // Use only the skin, without the eyeballs: find_face_marks recognises the face by the relief of
+  // the skin.
   const HeadShape head{inputs.mean_head, skin_of(inputs), {}};
   const Topology& topology = inputs.head_set.topology;
   const Orientation asked{config.faces.up, config.faces.front};

@@ -16,7 +16,7 @@ std::string mirroring_key(const Config& config);
 /// The mirror partner of each vertex of the heads.
 FoundMirror find_mirror(const Config& config, const Inputs& inputs);
 
-/// The mirror map of the inputs; computed now if they have none.
+/// Returns the mirror map of the inputs. Computes the map if the inputs have none.
 /// \param key  the config key that needs the map, for messages
 /// \throws InvalidInput if too few vertices have a mirror partner.
 std::shared_ptr<const MirrorMap> required_mirror_map(const Config& config, const Inputs& inputs,

@@ -49,16 +49,16 @@ Texture texture_of(int width, int height, const std::vector<std::uint8_t>& srgb,
 
 /// Side length, in texels, of normal and roughness maps in renders. The maps are downscaled more
 /// than colours, because relief finer than a pixel only causes noise.
-int finish_texels(int max_px) {
+int shading_map_texels(int max_px) {
   return std::max(1, max_px / 2);
 }
 
 /// A normal or roughness map as a texture for renders; normals are converted to slopes.
-Texture finish_of(const BlendedPicture& picture, bool normals, int max_px) {
+Texture shading_map_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto row = [&](int y, std::span<LinearRgb> texels) {
     const std::uint16_t* at =
-        picture.values16.data() +
+        picture.values_16_bit.data() +
         channels * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(y);
     for (LinearRgb& texel : texels) {
       texel = LinearRgb::Zero();
@@ -73,7 +73,7 @@ Texture finish_of(const BlendedPicture& picture, bool normals, int max_px) {
   return shrunk_texture(picture.width, picture.height, max_px, row);
 }
 
-Texture finish_of(const TextureMap& map, int max_px) {
+Texture shading_map_of(const TextureMap& map, int max_px) {
   return shrunk_texture(map.width, map.height, max_px, [&](int y, std::span<LinearRgb> texels) {
     for (std::size_t x = 0; x < texels.size(); ++x) {
       texels[x] = LinearRgb::Zero();
@@ -133,8 +133,9 @@ void FaceTextureSet::add(std::size_t picture, const BlendedPicture& blended) {
   const bool is_colour = kind == TextureKind::kColour;
   if (!is_colour && !is_shown_in_previews(kind)) return;
   layer_of(kind, texture_set_).textures[number] = std::make_shared<const Texture>(
-      is_colour ? texture_of(blended, max_px_)
-                : finish_of(blended, kind == TextureKind::kNormal, finish_texels(max_px_)));
+      is_colour
+          ? texture_of(blended, max_px_)
+          : shading_map_of(blended, kind == TextureKind::kNormal, shading_map_texels(max_px_)));
 }
 
 std::uint64_t FaceTextureSet::memory_bytes(const HeadTextures& colours,
@@ -148,7 +149,8 @@ std::uint64_t FaceTextureSet::memory_bytes(const HeadTextures& colours,
   };
   add_kind(colours, max_px);
   for (const HeadTextures& of_kind : maps) {
-    if (is_shown_in_previews(of_kind.names.front().kind)) add_kind(of_kind, finish_texels(max_px));
+    if (is_shown_in_previews(of_kind.names.front().kind))
+      add_kind(of_kind, shading_map_texels(max_px));
   }
   return texels * sizeof(LinearRgb);
 }
@@ -162,9 +164,9 @@ void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head,
     layer.texture_of_face = of_kind.blended.layout.picture_of_face;
     for (std::size_t p = 0; p < of_kind.names.size(); ++p) {
       const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
-      layer.textures.push_back(
-          map == nullptr ? nullptr
-                         : std::make_shared<const Texture>(finish_of(*map, finish_texels(max_px))));
+      layer.textures.push_back(map == nullptr ? nullptr
+                                              : std::make_shared<const Texture>(shading_map_of(
+                                                    *map, shading_map_texels(max_px))));
       if (map != nullptr) continue;
       std::ranges::replace(layer.texture_of_face, static_cast<std::uint32_t>(p),
                            TextureLayer::kNone);

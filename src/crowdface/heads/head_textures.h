@@ -16,8 +16,8 @@
 
 namespace crowdface {
 
-/// The parts of an image file's name that do not depend on the face; the face's id is the other
-/// part.
+/// The parts of an image file's name that are the same for all faces. The full name also contains
+/// the face's id.
 struct PictureName {
   std::string part;  ///< name of the image's material; empty if there is only one
   int tile = 0;      ///< UDIM tile number; 0: none

@@ -22,19 +22,19 @@ struct HeadsOnBody {
     /// The rotation of the placed head into the common pose of all heads, see rotation_vector; zero
     /// if the head has that pose.
     Eigen::Vector3d pose_rotation = Eigen::Vector3d::Zero();
-    double shift_mm = 0;  ///< rms distance by which placement and turn together move the ring
-    double rotation_degrees = 0;  ///< angle of placement and turn together
-    /// after placement and turn: largest distance between a vertex of the head's ring and the
-    /// matching vertex of the body's ring
+    double shift_mm = 0;  ///< rms distance by which placement and pose rotation move the ring
+    double rotation_degrees = 0;  ///< angle of placement and pose rotation together
+    /// after placement and pose rotation: largest distance between a vertex of the head's ring and
+    /// the matching vertex of the body's ring
     double max_bend_mm = 0;
   };
   Seam seam;
   std::vector<Head> heads;
-  Eigen::Vector3d seam_centre;  ///< centre of the seam between heads and body
-  Positions unplaced_mean;      ///< mean of the heads before they were placed
+  Eigen::Vector3d seam_centre;      ///< centre of the seam between heads and body
+  Positions mean_before_placement;  ///< mean of the heads before they were placed
   double mm_per_unit = 1;
-  /// The body; null unless renders or mesh files contain the body, or each face gets a texture of
-  /// the body.
+  /// The body, if renders or mesh files contain it or if each face gets a texture of the body.
+  /// Otherwise null.
   std::shared_ptr<const Attachment> body;
   Rim body_rim;  ///< the body's vertex for each vertex of the ring; empty without `body`
   bool is_body(const Attachment& item) const { return body.get() == &item; }
@@ -53,8 +53,8 @@ inline RigidMotion rotation_about(const Eigen::Vector3d& middle, const Eigen::Ve
 }
 
 /// Returns the mean of the heads before they are placed on a body.
-inline const Positions& unplaced_mean(const Inputs& inputs) {
-  return inputs.heads_on_body ? inputs.heads_on_body->unplaced_mean : inputs.mean_head;
+inline const Positions& mean_before_placement(const Inputs& inputs) {
+  return inputs.heads_on_body ? inputs.heads_on_body->mean_before_placement : inputs.mean_head;
 }
 
 }  // namespace crowdface

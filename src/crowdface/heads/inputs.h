@@ -57,7 +57,8 @@ struct AttachmentLook {
 
 /// All attachments of a crowd.
 struct AttachmentSet {
-  /// #V by 3, the head that all attachments are fitted to; no rows if there are no attachments
+  /// positions of the head that all attachments are fitted to, #V by 3; no rows if there are no
+  /// attachments
   Positions fitted_to;
   std::vector<Attachment> items;
   Digest digest;  ///< hash of the contents of all files and of the fitted head
@@ -76,7 +77,7 @@ struct AttachmentSet {
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.
 struct Rig {
   GlbSkin skin;     ///< in the heads' axes
-  PointSet points;  ///< positions of the joints, in their order, relative to the template
+  PointSet points;  ///< position of each joint relative to the template
   Digest digest;
 
   bool empty() const { return skin.joints.empty(); }
@@ -110,26 +111,26 @@ struct Inputs {
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body;
   ShapeSet shapes;
-  Digest shapes_digest;  ///< hash of the shapes, if there are any
-  std::vector<MeasuredLevel> levels;
+  Digest shapes_digest;               ///< hash of the shapes, if there are any
+  std::vector<MeasuredLevel> levels;  ///< key `output.lods`
   PointSet points;
   Digest points_digest;  ///< hash of the points, if there are any
   Rig rig;
   AttachmentSet attachments;
   RegionWeights regions;
-  /// #V, from `distance.mask`: how much each vertex counts when the distance between two faces is
-  /// measured; empty without a mask
+  /// weight of each vertex in the distance between two faces, from `distance.mask`; empty without a
+  /// mask
   std::vector<double> distance_weights;
   double edge_length_mm = 0;         ///< rms edge length of the skin, averaged over the heads
-  std::uint64_t max_level = 0;       ///< L_max
+  std::uint64_t max_level = 0;       ///< L_max: largest number of smoothing iterations
   std::vector<Digest> head_digests;  ///< #heads, hashes of the positions in `head_set`
   /// #heads, hashes of the positions that the heads had before they were placed on a body
-  std::vector<Digest> unplaced_head_digests;
+  std::vector<Digest> head_digests_before_placement;
   Digest topology_digest;
-  Digest mask_digest;  ///< hash of α
+  Digest mask_digest;  ///< hash of the masks' weights α
   /// colour textures, if they are blended or rendered; otherwise empty
   HeadTextures textures;
-  std::vector<HeadTextures> maps;     ///< textures of other kinds, if faces get blended ones
+  std::vector<HeadTextures> maps;     ///< blended textures of all kinds except colour
   std::vector<std::string> warnings;  ///< in a fixed order; also logged
 
   /// Adds and logs a warning.

@@ -76,7 +76,7 @@ ImageRows linear_light_of(const Image& image) {
 
 ImageRows normal_slopes_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
-    constexpr float kMinUp = 1.0F / 8;  // steepest slope that MapCoding::slopes() can store
+    constexpr float kMinUp = 1.0F / 8;  // steepest slope that MapCoding::slope_coding() can store
     for (int x = 0; x < image.width; ++x) {
       Eigen::Array3f normal;
       for (int c = 0; c < 3; ++c) normal[c] = 2 * image.at(x, y, c) - 1;

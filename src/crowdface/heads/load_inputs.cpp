@@ -146,7 +146,7 @@ HeadTextures load_sound(FoundTextureFiles& found, Inputs& inputs, const Load& lo
       return loaded;
     } catch (const DamagedImage& error) {
       damaged.emplace(error.path, error.what());
-      remove_files(found, {error.path});
+      leave_out_files(found, {error.path});
     }
   }
 }
@@ -169,14 +169,15 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
                  "a material with an existing texture (map_Kd in the mtllib file)"));
     }
     if (!asked_for) {
-      for (std::string& text : remove_unreadable_files(found)) inputs.warn(std::move(text));
+      for (std::string& text : leave_out_unreadable_files(found)) inputs.warn(std::move(text));
     }
     const auto load_blended = [&](const FoundTextureFiles& textures) {
       return load_blended_textures(inputs.head_set, inputs.materials, textures,
                                    config.textures.size, cache);
     };
     const auto load_colours = [&](const FoundTextureFiles& textures) {
-      if (textures.has_files() && blend && textures.heads_differ()) return load_blended(textures);
+      if (textures.has_files() && blend && textures.heads_have_different_textures())
+        return load_blended(textures);
       if (textures.has_files() && shown)
         return load_render_textures(textures,
                                     max_rendered_texels(sheet.value_or(Config::ContactSheet{})));
@@ -189,11 +190,11 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
     for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
       const bool pictured = shown && is_shown_in_previews(kinds[k].kind);
       if (!pictured && config.output.meshes.empty()) continue;
-      for (std::string& text : remove_unreadable_files(kinds[k])) inputs.warn(std::move(text));
+      for (std::string& text : leave_out_unreadable_files(kinds[k])) inputs.warn(std::move(text));
       HeadTextures maps = load_sound(kinds[k], inputs, [&](const FoundTextureFiles& textures) {
-        return textures.heads_differ() ? load_blended(textures) : HeadTextures();
+        return textures.heads_have_different_textures() ? load_blended(textures) : HeadTextures();
       });
-      if (!kinds[k].heads_differ()) {
+      if (!kinds[k].heads_have_different_textures()) {
         if (auto text = single_texture_warning(kinds[k], inputs.head_set))
           inputs.warn(std::move(*text));
         continue;
@@ -216,12 +217,12 @@ void Inputs::warn(std::string text) {
 void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Problems& problems) {
   // The config reader has already reported missing files.
   const auto is_missing = [](const std::filesystem::path& file) { return !path_exists(file); };
-  if (reading.heads_known) {
+  if (reading.are_heads_known) {
     std::vector<std::filesystem::path> heads = reading.config.faces.files;
     std::erase_if(heads, is_missing);
     compare_meshes_with_first(read_heads(heads, cache, problems), problems);
   }
-  if (reading.regions_known) {
+  if (reading.are_regions_known) {
     std::vector<std::string> masks = reading.config.regions.mask;
     std::erase_if(masks, is_missing);
     check_masks(masks, problems);
@@ -269,11 +270,11 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
     problems.add(error);
     return std::nullopt;
   }
-  inputs.unplaced_head_digests = hash_heads(inputs.head_set);
+  inputs.head_digests_before_placement = hash_heads(inputs.head_set);
   load_neck(config, inputs, problems);
   if (!problems.empty()) return std::nullopt;
   inputs.head_digests =
-      inputs.heads_on_body ? hash_heads(inputs.head_set) : inputs.unplaced_head_digests;
+      inputs.heads_on_body ? hash_heads(inputs.head_set) : inputs.head_digests_before_placement;
   inputs.mean_head = mean_head(inputs.head_set);
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
@@ -290,7 +291,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : same_person_warnings(inputs, mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
-  for (std::string& text : odd_expressions(
+  for (std::string& text : odd_expression_warnings(
            inputs.head_set, skin_of(inputs),
            axes_of(Orientation{config.faces.up, config.faces.front}), mm_per(config.faces.units))) {
     inputs.warn(std::move(text));

@@ -54,9 +54,9 @@ std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mea
   return evenly_spaced_items(above.size() < kFewest ? all : above, kPoints);
 }
 
-/// The rotation of all heads onto a body that is known only by its ring. Returns the identity
-/// unless the rotation at least halves the distance between the rings. Necks are cut at different
-/// slopes, and a different slope of the cut alone must not tilt the heads.
+/// Returns the rotation of all heads that aligns their ring `rim` with the body's ring `goal`.
+/// Returns the identity if this rotation leaves more than half of the distance between the rings.
+/// Necks are cut at different slopes, and a different slope alone must not tilt the heads.
 Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
   std::vector<std::uint32_t> all(static_cast<std::size_t>(rim.rows()));
   std::iota(all.begin(), all.end(), 0U);
@@ -130,7 +130,7 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
   if (!config.neck.body.empty()) {
     const Positions ring = poses.mean(head_set, rim, rim);
     goal.body = read_neck_body(config, inputs, rim, ring);
-    goal.rotation = goal.body.is_head_mesh
+    goal.rotation = goal.body.file_contains_head
                         ? poses.rotation_to(head_set, rim, goal.body.head_positions)
                         : rotation_of_rim(ring, goal.body.rim_positions);
     return goal;
@@ -235,8 +235,8 @@ void place_heads(const Config& config, Inputs& inputs) {
   HeadSet& head_set = inputs.head_set;
   const double mm = mm_per(config.faces.units), falloff = config.neck.falloff_mm / mm;
   const Rim rim = find_neck_rim(config, inputs);
-  Positions unplaced_mean = mean_head(head_set);
-  const Poses poses(config, head_set, skin_above(inputs, unplaced_mean, rim, falloff));
+  Positions mean_before_placement = mean_head(head_set);
+  const Poses poses(config, head_set, skin_above(inputs, mean_before_placement, rim, falloff));
   Goal goal = find_goal(config, inputs, rim, poses);
   std::vector<HeadsOnBody::Head> heads(head_set.heads.size());
   parallel_for_each(heads.size(), [&](std::size_t h) {
@@ -253,8 +253,9 @@ void place_heads(const Config& config, Inputs& inputs) {
   const Positions areas = area_vectors_around(head_set.topology, mean, rim);
   goal.body.reverse_inward_polygons(areas);
   seam.normals = normals_of(areas, goal.body.area_vectors);
-  HeadsOnBody neck{std::move(seam), std::move(heads),   middle, std::move(unplaced_mean), mm,
-                   goal.body.mesh,  goal.body.mesh_rim, {}};
+  HeadsOnBody neck{
+      std::move(seam), std::move(heads),   middle, std::move(mean_before_placement), mm,
+      goal.body.mesh,  goal.body.mesh_rim, {}};
   neck.digest = neck_digest(config, neck);
   inputs.heads_on_body = std::make_shared<const HeadsOnBody>(std::move(neck));
 }

@@ -70,7 +70,7 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
                     [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
-/// Sets a shape's displacements to zero at the ring in which all faces end.
+/// Sets a shape's displacements to zero at the neck's ring, where all faces end.
 void hold_ring(const Inputs& inputs, Displacements& moves) {
   if (inputs.heads_on_body) inputs.heads_on_body->seam.keep_rim_still(moves);
 }

@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// #components: the name that most polygons of the component have; empty if no polygon has a name.
+/// For each component, the name that most of its polygons have; empty if no polygon has a name.
 std::vector<std::string> names_of(const std::vector<MaterialRange>& ranges, const Inputs& inputs) {
   const Topology& topology = inputs.head_set.topology;
   std::vector<std::map<std::size_t, Index>> faces(

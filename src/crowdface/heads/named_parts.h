@@ -14,7 +14,7 @@ namespace crowdface {
 /// `inputs.parts` and `inputs.skin_components`. A name without a matching component is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
 
-/// `skin_of`: #V, whether each vertex is skin. `skin_vertices`: the skin vertices, ascending.
+/// `skin_of`: for each vertex, whether it is skin. `skin_vertices`: the skin vertices, ascending.
 std::vector<bool> skin_of(const Inputs& inputs);
 std::vector<std::uint32_t> skin_vertices(const Inputs& inputs);
 

@@ -44,14 +44,14 @@ Rim read_rim(const std::filesystem::path& file, const Adjacency& adjacency) {
 }
 
 /// The mesh reduced to some polygons and to the vertices of these polygons.
-/// \param kept  #F
+/// \param kept  for each polygon, whether to keep it
 /// \param rim   renumbered with the vertices
 ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
   if (std::ranges::all_of(kept, [](bool keep) { return keep; })) return whole;
   FileMesh mesh;
   mesh.uvs = std::move(whole.uvs);
   mesh.materials = std::move(whole.materials);
-  std::vector<Index> number;  // of each old polygon: the number of polygons kept before it
+  std::vector<Index> number;  // for each old polygon, the number of kept polygons before it
   for (Index f = 0; f < whole.topology.face_count(); ++f) {
     number.push_back(mesh.topology.face_count());
     if (!kept[static_cast<std::size_t>(f)]) continue;
@@ -76,7 +76,7 @@ ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
 
 /// Stores the body's mesh. \throws InvalidInput if the file holds a head instead of a body.
 void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
-  if (body.is_head_mesh) {
+  if (body.file_contains_head) {
     throw InvalidInput("body_texture, show_body and write_body need a body, found a head");
   }
   auto kept = std::make_shared<Attachment>();
@@ -133,12 +133,12 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
   const double mm = mm_per(config.faces.units);
   const Positions head = mm * ring;
   NeckBody body;
-  body.is_head_mesh = first_difference(inputs.head_set.topology, mesh.topology).empty();
-  const bool is_order_known = body.is_head_mesh && neck.body_rim.empty();
+  body.file_contains_head = first_difference(inputs.head_set.topology, mesh.topology).empty();
+  const bool is_order_known = body.file_contains_head && neck.body_rim.empty();
   std::vector<Rim> rims = {rim};
   if (!neck.body_rim.empty()) {
     rims = {read_rim(neck.body_rim, build_adjacency(mesh.topology))};
-  } else if (!body.is_head_mesh) {
+  } else if (!body.file_contains_head) {
     rims = find_open_rims(mesh.topology, build_adjacency(mesh.topology));
   }
   try {
@@ -151,7 +151,7 @@ NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& r
       mesh = with_polygons(below, std::move(mesh), found);
     }
     body.area_vectors = area_vectors_around(mesh.topology, mesh.positions, found);
-    if (body.is_head_mesh) body.head_positions = mesh.positions;
+    if (body.file_contains_head) body.head_positions = mesh.positions;
     if (neck.needs_body_mesh()) keep_body(std::move(mesh), found, body);
   } catch (const InvalidInput& error) {
     refuse_file(neck.body, error.what());

@@ -19,9 +19,9 @@ Positions area_vectors_around(const Topology& topology, const Positions& positio
 /// The body whose file the config names as `neck.body`.
 struct NeckBody {
   Positions rim_positions;  ///< #rim by 3, in the order of the heads' rim
-  Positions area_vectors;   ///< area vectors of its polygons around the rim, #rim by 3
-  /// Whether the file contains a head, with the heads' topology, instead of a body.
-  bool is_head_mesh = false;
+  Positions area_vectors;   ///< result of area_vectors_around for the body
+  /// Whether the file contains a head with the heads' topology, instead of a body.
+  bool file_contains_head = false;
   Positions head_positions = {};  ///< if the file contains a head: positions of its whole mesh
   /// The body's mesh, stored like an attachment; null if the config does not need the mesh.
   std::shared_ptr<Attachment> mesh = {};

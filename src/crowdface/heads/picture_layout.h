@@ -19,7 +19,7 @@ struct PictureSource {
 
 /// Assigns to each polygon the image of the first head that has a texture at this polygon. The
 /// images have no size yet.
-/// \return #images
+/// \return one source per image
 std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, TextureLayout& layout);
 
 /// Names the images after their materials and tiles.

@@ -43,7 +43,7 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
 
 /// Maximum error of interpolating between the nodes (see LevelNodes), as a fraction of the
 /// displacement at L_max. With this limit, the interpolation uses about a tenth of the error
-/// tolerance: 2·10⁻⁴ at the default tolerance of 0.05 mm (measured, docs/method.md).
+/// tolerance (measured, docs/method.md). At the default tolerance of 0.05 mm, the limit is 2·10⁻⁴.
 double missed_by_nodes(const Config& config) {
   constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
   if (config.smoothing.levels != LevelRepresentation::kBasis) return 2e-4;

@@ -34,8 +34,8 @@ struct Prepared {
   std::size_t cached_head_count = 0;        ///< number of heads found in the cache
 };
 
-/// A cache entry was truncated while its fields were in use. Results computed from it must be
-/// discarded; preparing the heads again repairs the entry.
+/// Thrown if a cache entry was truncated while its fields were in use. Results computed from the
+/// entry must be discarded. Preparing the heads again repairs the entry.
 struct TruncatedWhileInUse : IoError {
   using IoError::IoError;
 };

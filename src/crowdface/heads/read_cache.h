@@ -28,6 +28,7 @@ struct HeadMesh {
 /// \return the hash of the head's mesh, or nothing if the cache has no entry for the file.
 std::optional<Digest> fill_head_from_cache(const CacheFolder& cache, const Digest& text_digest,
                                            ObjFile& head);
+/// Finds the mesh of a head in the cache; nothing if the cache has no valid entry.
 /// \param mesh_digest  hash of the mesh
 std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_digest);
 

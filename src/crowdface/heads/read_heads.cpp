@@ -53,8 +53,8 @@ class SharedMeshes {
     return meshes_[digest] = std::make_shared<HeadMesh>(std::move(*kept));
   }
 
-  /// Returns true for the first caller with this hash, who must then read the mesh. \param summary
-  /// hash of the text that describes the mesh
+  /// Returns true for the first caller with this hash. This caller must then read the mesh.
+  /// \param summary  hash of the text that describes the mesh
   bool is_first(const Digest& summary) {
     const std::lock_guard lock(mutex_);
     return of_summary_.emplace(summary, Known()).second;
@@ -69,7 +69,7 @@ class SharedMeshes {
     if (!head.file.is_mended) of_summary_[summary] = {head.mesh_digest, place};
   }
   /// Sets the head's mesh to the mesh that was read from another file with the same `summary`. Sets
-  /// it to null if there is no such mesh, or if the other file had to be repaired.
+  /// the mesh to null if there is no such mesh, or if the other file had to be repaired.
   /// \param summary  hash of the text that describes the mesh
   void reuse_mesh(const Digest& summary, HeadFile& head) {
     const std::lock_guard lock(mutex_);
@@ -105,8 +105,8 @@ bool is_worth_keeping(const ObjFile& file) {
 }
 
 /// Turns the polygons of mirrored heads back to the winding in the file, so that the alignment
-/// check reports these heads. A head counts as mirrored if reading has reversed its polygons and
-/// its polygons without this reversal equal the polygons of another head.
+/// check reports these heads. A head counts as mirrored if reading has reversed its polygons, and
+/// if its polygons in the file equal the polygons of another head.
 void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (!head || !head->mesh || !head->file.has_reversed_faces) continue;
@@ -217,7 +217,8 @@ std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const Cache
   }
 }
 
-/// If the file has positions but no polygons, the head has no mesh yet.
+/// Reads a head from a file that is not an OBJ file. If the file has no polygons, the head gets a
+/// mesh later, from give_faces_to_points.
 void read_other_format(HeadReading& reading, const CacheFolder& cache, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
   FileMesh mesh = read_mesh(file.path);
@@ -344,7 +345,7 @@ std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const Cache
     kept += head->is_cached ? 1U : 0U;
     read.push_back(std::move(*head));
   }
-  if (!read.empty()) give_common_mesh(read);
+  if (!read.empty()) convert_to_common_mesh(read);
   if (kept > 0) log_info(concat(kept, " of ", paths.size(), " heads were read from the cache"));
   return read;
 }

@@ -25,8 +25,8 @@ enum class Winding { kAsItIs, kOutward };
 /// Reads meshes in parallel, from the cache if it has them.
 /// \param what   noun for the meshes, shown in the progress bar
 /// \param cache  cache folder; empty: no cache
-/// \return #paths, one item for each path; an item is empty if the file could not be read. Each
-/// such file is added as a problem.
+/// \return one item for each path; empty if the file could not be read. Each unreadable file is
+/// added as a problem.
 std::vector<std::optional<HeadFile>> read_mesh_files(
     const std::vector<std::filesystem::path>& paths, std::string_view what,
     const CacheFolder& cache, Problems& problems, Winding winding = Winding::kOutward);
@@ -37,7 +37,7 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
                                  const CacheFolder& cache, Problems& problems);
 
 /// Reads the vertex positions of a mesh file.
-/// \param others  name in messages of the meshes that have `topology`, such as "the heads"
+/// \param others  what messages call the meshes with `topology`, such as "the heads"
 /// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view others);

@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// The colours of the heads' skin in a band above the neck's ring, without detail. Faces blend them
-/// like their textures or their vertex colours.
+/// The colours of the heads' skin in a band above the neck's ring, without detail. Faces blend
+/// these colours like their textures or their vertex colours.
 class SeamColours {
  public:
   /// \param inputs   must have a neck and outlive this object.
@@ -20,8 +20,8 @@ class SeamColours {
   /// Whether the colours of at least one head's skin above the neck's ring are known.
   bool has_colours() const;
   /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
-  /// \param weights  #heads; heads without colours are left out. If all weights are zero, all heads
-  ///                 get equal weights
+  /// \param weights  one per head; heads without colours are left out. If all weights are zero, all
+  ///                 heads get equal weights
   Positions optical_densities_at_ring(const std::vector<double>& weights) const;
   /// Mean colour of the band, linear light.
   Eigen::Array3d mean_colour(const std::vector<double>& weights) const;
@@ -31,9 +31,10 @@ class SeamColours {
 
   std::vector<std::uint32_t> vertices_;  ///< the ring, then the other vertices of the band
   Index ring_size_ = 0;                  ///< number of vertices in the ring
-  /// #vertices_: area around the vertex, as a fraction of the band's area
+  /// area around each of the `vertices_`, as a fraction of the band's area
   std::vector<double> areas_;
-  /// #heads: optical densities of the head's colours, #vertices_ by 3; no rows if unknown
+  /// for each head, the optical densities of its colours at the `vertices_`, #vertices_ by 3; no
+  /// rows if unknown
   std::vector<Positions> head_optical_densities_;
 };
 

@@ -31,18 +31,18 @@ void add_parts(const Config& config, const PartList& parts, Hasher& hasher) {
 Digest settings_digest(const Config& config, const Inputs& inputs) {
   Hasher hasher;
   hasher.add(kBlendVersion).add(inputs.topology_digest).add(inputs.mask_digest);
-  for (std::size_t h = 0; h < inputs.unplaced_head_digests.size(); ++h) {
+  for (std::size_t h = 0; h < inputs.head_digests_before_placement.size(); ++h) {
     // Also hash the text of each head's file: an output mesh copies everything except the positions
     // from the file of its target head.
     hasher.add(config.faces.names[h])
-        .add(inputs.unplaced_head_digests[h])
+        .add(inputs.head_digests_before_placement[h])
         .add(inputs.head_file_digests[h]);
   }
   for (const std::string& region : config.region_names()) hasher.add(region);
   hasher.add(static_cast<int>(config.smoothing.boundary))
       .add(static_cast<int>(config.smoothing.operator_kind))
       .add(static_cast<int>(config.smoothing.levels));
-  // Only fitted levels depend on L_max; exact ones do not.
+  // Only fitted levels depend on max_level. Exactly computed levels do not.
   if (config.smoothing.levels != LevelRepresentation::kExact) hasher.add(inputs.max_level);
   if (config.smoothing.levels == LevelRepresentation::kBasis) {
     hasher.add(config.smoothing.tolerance_mm / mm_per(config.faces.units));
@@ -57,7 +57,7 @@ Digest settings_digest(const Config& config, const Inputs& inputs) {
 
 Digest materials_digest(const Inputs& inputs) {
   const bool has_colours = inputs.textures.digest != Digest();
-  std::set<std::filesystem::path> known;  // heads mostly share their material files
+  std::set<std::filesystem::path> known;  // a set, because heads mostly share their material files
   Hasher hasher;
   for (const ObjFile& head : inputs.head_files) {
     for (const MaterialFile& file :

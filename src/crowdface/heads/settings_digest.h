@@ -11,9 +11,8 @@ namespace crowdface {
 /// smoothing settings. Each recipe of a plan contains this hash.
 Digest settings_digest(const Config& config, const Inputs& inputs);
 
-/// Hash of the heads' material files and of the textures that no other hash covers. Everything in
-/// the appearance of a surface, except its colours, depends on these files. Zero if there are no
-/// such files.
+/// Hash of the heads' material files and of the textures that no other hash covers. The appearance
+/// of the surfaces, except their colours, depends on these files. Zero if there are no such files.
 Digest materials_digest(const Inputs& inputs);
 
 }  // namespace crowdface

@@ -35,7 +35,7 @@ Hasher& begin_key(Hasher& hasher, const Inputs& inputs) {
 
 /// Adds to the hash everything that determines the skin of all heads.
 Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
-  for (const Digest& head : inputs.unplaced_head_digests) hasher.add(head);
+  for (const Digest& head : inputs.head_digests_before_placement) hasher.add(head);
   return hasher.add_array(std::span(inputs.skin_components.component_of_vertex))
       .add(inputs.skin_components.largest());
 }
@@ -177,7 +177,7 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
   return read_or_make(
       cache_of(inputs), {"samples", key.digest()},
       [&] {
-        return choose_face_samples(topology, inputs.skin_components, unplaced_mean(inputs),
+        return choose_face_samples(topology, inputs.skin_components, mean_before_placement(inputs),
                                    config.faces.front, count);
       },
       [](auto& arrays, auto& samples) { arrays("vertices", samples); },
@@ -191,10 +191,10 @@ FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index cou
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples) {
   Hasher key;
   begin_key(key, inputs).add_array(std::span(samples));
-  for (const Digest& head : inputs.unplaced_head_digests) key.add(head);
+  for (const Digest& head : inputs.head_digests_before_placement) key.add(head);
   return read_or_make(
       cache_of(inputs), {"cells", key.digest()},
-      [&] { return find_sample_cells(inputs.adjacency, unplaced_mean(inputs), samples); },
+      [&] { return find_sample_cells(inputs.adjacency, mean_before_placement(inputs), samples); },
       [](auto& arrays, auto& cells) { arrays("samples", cells.sample_of_vertex); },
       [&](const SampleCells& found, const CacheEntry&) {
         static_assert(SampleCells::kNone == kNoIndex);

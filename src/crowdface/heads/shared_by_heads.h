@@ -10,7 +10,9 @@
 
 namespace crowdface {
 
-/// build_adjacency and find_components, cached. \param inputs  must have the topology and its hash
+/// Stores the results of build_adjacency and find_components in the inputs, from the cache if
+/// possible.
+/// \param inputs  must have the topology and its hash
 void find_neighbours(Inputs& inputs);
 
 /// Returns the `region_weights` of the config's masks, from the cache if possible. If the config
@@ -18,11 +20,12 @@ void find_neighbours(Inputs& inputs);
 /// \param inputs  `inputs.parts` must be set
 RegionWeights load_regions(const Config& config, const Inputs& inputs);
 
-/// choose_face_samples and find_sample_cells of the mean head, cached.
+/// Like choose_face_samples and find_sample_cells for the mean head, but from the cache if
+/// possible.
 FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index count);
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples);
 
-/// find_mirror, cached.
+/// Like find_mirror, but from the cache if possible.
 FoundMirror find_cached_mirror(const Inputs& inputs, const Eigen::Vector3d& side);
 
 }  // namespace crowdface

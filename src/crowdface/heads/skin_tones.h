@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// #heads: the mean optical density of each head's colour textures; empty if faces have no blended
-/// colour textures. Reads only one texel of each block of 16 by 16 texels.
+/// The mean optical density of each head's colour textures; empty if faces have no blended colour
+/// textures. Reads only one texel of each block of 16 by 16 texels.
 std::vector<double> skin_tones(const Inputs& inputs);
 
 /// Computes the weights of the heads in the colours of a face: the mean over the regions, weighted
@@ -17,7 +17,7 @@ std::vector<double> skin_tones(const Inputs& inputs);
 class HeadColourWeights {
  public:
   HeadColourWeights(const Config& config, const Inputs& inputs);
-  /// #heads: the weights for a face; their sum is one.
+  /// The weight of each head for a face; the weights sum to one.
   std::vector<double> weights_of(const Recipe& recipe) const;
 
  private:

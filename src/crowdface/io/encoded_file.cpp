@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-void EncodedFile::refer_to(std::string_view bytes) {
+void EncodedFile::add_without_copy(std::string_view bytes) {
   if (bytes.empty()) return;
   pieces_.push_back(bytes);
   size_ += bytes.size();
@@ -18,7 +18,7 @@ void EncodedFile::add(std::string text) {
   const auto owner = std::make_shared<const std::string>(std::move(text));
   share_ownership(owner);
   memory_bytes_ += owner->size();
-  refer_to(*owner);
+  add_without_copy(*owner);
 }
 
 void EncodedFile::share_ownership(std::shared_ptr<const void> owner) {
@@ -41,18 +41,18 @@ bool EncodedFile::replace_line(std::string_view word, std::string_view line) {
     std::size_t kept = 0;
     for (std::size_t at = piece.find(word); at != piece.npos; at = piece.find(word, at + 1)) {
       const std::size_t before = piece.substr(0, at).find_last_not_of(" \t");
-      // Assume that every piece after the first begins at the start of a line.
+      // Of all pieces, only the first is known to begin at the start of a line.
       const bool begins =
           before == piece.npos ? piece.data() == old.front().data() : piece[before] == '\n';
       const std::size_t after = at + word.size();
       if (!begins || after >= piece.size() || (piece[after] != ' ' && piece[after] != '\t'))
         continue;
-      refer_to(piece.substr(kept, at - kept));
+      add_without_copy(piece.substr(kept, at - kept));
       if (!found) add(std::string(line));
       found = true;
       kept = std::min(piece.find_first_of("\r\n", after), piece.size());
     }
-    refer_to(piece.substr(kept));
+    add_without_copy(piece.substr(kept));
   }
   return found;
 }

@@ -22,18 +22,19 @@ class EncodedFile {
   /// A file with this content.
   EncodedFile(std::string text) { add(std::move(text)); }  // NOLINT(*-explicit-*)
   /// Appends bytes without copying them. The bytes must outlive this object.
-  void refer_to(std::string_view bytes);
+  void add_without_copy(std::string_view bytes);
   /// Appends a text, which this object then owns.
   void add(std::string text);
   /// Shares the ownership of the object that holds referenced bytes, so that these bytes live as
   /// long as this object.
   void share_ownership(std::shared_ptr<const void> owner);
   /// Allocates `capacity` uninitialised bytes. The caller fills these bytes and appends ranges of
-  /// them with `refer_to`.
+  /// them with `add_without_copy`.
   char* reserve(std::size_t capacity);
 
-  /// Replaces the first line that begins with `word` and a blank, and removes all later such lines.
-  /// \return whether the file had such a line.
+  /// Replaces the first line that begins with `word` and a blank by `line`. Removes all later lines
+  /// that begin with `word` and a blank.
+  /// \return whether a line was replaced.
   bool replace_line(std::string_view word, std::string_view line);
 
   std::uint64_t size() const { return size_; }
@@ -46,7 +47,8 @@ class EncodedFile {
   /// The whole content as one string.
   std::string text() const;
   /// Writes the file.
-  /// \throws CannotCreate, IoError; in that case `path` is as before (see `write_file`).
+  /// \throws CannotCreate, IoError. After an exception, the file at `path` is unchanged (see
+  /// `write_file`).
   void write(const std::filesystem::path& path) const;
 
  private:

@@ -13,15 +13,15 @@ namespace crowdface {
 /// Signature of the FBX parser in the shared library that contains Assimp (assimp_reader.cpp). The
 /// program loads the library when it meets the first FBX file. The signature uses only types of
 /// this project.
-/// \param external_textures  #textures: path of each external texture file, as the exporting
-///                           machine wrote it; empty for embedded textures
+/// \param external_textures  one entry per texture: the path of the texture file, as the exporting
+///                           machine wrote it; empty for an embedded texture
 using ReadFbx = bool(std::string_view bytes, FileMesh& mesh,
                      std::vector<std::string>& external_textures, std::string& error);
 
 /// Reads all meshes of an FBX file and applies the transforms of their nodes. Polygons stay
 /// polygons, without triangulation. Assimp creates one vertex per polygon corner, so the original
 /// vertex order is lost. `join_split_vertices` merges the copies of a vertex.
-/// \param path  path of the FBX file; the function searches external textures beside this file.
+/// \param path  path of the FBX file; the function searches for external textures beside this file.
 /// \throws InvalidInput; IoError if the library cannot be loaded.
 FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path);
 

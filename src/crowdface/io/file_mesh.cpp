@@ -40,8 +40,8 @@ void join_vertices(FileMesh& mesh) {
   mesh.topology.vertex_count = mesh.positions.rows();
 }
 
-/// Merges the texture coordinates of two corners of the same vertex if they are equal. Where they
-/// differ, there is a seam.
+/// Merges equal texture coordinates of corners of the same vertex. At a seam, the texture
+/// coordinates of the corners differ.
 void join_uvs(FileMesh& mesh) {
   Topology& topology = mesh.topology;
   std::map<std::tuple<std::uint32_t, double, double>, std::uint32_t> rows;

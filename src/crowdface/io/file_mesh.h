@@ -27,11 +27,11 @@ struct MeshTexture {
 struct FileMesh : Mesh {
   Positions colours;                     ///< #V by 3, sRGB from 0 to 1; or no rows
   std::vector<MaterialRange> materials;  ///< ranges of polygons, ascending; may be empty
-  /// #V: for each vertex, the index of its mesh among the meshes of the file. Only for formats that
+  /// For each vertex, the index of its mesh among the meshes of the file. Only for formats that
   /// split vertices at seams; empty for other formats.
   std::vector<std::uint32_t> mesh_of_vertex;
   std::vector<std::uint32_t>
-      vertex_ids;  ///< #V: vertex ids before the split; empty if the file does not store them
+      vertex_ids;  ///< one id per vertex, from before the split; empty if the file has no ids
   std::vector<MeshTexture> textures;  ///< textures of the materials
   /// Base colours of materials in linear light, for formats without material files.
   std::map<std::string, std::array<float, 3>> material_colours;
@@ -55,10 +55,11 @@ inline std::string shapes_note(std::size_t count, std::string_view kind) {
          " are not used: export each as a mesh of its own for `shapes`";
 }
 
-/// Merges vertices that a format has split at seams. Copies of one vertex have the same mesh and
-/// the same id or, if the file has no ids, lie on the mesh's border at the same position (see
-/// joined_borders). The merged vertices have the order of their first copies. Texture coordinates
-/// move from vertices to polygon corners. Adds a note if it merges any.
+/// Merges vertices that a format has split at seams. Two vertices of the same mesh are copies of
+/// one vertex if they have the same id. In a file without ids, they are copies if both lie on the
+/// mesh's border at the same position (see joined_borders). The merged vertices have the order of
+/// their first copies. Texture coordinates move from vertices to polygon corners. Adds a note if
+/// vertices were merged.
 /// \return whether any vertices were merged.
 bool join_split_vertices(FileMesh& mesh);
 

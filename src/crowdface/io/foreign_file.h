@@ -12,7 +12,8 @@ namespace crowdface {
 void refuse_non_mesh_file(std::string_view bytes, const std::filesystem::path& path);
 
 /// Returns advice for an error message: how to correct a mesh file that contains `word` where a
-/// finite number is expected. Empty unless the cause is known; "1,5" is a decimal comma.
+/// finite number is expected. For example, "1,5" contains a decimal comma. Empty if the cause is
+/// unknown.
 std::string_view advice_on_bad_number(std::string_view word);
 
 }  // namespace crowdface

@@ -26,20 +26,21 @@ struct GlbMaterial {
   std::optional<std::size_t> roughness_image = {};
 };
 
-/// An image that materials with `uses_overlay` show instead of their own colour, such as an iris.
-/// It is the same in all files and has its own texture coordinates. Files that do not embed images
-/// name the image file `kFile`.
+/// An image, such as an iris, that materials with `uses_overlay` show instead of their own colour.
+/// The image is the same in all files and has its own texture coordinates. Files that do not embed
+/// images name the image file `kFile`.
 struct GlbOverlay {
   static constexpr const char* kFile = "topology/iris.png";
 
   std::string png;
-  /// #V: texture coordinates of each vertex from 0 (left, upper edge) to 65535 (right, lower edge)
+  /// one pair of texture coordinates per vertex, from 0 (left, upper edge) to 65535 (right, lower
+  /// edge)
   std::vector<std::array<std::uint16_t, 2>> uvs;
 };
 
 /// A morph target that every file has: its name, and (in ascending order) the vertices that it
 /// moves.
-struct GlbTarget {
+struct GlbMorphTarget {
   std::string name;
   std::vector<std::uint32_t> vertices;
 };
@@ -58,15 +59,14 @@ struct GlbOptions {
   Axis front = {2, 1};
   std::vector<GlbMaterial> materials;
   bool has_colours = false;  ///< whether each file has its own vertex colours
-  /// #F: the material of each polygon, as an index into `materials`; empty if there are no
-  /// materials
+  /// for each polygon, the index of its material in `materials`; empty if there are no materials
   std::vector<std::uint32_t> face_materials;
-  std::vector<GlbTarget> targets;
+  std::vector<GlbMorphTarget> targets;
   /// Names of the points. Each point is a child of the face's node; its position differs from face
   /// to face.
   std::vector<std::string> point_names;
   GlbSkin skin;  ///< joints below the face's node; their positions differ from face to face
-  /// #V: values of `_VERTEX_ID`; empty: the values are 0, 1, 2, …
+  /// The value of `_VERTEX_ID` for each vertex. If empty, the values are 0, 1, 2, …
   std::vector<std::uint32_t> vertex_ids;
   std::vector<GlbFaceImage> images;  ///< the images embedded in every file
   std::optional<GlbOverlay> overlay = {};

@@ -33,7 +33,7 @@ Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture
 void add_targets(std::span<const Displacements> moves, std::span<const std::uint32_t> split,
                  Index vertex_count, Json& scene, GlbBuffer& buffer) {
   for (const Displacements& target : moves) {
-    const GlbMorphRows moved = target_rows(target.vertices, split, vertex_count);
+    const GlbMorphRows moved = morph_target_rows(target.vertices, split, vertex_count);
     const auto [least, most] = displacement_bounds(target, moved.moves_all_vertices);
     buffer.add_zeros(split.size());
     scene["accessors"].back()["min"] = vector_json(least);
@@ -63,7 +63,7 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   const SplitVertices split = split_vertices(topology);
   source_vertices_ = split.vertices;
   has_uvs_ = !split.uvs.empty() && uvs.rows() > 0;
-  if (has_uvs_) shared_data_ = texture_coordinates(split, uvs);
+  if (has_uvs_) shared_data_ = encoded_texture_coordinates(split, uvs);
   if (influences.group_count() > 0) skin_ = skin_attributes(influences, source_vertices_);
   for (GlbSkinAttribute& one : skin_) shared_data_ += std::exchange(one.bytes, {});
   for (std::size_t m = 0; m < materials.size(); ++m) {
@@ -129,7 +129,7 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
     buffer.pad();
   }
   Json mesh = {{"name", name_}, {"primitives", std::move(primitives)}};
-  set_targets(mesh, scene["accessors"].size(), targets_);
+  set_morph_targets(mesh, scene["accessors"].size(), targets_);
   add_targets(moves, source_vertices_, topology_.vertex_count, scene, buffer);
   Json node = {{"name", name_}, {"mesh", scene["meshes"].size()}};
   if (skin_.empty()) {
@@ -155,16 +155,16 @@ void GlbPart::append(EncodedFile& file, const Positions& positions,
   for (const Positions* rows : {&positions, &std::as_const(normals)}) {
     for (const std::uint32_t vertex : source_vertices_) at = put_row(at, *rows, vertex);
   }
-  file.refer_to({vectors, length});
-  file.refer_to(shared_data_);
+  file.add_without_copy({vectors, length});
+  file.add_without_copy(shared_data_);
   if (!look.image.empty()) {
-    file.refer_to(look.image);
+    file.add_without_copy(look.image);
     file.add(std::string((4 - look.image.size() % 4) % 4, '\0'));
   }
   for (const Displacements& target : moves) {
     require_finite(target.moves, target.moves.rows(), name_);
     const GlbMorphRows rows =
-        target_rows(target.vertices, source_vertices_, topology_.vertex_count);
+        morph_target_rows(target.vertices, source_vertices_, topology_.vertex_count);
     std::string bytes;
     for (const std::uint32_t vertex : rows.vertices) append_number(bytes, vertex);
     bytes.resize(bytes.size() + rows.rows.size() * kVectorSize);

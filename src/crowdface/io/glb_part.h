@@ -29,8 +29,8 @@ struct GlbPartMaterial {
   };
   std::string name;
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
-  /// Index of the base colour image among the part's images. If the index equals the number of the
-  /// part's images, the material uses the image of the PartLook.
+  /// Index of the base colour image among the part's images. If `image` equals the number of the
+  /// part's images, the material uses `PartLook::image`.
   std::optional<std::size_t> image = {};
   Alpha alpha = Alpha::kOpaque;
 };
@@ -49,8 +49,8 @@ class GlbPart {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
   /// \param materials  at least one.
-  /// \param face_materials  #F indices into `materials`.
-  /// \param influences  #V, weights of the rig's joints for each vertex; empty: the mesh is not
+  /// \param face_materials  for each polygon, the index of its material in `materials`.
+  /// \param influences  for each vertex, the weights of the rig's joints; empty if the mesh is not
   ///                    skinned.
   /// \param targets  names of the morph targets.
   /// \param fixed  vertices whose normals are given and not computed from the mesh.
@@ -62,7 +62,7 @@ class GlbPart {
 
   /// Adds node, mesh, materials and accessors to a scene.
   /// \param size  bytes in the buffer so far, a multiple of four.
-  /// \param moves  #targets: displacements of vertices of this mesh.
+  /// \param moves  for each morph target, the displacements of this mesh's vertices.
   /// \return the buffer size afterwards, a multiple of four.
   std::size_t describe(nlohmann::ordered_json& scene, const Positions& positions,
                        std::span<const Displacements> moves, const PartLook& look,

@@ -76,7 +76,7 @@ void add_image(Json& scene, std::size_t view, const std::string& name, const std
   scene["images"].push_back({{"name", name}, {"bufferView", view}, {"mimeType", type}});
 }
 
-void set_targets(Json& mesh, std::size_t first, const std::vector<std::string>& names) {
+void set_morph_targets(Json& mesh, std::size_t first, const std::vector<std::string>& names) {
   if (names.empty()) return;
   Json targets = Json::array();
   for (std::size_t t = 0; t < names.size(); ++t) targets.push_back({{"POSITION", first + t}});
@@ -125,7 +125,7 @@ void GlbBuffer::finish() {
   scene_["buffers"][0]["byteLength"] = size_;
 }
 
-std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs) {
+std::string encoded_texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs) {
   std::string bytes;
   bytes.reserve(split.uvs.size() * 2 * sizeof(float));
   for (const std::uint32_t uv : split.uvs) {
@@ -136,8 +136,8 @@ std::string texture_coordinates(const SplitVertices& split, const TextureCoordin
   return bytes;
 }
 
-GlbMorphRows target_rows(std::span<const std::uint32_t> vertices,
-                         std::span<const std::uint32_t> split, Index count) {
+GlbMorphRows morph_target_rows(std::span<const std::uint32_t> vertices,
+                               std::span<const std::uint32_t> split, Index count) {
   std::vector<std::uint32_t> row_of(static_cast<std::size_t>(count), kNoIndex);
   for (std::uint32_t row = 0; row < vertices.size(); ++row) row_of[vertices[row]] = row;
   GlbMorphRows rows;

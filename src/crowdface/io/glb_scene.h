@@ -37,8 +37,8 @@ void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::strin
 /// Adds morph targets to a mesh.
 /// \param first  accessor of the first target's displacements; the accessors of further targets
 ///               follow.
-void set_targets(nlohmann::ordered_json& mesh, std::size_t first,
-                 const std::vector<std::string>& names);
+void set_morph_targets(nlohmann::ordered_json& mesh, std::size_t first,
+                       const std::vector<std::string>& names);
 
 /// Adds arrays to a glTF buffer. Each array gets one buffer view, which the scene describes.
 class GlbBuffer {
@@ -79,12 +79,12 @@ class GlbBuffer {
 /// The texture coordinates of all split vertices, in the binary form of the buffer: two numbers for
 /// each vertex.
 /// \param uvs  v upwards as in OBJ.
-std::string texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
+std::string encoded_texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
 
 /// The rows of one glTF morph target in files whose vertices are split at seams.
 struct GlbMorphRows {
   std::vector<std::uint32_t> rows;      ///< indices into the morph target's displacements
-  std::vector<std::uint32_t> vertices;  ///< #rows split vertices, ascending
+  std::vector<std::uint32_t> vertices;  ///< the split vertex of each row, ascending
   /// whether the morph target moves every vertex of the mesh
   bool moves_all_vertices = false;
 };
@@ -93,8 +93,8 @@ struct GlbMorphRows {
 /// \param vertices  original vertices that the target moves
 /// \param split  for each split vertex, its original vertex
 /// \param count  number of original vertices
-GlbMorphRows target_rows(std::span<const std::uint32_t> vertices,
-                         std::span<const std::uint32_t> split, Index count);
+GlbMorphRows morph_target_rows(std::span<const std::uint32_t> vertices,
+                               std::span<const std::uint32_t> split, Index count);
 
 /// Minimum and maximum of a target's displacements, for each coordinate. Vertices that the target
 /// does not move count as zero.

@@ -30,7 +30,7 @@ struct GlbJoint {
 /// The joints below a face's node, and the joints' weights for the face's vertices.
 struct GlbSkin {
   std::vector<GlbJoint> joints;               ///< empty: no rig
-  CompressedRows<Influence> influences = {};  ///< #V
+  CompressedRows<Influence> influences = {};  ///< one row per vertex
 
   std::size_t matrix_bytes() const { return joints.size() * 16 * sizeof(float); }
 };

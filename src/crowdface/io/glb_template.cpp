@@ -145,8 +145,8 @@ std::size_t place_images(Json& scene, std::size_t size, std::span<const std::str
   return size;
 }
 
-/// Writes one vector per split vertex: first the rows of all original vertices, then again the rows
-/// of the vertices that have copies, one for each copy.
+/// Writes one vector per split vertex: first the row of each original vertex, then for each copy
+/// the row of its original vertex.
 void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32_t>& split) {
   const auto further = static_cast<Index>(split.size());
   parallel_blocks(rows.rows() + further, kRowsPerBlock, [&](Index begin, Index end) {
@@ -212,9 +212,9 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   add_primitives(scene, buffer, groups, attributes, places, options);
   std::string indices;
   std::vector<std::size_t> views;
-  for (const GlbTarget& target : options.targets) {
+  for (const GlbMorphTarget& target : options.targets) {
     const std::size_t before = indices.size();
-    targets_.push_back(target_rows(target.vertices, split.vertices, vertex_count_));
+    targets_.push_back(morph_target_rows(target.vertices, split.vertices, vertex_count_));
     for (const std::uint32_t vertex : targets_.back().vertices) append_number(indices, vertex);
     targets_.back().vertices = {};
     if (target.vertices.empty()) continue;
@@ -234,7 +234,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
     target_bytes_ += some * kVectorSize;
     names.push_back(options.targets[t].name);
   }
-  set_targets(scene["meshes"][0], first_target_, names);
+  set_morph_targets(scene["meshes"][0], first_target_, names);
   if (!options.skin.joints.empty()) {
     skin_.joints = options.skin.joints;
     buffer.add_view(skin_.matrix_bytes());
@@ -246,7 +246,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   add_images(scene, picture, options);
   json_ = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 
-  shared_data_ = texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
+  shared_data_ = encoded_texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
   for (const GlbSkinAttribute& one : skin) shared_data_ += one.bytes;
   if (options.overlay) shared_data_ += places_on_overlay(split, *options.overlay);
   for (const Triangles& group : groups) {
@@ -339,17 +339,17 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   if (tangents_) {
     tangents_->write(values - tangents_->count() * Tangents::kSize, positions, normals);
   }
-  file.refer_to({vectors, static_cast<std::size_t>(values - vectors)});
-  file.refer_to(shared_data_);
+  file.add_without_copy({vectors, static_cast<std::size_t>(values - vectors)});
+  file.add_without_copy(shared_data_);
   char* at = values;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     for (const std::uint32_t row : targets_[t].rows) at = put_row(at, moves[t].moves, row);
   }
   if (!skin_.joints.empty()) put_bind_matrices(at, skin_, joints);
-  file.refer_to({values, target_bytes_ + skin_.matrix_bytes()});
+  file.add_without_copy({values, target_bytes_ + skin_.matrix_bytes()});
   std::size_t written = arrays_size;
   for (const std::string_view image : images) {
-    file.refer_to(image);
+    file.add_without_copy(image);
     written += image.size();
   }
   file.add(std::string(own_size - written, '\0'));

@@ -33,16 +33,17 @@ class GlbTemplate {
   GlbTemplate(const Topology& topology, const TextureCoordinates& uvs, const GlbOptions& options);
 
   /// Encodes the file of one face. The result references memory of this object.
-  /// \param normals  #V by 3, unit; always needed, because viewers shade a mesh without normals
-  ///                 flat.
+  /// \param normals  unit vectors, #V by 3. Always needed, because viewers use flat shading for a
+  ///                 mesh without normals.
   /// \param name  name of the mesh in the file and in messages.
-  /// \param moves  #targets: displacements from `positions`.
+  /// \param moves  for each morph target, the displacements from `positions`.
   /// \param images  content of the image files, as many as the options declare; must outlive the
   ///                result.
   /// \param points  #points by 3, in the positions' unit.
   /// \param parts  additional meshes; must outlive the result.
   /// \param joints  #joints by 3, in the positions' unit.
-  /// \param colours  #V, sRGB, if the options declare vertex colours; written as linear values.
+  /// \param colours  vertex colours in sRGB, only if the options declare vertex colours. The file
+  ///                 stores linear values.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
                      std::span<const Displacements> moves = {},
@@ -74,7 +75,7 @@ class GlbTemplate {
   std::vector<std::uint32_t> copied_vertices_;
   std::optional<Tangents> tangents_;   ///< set if a material has a normal map
   std::string shared_data_;            ///< the part of the buffer that is the same in all files
-  std::vector<GlbMorphRows> targets_;  ///< with empty `vertices`
+  std::vector<GlbMorphRows> targets_;  ///< `vertices` of each element is empty
   /// Index of the accessor of the first morph target's displacements; the accessors of further
   /// morph targets follow.
   std::size_t first_target_ = 0;

@@ -20,7 +20,7 @@ class GltfFile {
   using Json = nlohmann::ordered_json;
 
   /// \param bytes  a GLB file or JSON text; must outlive this object.
-  /// \param path  path of the file; the object searches external buffers beside this file.
+  /// \param path  path of the file; the object searches for external buffers beside this file.
   /// \throws InvalidInput
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
@@ -40,9 +40,9 @@ class GltfFile {
   /// The uncompressed content of a buffer view.
   std::string_view view(std::size_t number);
 
-  /// #nodes: parent of each node, or kNoIndex.
+  /// The parent of each node, or kNoIndex.
   std::vector<std::uint32_t> parents() const;
-  /// #nodes: the transform from each node's axes to the file's axes.
+  /// For each node, the transform from the node's axes to the file's axes.
   std::vector<Eigen::Matrix4d> world_transforms(const std::vector<std::uint32_t>& parents) const;
 
  private:

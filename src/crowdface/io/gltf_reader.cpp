@@ -150,7 +150,8 @@ class GltfMeshReader {
     ++piece_;
   }
 
-  /// \param known  by accessor: the vertex ranges that earlier primitives of the same mesh added
+  /// \param known  maps an accessor to the vertices that earlier primitives of the same mesh added
+  ///               for this accessor
   void add_primitive(const GltfJson& json, int mode, const Eigen::Matrix4d& place,
                      const std::string& material, std::map<std::size_t, Rows>& known) {
     const GltfJson& attributes = json.at("attributes");
@@ -371,7 +372,7 @@ class GltfMeshReader {
   GltfFile file_;
   FileMesh mesh_;
   std::vector<double> points_, uvs_, colours_;
-  std::vector<std::uint32_t> uv_rows_;  ///< texture coordinate of each vertex
+  std::vector<std::uint32_t> uv_rows_;  ///< for each vertex, the row of its texture coordinate
   std::uint32_t piece_ = 0;
   bool any_colours_ = false, has_ids_ = true;
 };

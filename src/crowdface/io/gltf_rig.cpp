@@ -103,7 +103,7 @@ class RigReader {
   /// The joints of a skin, in the order of the indices in JOINTS_n.
   struct Skin {
     std::vector<std::uint32_t> joints;
-    /// #joints: in the rest pose, the transform from the mesh's axes to the file's axes
+    /// for each joint, the transform from the mesh's axes to the file's axes in the rest pose
     std::vector<Eigen::Matrix4d> at_rest;
   };
   const Skin& skin_of(std::size_t number) {
@@ -170,10 +170,10 @@ class RigReader {
   }
 
   GltfFile file_;
-  std::vector<std::uint32_t> parents_;  ///< #nodes: index of the parent node, or kNoIndex
-  /// #nodes: transform from the node's axes to the file's axes in the rest pose
+  std::vector<std::uint32_t> parents_;  ///< parent of each node, or kNoIndex
+  /// for each node, the transform from its axes to the file's axes in the rest pose
   std::vector<Eigen::Matrix4d> worlds_;
-  /// #nodes: index of the node's joint in `rig_.joints`; kNoIndex if the node is not a joint
+  /// for each node, the index of its joint in `rig_.joints`; kNoIndex if the node is not a joint
   std::vector<std::uint32_t> joint_of_;
   std::map<std::size_t, Skin> skins_;
   std::vector<Eigen::Vector3d> points_;

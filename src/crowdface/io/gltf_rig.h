@@ -22,14 +22,15 @@ struct GltfRig {
   };
   std::vector<Joint> joints;
   Positions positions;  ///< vertices of all meshes, one mesh after the other
-  /// #V: the value of `_VERTEX_ID` of each vertex; empty if the file lacks this attribute
+  /// the value of `_VERTEX_ID` of each vertex; empty if the file lacks this attribute
   std::vector<std::uint32_t> vertex_ids;
-  CompressedRows<Influence> influences;  ///< #V
+  CompressedRows<Influence> influences;  ///< one row per vertex
 };
 
 /// Reads a GLB file. A mesh without a skin counts as rigidly bound to its parent joint.
-/// \throws InvalidInput if the file is not GLB, has no joints, has a mesh that is not below a joint,
-/// or stores JOINTS_n or WEIGHTS_n with a component type that glTF does not allow; MissingInput.
+/// \throws InvalidInput if the file is not GLB, has no joints, has a mesh that is not below a
+/// joint, or stores JOINTS_n or WEIGHTS_n with a component type that glTF does not allow;
+/// MissingInput.
 GltfRig read_gltf_rig(const std::filesystem::path& path);
 
 }  // namespace crowdface

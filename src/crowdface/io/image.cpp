@@ -92,7 +92,7 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 /// For OpenEXR and JPEG, the file size does not limit the number of pixels; only the memory limit
 /// for all images does.
 void check_png_claim(const path& file, std::string_view bytes, const ImageHeader& spec) {
-  constexpr std::uint64_t kMaxOfOneByte = 1100;  // deflate's longest match takes 2 bits: 1032
+  constexpr std::uint64_t kMaxOfOneByte = 1100;  // deflate expands a byte to at most 1032 bytes
   const std::uint64_t bits = png_bits_per_pixel(bytes);
   const std::uint64_t row = (static_cast<std::uint64_t>(spec.width) * bits + 7) / 8;
   const std::uint64_t claimed = row * static_cast<std::uint64_t>(spec.height);
@@ -173,7 +173,7 @@ std::string encode(const std::string& format, const ImageToEncode& picture, std:
           "an image of ", width, " x ", height, " pixels and ", channels, " channels from ", values,
           " values");
   std::string bytes, error;
-  if (!codec_of(format).encode(picture, bytes, error)) {  // pixels of this program
+  if (!codec_of(format).encode(picture, bytes, error)) {  // pixels that this program computed
     throw_if_interrupted();
     throw IoError(concat(format, ": cannot be encoded (is there too little memory?): ", error));
   }

@@ -13,15 +13,15 @@
 
 namespace crowdface {
 
-/// A reserved part of the memory limit for all images together (`input_limits().image_bytes`). When
-/// the last owner is destroyed, the reservation ends.
+/// A reservation of memory for an image. All reservations together are at most
+/// `input_limits().image_bytes`. A reservation ends when its last owner is destroyed.
 using ImageMemory = std::shared_ptr<const void>;
 
 /// Reserves memory for an image. Thread-safe.
 /// \throws InvalidInput, naming the file, if all images together would exceed the limit.
 ImageMemory reserve_image_memory(const std::filesystem::path& file, std::uint64_t bytes);
 
-/// How many bytes of the memory limit for all images are unreserved at present.
+/// Number of bytes that can still be reserved for images.
 std::uint64_t available_image_memory();
 
 /// An image with the exact values of the file: the value type of the file, no gamma conversion,
@@ -81,12 +81,12 @@ class DamagedImage : public InvalidInput {
 /// \throws MissingInput if the file does not exist; DamagedImage if the pixels cannot be read or a
 /// value is not finite (the message names the first such pixel); InvalidInput if the format is
 /// unsupported, the file is truncated or exceeds the limits, integers have more than 16 bits, a
-/// TIFF has a compression other than none, LZW, Deflate and PackBits (with `jpeg` also JPEG), or
-/// all images together would exceed the memory limit.
+/// TIFF has a compression other than none, LZW, Deflate and PackBits (with `allows_jpeg` also
+/// JPEG), or all images together would exceed the memory limit.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-/// Size and value type of the image that `read_image` would return. They are read from the header
-/// without decoding pixels.
+/// Size and value type of the image that `read_image` would return. Reading the size does not
+/// decode pixels.
 struct ImageSize {
   int width = 0;
   int height = 0;

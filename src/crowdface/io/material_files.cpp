@@ -198,9 +198,9 @@ class Collector {
     }
   }
 
-  /// The longest suffix of the statement that names an existing file or (with <UDIM>) an existing
-  /// first tile. If there is no such suffix: the whole text or, if the statement has options, the
-  /// last word.
+  /// Returns the longest suffix of the statement that names an existing file or (with <UDIM>) an
+  /// existing first tile. If no suffix names a file, returns the last word of a statement with
+  /// options, and the whole text of a statement without options.
   fs::path texture_of(std::string_view rest, const fs::path& folder) {
     const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
     if (!is_new) return known->second;
@@ -214,8 +214,8 @@ class Collector {
       if (!exists(relative) && !exists(udim_tile_path(relative, kFirstTile))) continue;
       return known->second = std::move(relative);
     }
-    // The path may come from another machine, or have the encoding of another system: first look
-    // for the file name in the folder, then search the subfolders.
+    // The path may come from another machine or have another encoding. First look for the file name
+    // in the folder, then search the subfolders.
     for (const std::string_view suffix : suffixes) {
       for (const std::string& name : readings_of(suffix)) {
         const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
@@ -233,8 +233,8 @@ class Collector {
     return known->second;
   }
 
-  /// The names that these bytes may stand for: first decoded from other encodings, last the bytes
-  /// unchanged.
+  /// All names that the text may mean: first the text decoded from each possible encoding, then the
+  /// unchanged text.
   static std::vector<std::string> readings_of(std::string_view text) {
     std::vector<std::string> names = legacy_decodings(text);
     names.emplace_back(text);

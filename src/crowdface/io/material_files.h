@@ -44,8 +44,8 @@ struct MaterialStatement {
 MaterialStatement material_statement(std::string_view line);
 /// Whether a statement with this first word names a texture.
 bool is_texture_statement(std::string_view word);
-/// All suffixes of a text that begin at one of its last 32 words, longest first. One of them is the
-/// file name in a statement, because the file name comes after the options and may contain spaces.
+/// All suffixes of a text that begin at one of its last 32 words, longest first. One suffix is the
+/// file name of a statement, because the file name comes after the options and may contain spaces.
 std::vector<std::string_view> suffixes_starting_at_words(std::string_view text);
 
 /// Finds the material files that a mesh names, and the textures that these files name. A name with

@@ -20,7 +20,7 @@ std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::pat
 /// Reads the bytes of textures that are separate files. Looks for each file first at its path
 /// relative to the mesh file, then with `search_texture`. If a file is not found, removes the
 /// texture and adds a note.
-/// \param files  #mesh.textures: the name of each texture's file; an empty name if the mesh file
+/// \param files  for each texture of the mesh, the name of its file; an empty name if the mesh file
 ///               embeds the texture
 /// \param path   path of the mesh file
 void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,

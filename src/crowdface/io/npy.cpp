@@ -45,7 +45,7 @@ void write_indices(const std::vector<std::uint32_t>& indices, const std::filesys
   EncodedFile file;
   file.add(npy_header("'<i4'", concat(indices.size(), ",")));
   const auto bytes = std::as_bytes(std::span(indices));  // kNoIndex becomes −1
-  file.refer_to({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  file.add_without_copy({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   file.write(path);
 }
 
@@ -86,7 +86,7 @@ EncodedFile encode_npy(const Positions& positions, const std::string& what) {
     char* out = data + npy_encode_bytes(begin);
     for (Index i = begin; i < end; ++i) out = put_row(out, positions, i);
   });
-  file.refer_to({data, npy_encode_bytes(positions.rows())});
+  file.add_without_copy({data, npy_encode_bytes(positions.rows())});
   return file;
 }
 
@@ -108,7 +108,7 @@ EncodedFile encode_npy(std::span<const Displacements> shapes, const std::string&
       out = put_row(out, shapes[s].moves, static_cast<Index>(i));
     }
   }
-  file.refer_to({data, records * kRecord});
+  file.add_without_copy({data, records * kRecord});
   return file;
 }
 

@@ -26,8 +26,9 @@ ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 /// lines.
 std::string with_colours(std::string_view text, const ColourRows& colours);
 
-/// Moves the colours of `#MRGB` lines to the `v` lines. \return the new text; nothing unless
-/// `#MRGB` lines give a colour for every vertex.
+/// Moves the colours of `#MRGB` lines to the `v` lines.
+/// \return the new text; nothing if the number of `#MRGB` colours differs from the number of
+/// vertices.
 std::optional<std::string> move_polypaint_to_vertices(std::string_view text);
 
 }  // namespace crowdface

@@ -27,7 +27,7 @@ class ViewBuffer : public std::streambuf {
  protected:
   int_type underflow() override {
     constexpr std::size_t kAtOnce = 1U << 20U;
-    if (rest_.empty() || interrupted()) return traits_type::eof();
+    if (rest_.empty() || is_interrupted()) return traits_type::eof();
     const std::string_view piece = rest_.substr(0, kAtOnce);
     rest_.remove_prefix(piece.size());
     char* begin = const_cast<char*>(piece.data());  // the stream only reads the get area

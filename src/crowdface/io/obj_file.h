@@ -19,8 +19,7 @@ struct ObjFile {
   Topology topology;       ///< not triangulated; polygons and corners in the order of the file
   Positions positions;     ///< #V by 3, in file units
   TextureCoordinates uvs;  ///< #T by 2
-  /// #C: for each corner, the index of its `vn` line, or kNoIndex. Empty if the file has no `vn`
-  /// lines.
+  /// For each corner, the index of its `vn` line, or kNoIndex. Empty if the file has no `vn` lines.
   std::vector<std::uint32_t> corner_normals;
   std::vector<std::string> material_libraries;
   std::vector<MaterialRange> materials;
@@ -28,8 +27,8 @@ struct ObjFile {
   std::vector<std::string> notes;   ///< repairs and ignored statements, one sentence each
   bool is_mended = false;           ///< whether repairs changed the text
   bool has_reversed_faces = false;  ///< see with_outward_faces
-  /// A path whose folder contains the material files; only its folder is used, not its file name.
-  /// Empty if the material files are in the folder of `path`.
+  /// A path whose folder contains the material files; the path's file name is ignored. Empty if the
+  /// material files are in the folder of `path`.
   std::filesystem::path material_base;
 
   const std::filesystem::path& material_path() const {
@@ -57,7 +56,7 @@ ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile fil
 struct FaceMaterials {
   /// unique names, in order of their first use by a polygon; the name "" stands for no material
   std::vector<std::string> names;
-  std::vector<std::uint32_t> material_of_face;  ///< #F indices into `names`
+  std::vector<std::uint32_t> material_of_face;  ///< for each polygon, an index into `names`
 };
 
 /// Returns the material of each polygon.

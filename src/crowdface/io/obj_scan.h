@@ -43,7 +43,8 @@ ObjSummary summarise_obj(std::string_view text);
 /// Which lines `scan_obj` checks.
 enum class ObjLines {
   kAll,
-  /// all except `f` and `vt` lines, which are equal to those of a text that was checked earlier
+  /// all lines except `f` and `vt`; an earlier check has accepted a text with equal `f` and `vt`
+  /// lines
   kAllButMesh,
 };
 

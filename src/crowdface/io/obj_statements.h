@@ -14,8 +14,8 @@ std::string_view first_obj_word(std::string_view line);
 /// Returns the line that begins at `at`, and advances `at` to the start of the next line.
 std::string_view next_obj_line(std::string_view text, std::size_t& at);
 /// Whether a statement continues in the next line, because its line ends in '\'. In lines that end
-/// with a name, such as `usemtl`, the '\' may also be the last character of the name. It counts as
-/// part of the name if the next line begins with a statement, is a comment or is blank.
+/// with a name, such as `usemtl`, the '\' may also be the last character of the name. The '\'
+/// counts as part of the name if the next line begins with a statement, is a comment or is blank.
 /// \param line  a line of `text`, without its line end
 bool is_continued(std::string_view text, std::string_view line);
 

@@ -42,8 +42,7 @@ struct Coordinates {
   bool is_normal = false;
 };
 
-/// \param whole  whether the location extends to the end of a `v` line, so that it includes `w` or
-///               colours
+/// \param whole  whether the result includes the rest of a `v` line (`w` and colours)
 Coordinates coordinates_of(std::string_view line, bool whole) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (whole) {
@@ -69,8 +68,8 @@ Coordinates coordinates_of(std::string_view line, bool whole) {
   return {line.substr(begin, at - begin), is_normal};
 }
 
-/// Checks that the text has as many vertices as when the target was read, and all normals that
-/// corners use.
+/// Checks that the text still has the number of vertices that it had when the target was read, and
+/// that it has every normal that a corner uses.
 void check_row_counts(const ObjFile& target, std::uint32_t vertices, Index expected,
                       std::uint32_t normals) {
   bool fits = static_cast<Index>(vertices) == expected;
@@ -206,8 +205,8 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
     const char* end = encode_block(blocks_[b], rows, begin);
     pieces[b] = {begin, static_cast<std::size_t>(end - begin)};
   });
-  for (const std::string_view piece : pieces) file.refer_to(piece);
-  file.refer_to(text_.substr(blocks_.empty() ? 0 : blocks_.back().end));
+  for (const std::string_view piece : pieces) file.add_without_copy(piece);
+  file.add_without_copy(text_.substr(blocks_.empty() ? 0 : blocks_.back().end));
   return file;
 }
 

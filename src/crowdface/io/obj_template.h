@@ -17,9 +17,9 @@
 
 namespace crowdface {
 
-/// Writes copies of an OBJ file with other positions. Every byte comes from the file, in the order
-/// of its lines, except the x y z of `v` lines (and of `vn` lines, if any). The object is built
-/// once per target file. It needs 16 bytes per `v` or `vn` line in addition to the text.
+/// Writes copies of an OBJ file with other positions. A copy differs from the file only in the
+/// numbers of the `v` and `vn` lines. The object is built once per target file. It needs 16 bytes
+/// per `v` or `vn` line in addition to the text.
 class ObjTemplate {
  public:
   /// \param target  the file to copy. Its mapped text must outlive this object and the encoded
@@ -37,8 +37,8 @@ class ObjTemplate {
   /// threads.
   /// \param positions  #V by 3, in the file's unit.
   /// \param what  names the mesh in messages.
-  /// \param colours  #V if files have colours; written as red, green and blue from 0 to 1 with four
-  ///                 digits.
+  /// \param colours  one row per vertex if files have colours; written as red, green and blue from
+  ///                 0 to 1 with four digits.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const std::string& what,
                      const ColourRows& colours = {}) const;

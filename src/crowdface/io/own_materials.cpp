@@ -57,8 +57,8 @@ MergedMaterials::MergedMaterials(const std::filesystem::path& mesh,
 }
 
 std::string MergedMaterials::text(const Replacements& textures) const {
-  std::map<std::string, std::string> old_colours;      // texture paths of each material so far
-  std::map<std::string, std::set<TextureKind>> there;  // "" holds the lines before all materials
+  std::map<std::string, std::string> old_colours;      // first colour texture of each material
+  std::map<std::string, std::set<TextureKind>> there;  // key "": lines before the first material
   for (const Line& line : lines_) {
     const std::optional<TextureKind> kind = texture_kind_of(line.word);
     if (kind == TextureKind::kColour) old_colours.emplace(line.material, line.rest);

@@ -26,9 +26,9 @@ class MergedMaterials {
 
   /// The text of a material file to be written beside the mesh. If a material has a replacement for
   /// its colour map, every `map_Kd` of the material names the replacement; a material without
-  /// `map_Kd` gets a `map_Kd` and a white `Kd`. For other kinds, the replacement takes the place of
-  /// the texture in the material's statement, whose options stay; without such a statement, a new
-  /// one is added. All other lines stay.
+  /// `map_Kd` gets a `map_Kd` and a white `Kd`. For other kinds of textures, the replacement takes
+  /// the place of the file name in the material's statement, and the statement's options stay. A
+  /// material without such a statement gets a new statement. All other lines stay.
   std::string text(const Replacements& textures) const;
 
  private:

@@ -107,7 +107,7 @@ EncodedFile PlainObjTemplate::encode(const std::string& head, const Positions& p
     require_finite(normals, vertex_count_, what);
     add_rows(file, "vn", normals);
   }
-  file.refer_to(shared_text_);
+  file.add_without_copy(shared_text_);
   return file;
 }
 

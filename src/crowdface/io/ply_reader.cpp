@@ -239,7 +239,7 @@ class PlyReader {
   }
 
   void read_faces(const Element& element) {
-    if (element.properties.empty()) return;  // regardless of the element count
+    if (element.properties.empty()) return;  // no data, whatever the count
     const bool faces = element.name == "face", strips = element.name == "tristrips";
     for (std::uint64_t f = 0; f < element.count; ++f) {
       std::vector<std::int64_t> corners;

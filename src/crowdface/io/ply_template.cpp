@@ -70,8 +70,8 @@ EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& nor
       for (Index c = 0; with_colours && c < 3; ++c) out = put_number(out, colours(i, c));
     }
   });
-  file.refer_to({vertices, static_cast<std::size_t>(vertex_count_) * size});
-  file.refer_to(faces_);
+  file.add_without_copy({vertices, static_cast<std::size_t>(vertex_count_) * size});
+  file.add_without_copy(faces_);
   return file;
 }
 

@@ -12,16 +12,17 @@ namespace crowdface {
 
 /// Writes binary little-endian PLY files of one topology: vertices in order with x y z and optional
 /// nx ny nz as floats, then polygons of any size as `vertex_indices`. Files have no texture
-/// coordinates. The only layout that most programs read has one texture coordinate per vertex. It
-/// would split vertices at seams and change the order of vertices.
+/// coordinates. The only layout that most programs read has one texture coordinate per vertex. This
+/// layout would split vertices at seams and change the order of vertices.
 class PlyTemplate {
  public:
   /// \throws InvalidInput if a polygon has more than 255 corners.
   explicit PlyTemplate(const Topology& topology);
 
   /// Encodes the file of one face. The result references memory of this object.
-  /// \param normals  #V by 3; no rows: the file has no normals.
-  /// \param colours  #V, red, green and blue as bytes; no rows: the file has no colours.
+  /// \param normals  #V by 3; no rows if the file has no normals.
+  /// \param colours  red, green and blue of each vertex as bytes; no rows if the file has no
+  ///                 colours.
   /// \param what  names the mesh in messages.
   /// \throws InvalidInput if positions are not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& what,

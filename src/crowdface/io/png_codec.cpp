@@ -31,7 +31,7 @@ void ignore_warning(png_structp /*png*/, png_const_charp /*warning*/) {}
 /// Called before each row of pixels. After a signal, ends libpng's work with an error; image.cpp
 /// then reports the interruption.
 void give_up_if_interrupted(png_structp png) {
-  if (interrupted()) png_error(png, "interrupted by a signal");
+  if (is_interrupted()) png_error(png, "interrupted by a signal");
 }
 
 /// \return whether libpng finished `work` without an error.

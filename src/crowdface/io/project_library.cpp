@@ -21,8 +21,8 @@
 namespace crowdface {
 namespace {
 
-/// Names the libraries that are being loaded. The text continues the phrase "the libraries that";
-/// for example: "images need (OpenImageIO)".
+/// Completes the error message "the libraries that … cannot be started" while libraries are being
+/// loaded, for example with "images need (OpenImageIO)".
 std::atomic<const char*> starting_libraries{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only
@@ -111,7 +111,7 @@ void* load_library_function(const char* library, const char* function,
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
     const auto file = program.parent_path() / CROWDFACE_LIBRARIES / library;
     opened = open_library(file.lexically_normal().string(), 0, dependents_phrase, failure_phrase);
-    if (opened == nullptr) why = ::dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread
+    if (opened == nullptr) why = ::dlerror();  // NOLINT(concurrency-mt-unsafe): one per thread
   }
   if (opened == nullptr) opened = open_library(library, 0, dependents_phrase, failure_phrase);
   if (opened == nullptr) {

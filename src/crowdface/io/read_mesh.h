@@ -14,8 +14,8 @@ const std::vector<std::string_view>& mesh_extensions();
 
 /// Reads a mesh. The first bytes of the file determine the format; if they do not, the extension
 /// does. (The result of a NumPy file may lack polygons.)
-/// \throws MissingInput; InvalidInput naming the file, what was expected, what was found and what
-/// helps.
+/// \throws MissingInput; InvalidInput, whose message names the file, what was expected, what was
+/// found, and a remedy.
 FileMesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -13,8 +13,8 @@ SplitVertices split_vertices(const Topology& topology) {
   std::iota(split.vertices.begin(), split.vertices.end(), 0U);
   split.uvs.assign(count, kNoIndex);
   std::vector<bool> seen(count, false);
-  // For each split vertex, the next split vertex of the same original vertex. Such lists rarely
-  // have more than two entries.
+  // A linked list for each original vertex: next[s] is the split vertex after s in the list. The
+  // lists rarely have more than two entries.
   std::vector<std::uint32_t> next(count, kNoIndex);
   const auto find = [&](std::uint32_t vertex, std::uint32_t uv) {
     if (!seen[vertex]) split.uvs[vertex] = uv;

@@ -14,10 +14,10 @@ namespace crowdface {
 /// each with the texture coordinate of its first corner. Copies for further texture coordinates
 /// follow, in order of corners. Depends only on the topology.
 struct SplitVertices {
-  /// #S: the original vertex of each split vertex; vertices[i] is i for i < #V
+  /// The original vertex of each split vertex. For i < #V, vertices[i] is i.
   std::vector<std::uint32_t> vertices;
-  /// #S: for each split vertex, its row in the texture coordinates, or kNoIndex; empty if the mesh
-  /// has no texture coordinates
+  /// for each split vertex, its row in the texture coordinates, or kNoIndex; empty if the mesh has
+  /// no texture coordinates
   std::vector<std::uint32_t> uvs;
   /// Triangles of all polygons in order; each polygon is a fan around its first corner.
   std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -78,8 +78,8 @@ void Tangents::write(char* out, const Positions& positions, const Positions& nor
   for (const UvTriangle& triangle : triangles_) {
     std::array<Eigen::Vector3d, 3> at;
     for (std::size_t k = 0; k < 3; ++k) at[k] = row3(positions, vertices_[triangle.corners[k]]);
-    const Eigen::Vector3d along =
-        triangle.along_first * (at[1] - at[0]) + triangle.along_second * (at[2] - at[0]);
+    const Eigen::Vector3d along = triangle.first_edge_weight * (at[1] - at[0]) +
+                                  triangle.second_edge_weight * (at[2] - at[0]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector3d normal = row3(normals, vertices_[triangle.corners[k]]);
       const Eigen::Vector3d to_next = in_plane(at[(k + 1) % 3] - at[k], normal),

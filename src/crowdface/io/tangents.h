@@ -26,8 +26,8 @@ class Tangents {
   /// \param uvs    #T by 2, v upwards as in OBJ.
   Tangents(const SplitVertices& split, const TextureCoordinates& uvs);
 
-  /// Writes #S unit vectors, each followed by 1, or by -1 where the texture coordinates are
-  /// mirrored.
+  /// Writes four numbers per split vertex: a unit vector, and 1, or −1 where the texture
+  /// coordinates are mirrored.
   /// \param positions, normals  #V by 3.
   void write(char* out, const Positions& positions, const Positions& normals) const;
 
@@ -37,10 +37,12 @@ class Tangents {
  private:
   struct UvTriangle {
     std::array<std::uint32_t, 3> corners;  ///< split vertices
-    double along_first, along_second;      ///< weights of two edges in the direction of growing u
+    /// weights of two edges in the direction of growing u
+    double first_edge_weight, second_edge_weight;
   };
-  std::vector<std::uint32_t> vertices_;  ///< #S: the original vertex of each split vertex
-  std::vector<float> signs_;  ///< #S: −1 where the texture coordinates are mirrored, else 1
+  std::vector<std::uint32_t> vertices_;  ///< the original vertex of each split vertex
+  /// for each split vertex: −1 if its texture coordinates are mirrored, else 1
+  std::vector<float> signs_;
   /// the triangles whose area in texture coordinates is not zero
   std::vector<UvTriangle> triangles_;
 };

@@ -107,11 +107,11 @@ std::optional<std::uint64_t> max_expansion(std::uint64_t compression, bool jpeg)
   constexpr std::uint64_t kJpeg = 7;
   constexpr std::pair<std::uint64_t, std::uint64_t> kMax[] = {
       {1, 1},         // uncompressed
-      {5, 2600},      // LZW: longest string of 12-bit codes
-      {8, 1100},      // Deflate: the longest match takes 2 bits, 1032 bytes per byte
+      {5, 2600},      // LZW: a 12-bit code stands for at most 3,840 bytes
+      {8, 1100},      // Deflate: at most 1032 bytes
       {32946, 1100},  // Deflate, old code
-      {32773, 64},    // PackBits: 128 from 2
-      {kJpeg, 1000},  // JPEG: three blocks of 64 values, 2 bits each
+      {32773, 64},    // PackBits: two bytes expand to 128
+      {kJpeg, 1000},  // JPEG: a block of 64 values takes at least 2 bits
   };
   for (const auto& [known, most] : kMax) {
     if (known == compression && (jpeg || known != kJpeg)) return most;

@@ -11,7 +11,7 @@ namespace crowdface {
 /// path means that there is no file.
 struct UsdaSurface {
   std::array<float, 4> colour = {
-      1, 1, 1, 1};              ///< linear RGB if there is no picture; opacity if there is no mask
+      1, 1, 1, 1};              ///< linear RGB, used without colour map; opacity, used without mask
   std::string colour_map = {};  ///< colour map, sRGB
   std::string normal_map = {};  ///< tangent-space normal map
   std::string roughness_map = {};  ///< roughness map, first channel
@@ -29,7 +29,7 @@ struct UsdaSurface {
 /// surfaces. Empty if there are no materials.
 /// \param scope  name of the Scope prim.
 /// \param names  names of the Material prims; materials with an empty name are skipped.
-/// \param surfaces  #names
+/// \param surfaces  one per name
 std::string usda_materials(const std::string& root, const std::string& scope,
                            const std::vector<std::string>& names,
                            const std::vector<UsdaSurface>& surfaces);

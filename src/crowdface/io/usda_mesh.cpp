@@ -53,7 +53,7 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
         options.face_materials.empty() ? 0 : options.face_materials[static_cast<std::size_t>(f)];
     of_material[material].push_back(static_cast<std::uint32_t>(f));
   }
-  UsdaNames names, beside;  // subsets and shapes are siblings
+  UsdaNames names, beside;  // `beside` holds subsets and shapes, which are siblings
   for (std::size_t m = 0; m < of_material.size(); ++m) {
     const std::string& name = options.materials[m];
     const bool is_used = !of_material[m].empty();
@@ -61,7 +61,7 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
     subsets_.push_back(is_used ? usda_list(of_material[m]) : "");
     if (is_used) beside.add(concat(materials_.back(), "_faces"));
   }
-  for (const GlbTarget& target : options.targets) {
+  for (const GlbMorphTarget& target : options.targets) {
     shapes_.push_back(beside.add(target.name));
     quoted_shape_names_.push_back(usda_string(target.name));
     indices_.push_back(target.vertices.empty() ? "" : usda_list(target.vertices));
@@ -97,7 +97,7 @@ void UsdaMesh::add(EncodedFile& file, const PrimPaths& place, const Positions& p
     file.add(usda_rows(linear_light(colours)));
     file.add("] (\n                interpolation = \"vertex\"\n            )\n");
   }
-  file.refer_to(faces_);
+  file.add_without_copy(faces_);
   add_shapes(file, place, moves, what);
   add_subsets(file, place);
   file.add("        }\n");
@@ -122,7 +122,7 @@ void UsdaMesh::add_shapes(EncodedFile& file, const PrimPaths& place,
     if (indices_[s].empty()) {
       file.add(usda_list(moves[s].vertices));
     } else {
-      file.refer_to(indices_[s]);
+      file.add_without_copy(indices_[s]);
     }
     file.add("\n            }\n");
   }
@@ -145,7 +145,7 @@ void UsdaMesh::add_subsets(EncodedFile& file, const PrimPaths& place) const {
                     "            )\n            {\n                uniform token elementType = "
                     "\"face\"\n                uniform token familyName = \"materialBind\"\n"
                     "                int[] indices = "));
-    file.refer_to(subsets_[m]);
+    file.add_without_copy(subsets_[m]);
     file.add(concat("\n                ", binding, "            }\n"));
   }
 }

@@ -17,8 +17,8 @@
 
 namespace crowdface {
 
-/// Text before the points of a Mesh prim. Its first occurrence in a layer belongs to the prim of
-/// the face; later ones belong to additional meshes.
+/// Text before the points of a Mesh prim. The first occurrence of this text in a layer belongs to
+/// the prim of the face; later occurrences belong to additional meshes.
 inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 
 /// Writes a Mesh prim of one topology: polygons, texture coordinates as the primvar `st`, material
@@ -30,11 +30,12 @@ class UsdaMesh {
   struct Options {
     Subdivision subdivision = Subdivision::kNone;
     std::vector<std::string> materials = {};  ///< names; may be empty
-    /// #F indices into `materials`; empty: all polygons use the first material
+    /// for each polygon, the index of its material in `materials`; empty: all polygons use the
+    /// first material
     std::vector<std::uint32_t> face_materials = {};
     /// Blend shapes, each with the vertices that it moves. If a target lists no vertices here, the
     /// file of each face lists the moved vertices together with their displacements.
-    std::vector<GlbTarget> targets = {};
+    std::vector<GlbMorphTarget> targets = {};
     std::string extra_prim_lines = {};  ///< text lines that are added to the prim
   };
 
@@ -49,9 +50,10 @@ class UsdaMesh {
   };
   /// Adds the Mesh prim to `file`, which then references memory of this object.
   /// \param normals  #V by 3, unit; not written for meshes with subdivision.
-  /// \param moves  #targets displacements.
+  /// \param moves  for each blend shape, its displacements.
   /// \param what  names the mesh in messages.
-  /// \param colours  #V, written as the primvar displayColor in linear light; or no rows.
+  /// \param colours  one row per vertex, written as the primvar displayColor in linear light; or no
+  ///                 rows.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   void add(EncodedFile& file, const PrimPaths& place, const Positions& positions,
            const Positions& normals, std::span<const Displacements> moves, const std::string& what,

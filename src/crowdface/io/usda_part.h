@@ -31,7 +31,7 @@ class UsdaPart {
   /// \param name  prim name, unique among parts.
   /// \param uvs  #T by 2; may be empty.
   /// \param materials  at least one.
-  /// \param face_materials  #F indices into `materials`.
+  /// \param face_materials  for each polygon, the index of its material in `materials`.
   /// \param targets  names of the blend shapes of the face's mesh.
   /// \param fixed  vertices with given normals.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
@@ -40,7 +40,7 @@ class UsdaPart {
 
   /// Adds the mesh below the face's prim. The file references memory of this object.
   /// \param root  path of the face's root prim.
-  /// \param moves  #targets displacements.
+  /// \param moves  for each blend shape, its displacements.
   /// \param what  names the mesh in messages.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
   void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,

@@ -360,7 +360,7 @@ class UsdaReader {
   UsdaTokens tokens_;
   FileMesh mesh_;
   std::vector<double> points_, uvs_, colours_;
-  std::vector<std::string> files_;  ///< #textures
+  std::vector<std::string> files_;  ///< the file name of each texture
   bool any_colours_ = false;
 };
 

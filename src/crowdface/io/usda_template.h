@@ -31,7 +31,7 @@ class UsdaTemplate {
   /// \param normals  #V by 3, unit; not written for meshes with subdivision.
   /// \param name  name of the face and of the root prim; characters that USD does not allow are
   ///              replaced.
-  /// \param moves  #targets displacements from `positions`.
+  /// \param moves  for each blend shape, its displacements from `positions`.
   /// \param images  paths of the options' images, relative to the layer.
   /// \param points  #points by 3, in the positions' unit: child prims of the face's prim.
   /// \param parts  additional meshes with the same targets.

@@ -20,7 +20,7 @@ struct DetailLevel {
   Topology topology;  ///< triangles, whose indices are rows of `vertices` and of `uvs`
   /// #T by 2, a subset of the whole mesh's texture coordinates; may be empty
   TextureCoordinates uvs;
-  /// #triangles: for each triangle, a polygon of the whole mesh that has the same material
+  /// for each triangle, a polygon of the whole mesh that has the same material
   std::vector<std::uint32_t> source_faces;
 
   /// Returns the rows of the whole mesh's positions or displacements that belong to this level.
@@ -41,8 +41,8 @@ struct LevelError {
 /// borders, texture seams and borders between materials are preserved. Here, a material is a pair
 /// of a material label and a texture tile.
 ///
-/// \param materials  #F: the material label of each polygon; kNoIndex omits the polygon. The
-///                   triangles of one material are contiguous in the result.
+/// \param materials  the material label of each polygon; kNoIndex omits the polygon. The triangles
+///                   of one material are contiguous in the result.
 /// \param shares     requested fractions of the triangles, each in (0, 1). A level has more
 ///                   triangles than requested if its borders need more.
 /// \param borders    how edge collapse treats the vertices of open borders.

@@ -16,7 +16,7 @@ struct NearestLevelTriangles {
   /// The vertices that polygons of the whole mesh use but that the level does not contain,
   /// ascending.
   std::vector<std::uint32_t> vertices;
-  /// #vertices: for each vertex, the nearest triangle, given by indices of the level's vertices
+  /// for each of the `vertices`, the nearest triangle, as indices of the level's vertices
   std::vector<Triangle> triangles;
 };
 /// Finds the triangle of the level that is nearest to each vertex outside the level.
@@ -27,8 +27,9 @@ NearestLevelTriangles find_level_triangles(const Topology& whole, const Adjacenc
                                            const Positions& typical_positions);
 
 /// Returns the error over all meshes together, in the unit of their positions. The error is an
-/// upper bound, because on some mesh the nearest triangle may not be the mapped triangle. If a
-/// vertex is far from its mapped triangle, neighbouring triangles are searched too.
+/// upper bound, because on some meshes another triangle may be nearer to a vertex than its mapped
+/// triangle. If a vertex is far from its mapped triangle, the function also searches neighbouring
+/// triangles.
 ///
 /// \param meshes  each #V by 3, at least one.
 LevelError level_error(const DetailLevel& level, const NearestLevelTriangles& map,

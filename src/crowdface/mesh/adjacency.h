@@ -11,7 +11,7 @@ namespace crowdface {
 /// The edge-neighbours (one-ring) of every vertex in ascending order, and the vertices on the
 /// mesh's boundary. Opposite corners of a quad are not neighbours.
 struct Adjacency : CompressedRows<std::uint32_t> {
-  /// #V: whether the vertex is an end of an edge with exactly one polygon.
+  /// For each vertex, whether it is an end of an edge with exactly one polygon.
   std::vector<bool> boundary;
 
   Index vertex_count() const { return static_cast<Index>(group_count()); }
@@ -26,7 +26,7 @@ Adjacency build_adjacency(const Topology& topology);
 /// Components are numbered in the order of their first vertices. An isolated vertex is its own
 /// component.
 struct Components {
-  std::vector<std::uint32_t> component_of_vertex;  ///< #V: the component of each vertex
+  std::vector<std::uint32_t> component_of_vertex;  ///< the component of each vertex
   std::vector<std::uint32_t> sizes;                ///< number of vertices in each component
   Index count() const { return static_cast<Index>(sizes.size()); }
   /// Number of the component with the most vertices. On a head, this component is the skin.

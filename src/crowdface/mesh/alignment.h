@@ -26,7 +26,7 @@ enum class ScaleFit { kRigid, kUniform };
 
 /// Finds the transform that brings each row of `from` closest to the row of `to` with the same
 /// index, in the least-squares sense.
-/// \param weights  #V, not negative; if empty, all rows have the same weight.
+/// \param weights  one weight per row, not negative; if empty, all rows have the same weight.
 /// Source: Umeyama 1991, "Least-squares estimation of transformation parameters between two point
 /// patterns".
 /// \throws BrokenPrecondition if the sizes differ; InvalidInput if there are fewer than three rows.

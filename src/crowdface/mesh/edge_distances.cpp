@@ -34,7 +34,7 @@ void EdgeDistances::begin(std::span<const std::uint32_t> sources) {
   queue_.clear();
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const std::uint32_t v = sources[s];
-    if (distances_[v] == 0) continue;  // of a source that occurs twice, the first occurrence counts
+    if (distances_[v] == 0) continue;  // keep a source's first occurrence
     distances_[v] = 0;
     sources_[v] = static_cast<std::uint32_t>(s);
     touched_.push_back(v);
@@ -82,8 +82,8 @@ void EdgeDistances::search_for(std::uint32_t source, std::span<const std::uint32
                                double limit) {
   begin(std::span(&source, 1));
   if (goals.empty()) return;
-  // Compute a ball that contains all goals. No path can reach a goal through a vertex whose
-  // distance from the ball exceeds the length that remains of `limit`.
+  // Compute a ball that contains all goals. A path through a vertex v cannot reach a goal within
+  // `limit` if the path's length up to v plus the distance from v to the ball exceeds `limit`.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const std::uint32_t goal : goals) middle += row3(positions_, goal);
   middle /= static_cast<double>(goals.size());

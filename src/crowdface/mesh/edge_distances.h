@@ -54,9 +54,9 @@ class EdgeDistances {
 
   const Adjacency& adjacency_;
   const Positions& positions_;
-  /// #V: smallest distance found so far; final when the vertex is settled
+  /// smallest distance found so far for each vertex; final when the vertex is settled
   std::vector<double> distances_;
-  /// #V: index, in the list of sources, of the nearest source found so far
+  /// for each vertex, the nearest source found so far, as an index into the list of sources
   std::vector<std::uint32_t> sources_;
   std::vector<std::uint32_t> reached_;  ///< the settled vertices, nearest first
   std::vector<std::uint32_t> touched_;  ///< the vertices whose distance is finite
@@ -64,7 +64,7 @@ class EdgeDistances {
   std::vector<QueueEntry> queue_;       ///< a heap; the nearest vertex comes first
 };
 
-/// For each vertex, the index in `sources` of the nearest source, #V; kNoIndex if no source is
+/// For each vertex, the index in `sources` of the nearest source; kNoIndex if no source is
 /// connected to the vertex. Distances are measured along the edges. If several sources are equally
 /// near, the result is the source whose path the search finds first, which is deterministic.
 /// Surfaces that almost touch, such as the lips, are far apart along the edges.

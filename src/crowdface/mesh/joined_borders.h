@@ -12,14 +12,15 @@ namespace crowdface {
 /// vertex.
 struct JoinedBorders {
   std::vector<std::uint32_t>
-      joined_vertex;  ///< #V: index of the joined vertex that each vertex becomes
-  /// for each joined vertex, the lowest index of the vertices that become it; ascending
+      joined_vertex;  ///< index of the joined vertex that each vertex becomes
+  /// for each joined vertex, the lowest index of its copies; ascending
   std::vector<std::uint32_t> first_copy_of_joined_vertex;
 };
 
 /// Joins vertices that have the same position and lie on border edges. Exporters make such copies
 /// at seams. Inner vertices that touch, such as the vertices of closed lips, stay separate.
-/// \param piece_of_vertex  #V: only vertices with the same value are joined; empty: all vertices
+/// \param piece_of_vertex  one value per vertex: only vertices with equal values are joined. If
+///                         empty, all values count as equal.
 JoinedBorders joined_borders(const Topology& topology, const Positions& positions,
                              const std::vector<std::uint32_t>& piece_of_vertex = {});
 

@@ -24,9 +24,9 @@ struct MirrorPlane {
 /// linear map of positions for all heads.
 struct MirrorMap {
   MirrorPlane plane;
-  std::vector<Triangle> corners;  ///< #V: the triangle that holds the mirror point of each vertex
-  /// #V: barycentric coordinates of the mirror point in its triangle; {1, 0, 0} if the mirror point
-  /// is a vertex
+  std::vector<Triangle> corners;  ///< the triangle that holds the mirror point of each vertex
+  /// for each vertex, the barycentric coordinates of its mirror point in the triangle; {1, 0, 0} if
+  /// the mirror point is a vertex
   std::vector<std::array<double, 3>> barycentric;
   std::vector<std::uint32_t> unpaired_vertices;  ///< vertices without a mirror point, ascending
   /// #unpaired_vertices by 3: offsets that are added to the mirror images of the unpaired vertices,

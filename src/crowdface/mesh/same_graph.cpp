@@ -163,8 +163,8 @@ class Matcher {
   /// with the smallest distances between matched vertices.
   /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
-    // If an earlier matched component contains the seed's vertex too, its match in b; otherwise
-    // kNoIndex.
+    // The match of the seed's vertex in b, if an earlier component contains the same vertex;
+    // otherwise kNoIndex.
     const std::uint32_t known = to_b_[a_.vertex(seed)];
     double best = std::numeric_limits<double>::infinity();
     std::optional<Pairs> nearest;

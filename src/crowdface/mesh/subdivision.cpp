@@ -12,12 +12,12 @@ namespace {
 struct Edges {
   std::vector<std::pair<std::uint32_t, std::uint32_t>>
       ends;  ///< #E: ends of each edge, first < second
-  /// #C: the edge from each corner to the next corner of its polygon.
+  /// For each corner, the edge to the next corner of its polygon.
   std::vector<std::uint32_t> corner_edges;
   std::vector<std::uint32_t> faces;  ///< #E: number of polygons at each edge
 };
 
-/// \param indices  #C: the vertex or the texture coordinate of each corner.
+/// \param indices  the vertex or the texture coordinate of each corner.
 Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& indices) {
   struct Side {
     std::uint32_t first, second, corner;

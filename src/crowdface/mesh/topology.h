@@ -31,7 +31,7 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 struct Topology {
   Index vertex_count = 0;
   std::vector<std::uint32_t> corner_vertices;  ///< #C, each < vertex_count
-  /// #C: rows of the texture coordinates, or kNoIndex; may be empty
+  /// for each corner, its row in the texture coordinates, or kNoIndex; may be empty
   std::vector<std::uint32_t> corner_uvs;
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1: first corner of each polygon
 

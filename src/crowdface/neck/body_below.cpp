@@ -45,8 +45,8 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   }
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  // #polygons, valid at the root polygon of each part. For each edge of the loop that bounds the
-  // part: the height of the adjacent polygon's centroid above the edge; summed over these edges.
+  // For each part, a sum over the edges of the loop that bound the part: the height of the adjacent
+  // polygon's centroid above the edge. The sum is stored at the index of the part's root polygon.
   std::vector<double> above(faces, 0.0);
   visit_edges(topology, [&](std::uint32_t f, const Edge& edge) { edges.emplace_back(edge, f); });
   std::ranges::sort(edges);

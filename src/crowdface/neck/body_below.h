@@ -11,7 +11,7 @@ namespace crowdface {
 /// the lower side of the loop, and the polygons of separate parts whose middle is lower than the
 /// middle of the loop.
 /// \param up  unit vector
-/// \return  #F: whether each polygon is below; all true if the loop is an open rim.
+/// \return  for each polygon, whether it is below the loop; all true if the loop is an open rim.
 /// \throws InvalidInput if the loop does not separate the polygons along it.
 std::vector<bool> polygons_below(const Topology& topology, const Positions& positions,
                                  const Rim& rim, const Eigen::Vector3d& up);

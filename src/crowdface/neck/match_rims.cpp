@@ -129,9 +129,10 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
 /// \param orders  first the orders that go around the rim in one direction, then the orders that go
 ///                around it in the other direction
 const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
-  // If the left and right halves of a rim are equal, the rim with its vertices in reverse order
-  // also fits: upside down. If the larger of the two fit errors is at most kMaxErrorRatio times the
-  // smaller, choose the direction with the smaller rotation.
+  // A rim whose left and right halves are equal also fits in the wrong direction, after a rotation
+  // that turns the rim upside down. So compare the best fits of both directions. If the larger
+  // error is at most kMaxErrorRatio times the smaller error, choose the direction with the smaller
+  // rotation.
   constexpr double kMaxErrorRatio = 1.2;
   const std::span all(orders);
   const auto rms_mm = [](const OrderedRim& one) { return one.fit.rms_mm; };

@@ -58,8 +58,8 @@ double number_in(const Json& body, const std::string& key, double low, double hi
 }
 
 HttpAnswer json_answer(const Json& json, int status) {
-  // Replace invalid UTF-8: texts may contain file names, which need not be valid UTF-8, but JSON
-  // must be valid UTF-8.
+  // Replace invalid UTF-8, because JSON must be valid UTF-8. Texts may contain file names, which
+  // may be invalid UTF-8.
   return {status, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 

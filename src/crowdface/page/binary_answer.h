@@ -18,7 +18,7 @@ namespace crowdface {
 /// bytes. All numbers are little-endian.
 class BinaryAnswer {
  public:
-  /// The JSON object of the answer. The function bytes() adds the key `arrays` to its text.
+  /// The JSON object of the answer. The function bytes() adds the key `arrays` to the JSON text.
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
 
   template <class T>

@@ -22,8 +22,8 @@ struct HttpAnswer {
 
 /// An HTTP/1.1 server for one user on this machine. It does not support ranges, chunked encoding or
 /// compression. It listens on 127.0.0.1 only and answers only requests whose path starts with a
-/// random token. It refuses requests from pages of other sites by their Host or Origin header. It
-/// limits the size and the transfer time of request heads and bodies, and the number of
+/// random token. It checks the Host and Origin headers and refuses requests from pages of other
+/// sites. It limits the size and the transfer time of request heads and bodies, and the number of
 /// connections, so a slow client does not delay other clients.
 class LocalServer {
  public:

@@ -25,9 +25,9 @@ class DepthMap {
 
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// Compares the depths of the surface with the depths of the mean face, placed at the given
-  /// position with the given scale and stretch.
-  /// \param lateral, height  position on the surface of the point between the eyes.
+  /// Compares the depths of the surface with the depths of the mean face. The arguments place and
+  /// scale the mean face.
+  /// \param lateral, height  coordinates of the point between the eyes.
   /// \param scale, stretch  see ReliefMatch
   ReliefFit fit(double lateral, double height, double scale, double stretch = 1) const;
 
@@ -38,7 +38,7 @@ class DepthMap {
   /// Indices, along one axis of the grid, of the cells around a coordinate.
   struct AxisCells {
     Index containing = -1;    ///< the cell that contains the coordinate; −1: none
-    Index centre_below = -1;  ///< the last cell whose centre is below the coordinate; −1: none
+    Index centre_below = -1;  ///< largest index of a cell centred below the coordinate; −1: none
     double weight_above = 0;  ///< interpolation weight of cell `centre_below` + 1
   };
   AxisCells cells_at(double offset, double extent, Index count) const;

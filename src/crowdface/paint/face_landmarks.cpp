@@ -33,7 +33,7 @@ class HeadRays {
       : positions_(positions), marks_(marks), mm_(mm), side_(marks.axes.side()) {
     for (const Triangle& t : triangles_of(topology)) {
       const PartClass of_part = parts.classes[components.component_of_vertex[t[0]]];
-      if (of_part == PartClass::kBound) continue;  // lashes and tear lines
+      if (of_part == PartClass::kBound) continue;  // rays ignore lashes and tear lines
       triangles_.push_back(t);
       quads_.push_back({t[0], t[1], t[2], t[2]});
       is_skin_.push_back(of_part == PartClass::kSkin);
@@ -168,8 +168,8 @@ class LandmarkSearch {
   }
   static double front_of(const InHead& at) { return at.front; }
   static double back_of(const InHead& at) { return -at.front; }
-  /// Returns a function: the distance by which a point lies behind the line through `a` and `b`,
-  /// two points of the profile.
+  /// Returns a function that computes the distance by which a point lies behind the line through
+  /// `a` and `b`, two points of the profile.
   static auto behind(const InHead& a, const InHead& b) {
     return [=](const InHead& p) {
       const double t = (p.up - a.up) / (b.up - a.up);
@@ -340,8 +340,9 @@ class LandmarkSearch {
     const auto tip = at("nose_tip"), base = at("nose_base");
     if (!tip || !base) return miss({"nose_wing_left", "nose_wing_right"}, reason);
     constexpr double kFrom = 9, kTo = 25, kStep = 0.25, kSpan = 1, kMinSlope = 0.6;
-    // The cheek beside a wing of the nose is flatter than the wing: kToCheekMm outward from the
-    // wing's steepest point, the slope is at most kMaxSlopeRatio times the wing's steepest slope.
+    // The cheek beside a wing of the nose is flatter than the wing. At the distance kToCheekMm
+    // outward from the wing's steepest point, the slope is at most kMaxSlopeRatio times the wing's
+    // steepest slope.
     constexpr double kToCheekMm = 4, kMaxSlopeRatio = 0.7;
     const auto slope = [&](double x, double up) {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);

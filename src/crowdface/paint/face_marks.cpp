@@ -178,7 +178,8 @@ constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.
 constexpr double kBridgeWayMm = 15, kLipWayMm = 5, kChinWayMm = 10;
-/// On a fine mesh: penalty for a height at the end of the search range, as a depth of the profile.
+/// Penalty on a fine mesh for a height at the end of the search range. The search subtracts the
+/// penalty from the depth of a hollow of the profile.
 constexpr double kMaxHeightPenaltyMm = 3;
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
 constexpr double kFineMm = 5;       ///< edges up to this length resolve the lips
@@ -187,9 +188,9 @@ struct MouthAndChin {
   double mouth = 0, chin = 0;  ///< heights
 };
 
-/// Finds mouth and chin together: the mouth is a hollow of the profile between two convex lips, the
-/// chin is convex, and the mouth divides the distance from the tip of the nose to the chin in about
-/// the same ratio in all faces.
+/// Finds mouth and chin together. The mouth is a hollow of the profile between two convex lips. The
+/// chin is convex. The mouth divides the distance from the tip of the nose to the chin in about the
+/// same ratio in all faces.
 /// \param tip    height of the tip of the nose
 /// \param prior  penalty of a mouth at the end of its search range
 MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, double stretch,
@@ -202,8 +203,8 @@ MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, doubl
   // arbitrarily deep.
   constexpr double kDeepMm = 4, kDeeperShare = 0.25;
   constexpr double kMaxConvexMm = 4.5;
-  // The mouth has a convex lip above and below it; the hollow above the chin has a lip above it
-  // only. kToLipMm: distance above and below the mouth at which the lips' convexity is measured.
+  // The mouth lies between two convex lips. The hollow above the chin has a lip only on its upper
+  // side. kToLipMm: distance above and below the mouth at which the lips' convexity is measured.
   // kMaxLipMm: upper limit of the measured convexity.
   constexpr double kToLipMm = 6, kMaxLipMm = 2;
   const auto lip = [&](double height) {

@@ -47,8 +47,8 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
 
 constexpr double kVoteOfEyes = 0.15;
 
-/// Compares the midpoint of the known eyeballs with the point between the eyes of a match: 1 if the
-/// two points are near each other, −1 if they are not, 0 if no eyeballs are known.
+/// Returns 1 if the midpoint of the known eyeballs is near the point between the eyes of a match,
+/// −1 if the two points are far from each other, and 0 if no eyeballs are known.
 int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                  double height, double scale) {
   constexpr double kNearMm = 20;
@@ -172,7 +172,7 @@ class Refinement {
   static constexpr double kSteadyDegrees = 0.3;
 
   /// Searches heights, sizes and stretches in steps for several pitches of the face. The score has
-  /// several maxima; which of them a pattern search reaches depends on where it starts.
+  /// several maxima. The start of a pattern search determines which maximum the search reaches.
   /// \return the matches with the highest scores that differ in size or height
   std::vector<ReliefMatch> starts_in_symmetry_plane() {
     constexpr std::size_t kStarts = 4;
@@ -216,7 +216,7 @@ class Refinement {
     return starts;
   }
 
-  /// A slope of the depths shows that the head is pitched: compensates the pitch.
+  /// Compensates the pitch of the head, which causes a vertical slope of the depths.
   /// \return the angle of the compensation in degrees
   double make_upright() {
     place();
@@ -254,16 +254,16 @@ class Refinement {
       for (double x = kStepMm; x <= kAsideMm; x += kStepMm) {
         const double left = map.depth(across + x * mm, height + y * best_.stretch * mm);
         const double right = map.depth(across - x * mm, height + y * best_.stretch * mm);
-        differences.push_back((left - right) / mm);  // not finite without a surface
+        differences.push_back((left - right) / mm);  // not finite where a surface is missing
       }
     }
     return differences;
   }
 
-  /// Turns and moves the match until the face is symmetric: robust Gauss-Newton steps.
+  /// Turns and moves the match until the face is symmetric. Uses robust Gauss-Newton steps.
   void make_symmetric() {
     constexpr int kSteps = 8;
-    constexpr double kDegrees = 2, kMm = 2;  // differences for the derivatives
+    constexpr double kDegrees = 2, kMm = 2;  // step sizes for numerical derivatives
     constexpr double kMaxSteps = 4, kSteadySteps = 0.05, kMinMm = 1;
     HeadAxes axes = best_.frame;
     Eigen::Vector3d middle = best_.eye_midpoint;

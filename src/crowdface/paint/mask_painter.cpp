@@ -50,8 +50,8 @@ void set_share(Alpha& alpha, Index row, Index region, double share, Index receiv
   scale_to_one(alpha, row);
 }
 
-/// Among all regions except `region`, the region with the largest total weight at the touched
-/// vertices; the first of them if several have the same total.
+/// Returns the region, among all regions except `region`, with the largest total weight at the
+/// touched vertices. If several regions have this total, returns the region with the lowest index.
 Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
   Index receiver = region;
   double most = -1;

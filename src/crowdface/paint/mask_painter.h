@@ -25,7 +25,8 @@ struct Brush {
   double strength = 1;  ///< change at the centre of the brush, 0 to 1
   /// 0: constant strength up to the rim; 1: the strength falls off from the centre on.
   double falloff = 1;
-  bool mirror = false;  ///< whether each stroke also paints on the other half of the head
+  /// whether each stroke also paints on the other half of the head
+  bool mirror = false;
 };
 
 /// Regions of a mesh that the user paints by hand. At every vertex the weights are not negative and

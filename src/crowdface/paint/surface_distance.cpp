@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Returns the distance of c from the source of a wave that has reached a and b. Unfolds the
-/// triangle into the plane of the wave. If the straight path from the source to c does not cross
-/// the edge ab, the result is the length of the shorter path to c through a or b.
+/// Returns the distance of c from the source of a wave. `from_a` and `from_b` are the distances of
+/// a and b from this source. Unfolds the triangle into a plane that contains the source. If the
+/// straight path from the source to c does not cross the edge ab, the result is the length of the
+/// shorter path to c through a or b.
 double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                          const Eigen::Vector3d& c, double from_a, double from_b) {
   const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());

@@ -35,7 +35,7 @@ class Anchors {
   /// `result`. Where the surrounding skin has not moved, a vertex gets exactly the target's
   /// position.
   ///
-  /// \param offsets  #bound_vertices: offsets on the target.
+  /// \param offsets  One offset per bound vertex, measured on the target.
   void place_vertices(const Positions& target, std::span<const Eigen::Vector3d> offsets,
                       Positions& result) const;
 
@@ -53,10 +53,11 @@ class Anchors {
                   const Positions& after) const;
 
   std::vector<std::uint32_t> bound_vertices_;    ///< ascending
-  std::vector<std::uint32_t> triangle_indices_;  ///< #bound: index into `skin_triangles_`
-  std::vector<std::array<double, 3>> shares_;    ///< #bound: barycentric coordinates of each anchor
-  std::vector<Triangle> skin_triangles_;         ///< triangles of the skin
-  CompressedRows<RingVertex> rings_;  ///< #skin_triangles_: the skin around each triangle
+  std::vector<std::uint32_t> triangle_indices_;  ///< per bound vertex: index into `skin_triangles_`
+  /// per bound vertex: barycentric coordinates of its anchor
+  std::vector<std::array<double, 3>> shares_;
+  std::vector<Triangle> skin_triangles_;  ///< triangles of the skin
+  CompressedRows<RingVertex> rings_;      ///< the skin around each of `skin_triangles_`
 };
 
 /// The weights with which bound vertices follow the motions of nearby rigid parts. For example,
@@ -73,11 +74,11 @@ class PartWeights {
   PartWeights(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
               std::span<const std::uint32_t> bound, double reach);
 
-  /// Moves the vertices of `result` that have weights towards the positions that the motions of the
-  /// rigid parts give them.
+  /// Moves each vertex of `result` that follows rigid parts. The new position is the weighted mean
+  /// of the vertex's position in `result` and its positions after the motions of these parts.
   ///
   /// \param target   The head that the face is built on.
-  /// \param motions  #rigid: motion of each part from `target`.
+  /// \param motions  Motion of each rigid part, from `target` to the face.
   void move_with_parts(const Positions& target, std::span<const RigidMotion> motions,
                        Positions& result) const;
 

@@ -43,7 +43,8 @@ std::array<double, 4> solve(std::array<std::array<double, 5>, 4> rows) {
   return x;
 }
 
-/// Fits |p|² = 2 p·c + (r² − |c|²) by least squares, relative to the vertices' mean.
+/// Fits a sphere with centre c and radius r to the vertices p, by least squares on the linear
+/// equations |p|² = 2 p·c + (r² − |c|²). All points are relative to the vertices' mean.
 void fit_sphere(const Positions& positions, const std::vector<std::uint32_t>& vertices,
                 ComponentShape& shape) {
   const Eigen::Vector3d middle = centre_of(positions, vertices);

@@ -23,7 +23,7 @@ constexpr std::size_t kClusterPairs = 16;
 /// factor, because the difference may be larger on a new face.
 constexpr double kSlackFactor = 1.5;
 /// Fractions of the reach (about 4 mm). kNear: a vertex's exact height (distance from the skin) is
-/// measured if its approximate height is at most this. kFree: smallest height of vertices that
+/// measured if its approximate height is at most kNear. kFree: smallest height of vertices that
 /// count as outside the skin.
 constexpr double kNear = 0.5, kFree = -0.005;
 /// Fractions of the reach. kFar: later steps ignore vertices that are farther from the skin than

@@ -52,7 +52,7 @@ class PartContact {
   std::size_t size() const { return pairs_.size(); }
 
  private:
-  /// largest number of skin vertices from which the search for the skin nearest to a vertex starts
+  /// largest number of start vertices of one search for the nearest skin
   static constexpr std::size_t kMaxSearchStarts = 3;
   using SearchStarts = std::array<std::uint32_t, kMaxSearchStarts>;
   struct Pair {

@@ -42,8 +42,8 @@ bool are_neighbours(const Adjacency& adjacency, std::uint32_t a, std::uint32_t b
 }
 
 /// Returns whether two edges belong to the same polygon, so that they can be consecutive in a cut.
-/// The edges share an end and the other ends are neighbours, or the edges are opposite sides of a
-/// quad.
+/// This is the case if the edges share an end and their other ends are neighbours, or if the edges
+/// are opposite sides of a quad.
 bool share_a_face(const Adjacency& adjacency, const EdgePoint& p, const EdgePoint& q) {
   const auto joined = [&](std::uint32_t qa, std::uint32_t qb) {
     return are_neighbours(adjacency, p.a, qa) && are_neighbours(adjacency, p.b, qb);

@@ -47,7 +47,8 @@ std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double
 /// Cuts the two profiles of a section. One profile or both profiles may stay empty.
 ///
 /// \param vertices  Vertices around the group.
-/// \param side      #V: positive on the high side, negative on the low side.
+/// \param side      One value per vertex of the mesh: positive on the high side, negative on the
+///                  low side.
 /// \param reach     Largest distance of a profile's points from the section's middle.
 void cut_profiles(const Adjacency& adjacency, const Positions& mean,
                   std::span<const std::uint32_t> vertices, const std::vector<double>& side,
@@ -89,11 +90,13 @@ class Clearance {
   ///
   /// \param depths  Depths of all points.
   std::vector<OppositePoints> opposite_points(std::span<const double> depths) const;
-  /// `heights` returns the coordinates of all profile points along the section's `up`, `depths` the
-  /// coordinates along `inward()`. The points of the low profile come first.
+  /// Returns the coordinates of all profile points along the section's `up`. The points of the low
+  /// profile come first.
   std::vector<double> heights(const Positions& positions) const {
     return coordinates(up_, positions);
   }
+  /// Returns the coordinates of all profile points along the section's `inward()`, in the order of
+  /// `heights`.
   std::vector<double> depths(const Positions& positions) const {
     return coordinates(inward_, positions);
   }

@@ -13,7 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Skin nearer to the eyeball than this belongs to the lids; fraction of the radius (about 12 mm).
+/// Skin nearer to the eyeball than this distance belongs to the lids. The distance is a fraction of
+/// the eyeball's radius (about 12 mm).
 constexpr double kLidReach = 0.3;
 // smallest cosine between a rim vertex's direction and the front
 constexpr double kMinFront = 0.35;
@@ -45,7 +46,7 @@ constexpr double kDoneShift = 1e-3;
 /// Penalties for violated constraints, as multiples of the radius. kNewLidPenalty: a lid vertex is
 /// inside the eyeball or too close to it, but outside in all heads. kMeanGapPenalty: the mean gap
 /// of a lid differs too much from the target's. kDeepLidPenalty: a lid vertex that is inside the
-/// eyeball in some head is deeper inside than in all heads.
+/// eyeball in some head is deeper inside than in any head.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
 /// Unknowns of an optimisation step of an eyeball. All of them are lengths.

@@ -17,7 +17,7 @@ namespace crowdface {
 struct Lids {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<std::uint32_t> rim;       ///< indices into `vertices`, ascending
-  std::vector<bool> is_upper;           ///< #rim: whether the vertex belongs to the upper lid
+  std::vector<bool> is_upper;           ///< whether each rim vertex belongs to the upper lid
 };
 
 /// Finds the lids of an eyeball.
@@ -29,11 +29,12 @@ struct Lids {
 Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen::Vector3d& centre,
                double radius, const HeadAxes& axes, std::span<const std::uint32_t> skin);
 
-/// Fits an eyeball behind the lids of a face, in the same position as in the heads.
+/// Fits an eyeball behind the lids of a face, with nearly the same gaps to the lids as on the
+/// target.
 class EyeSocket {
  public:
   EyeSocket() = default;
-  /// \param ball_radii  #heads: the radii of the eyeball in each head, by direction.
+  /// \param ball_radii  The radii of the eyeball in each head, by direction.
   EyeSocket(Lids lids, std::vector<BallRadii> ball_radii, const std::vector<Head>& heads);
 
   const Lids& lids() const { return lids_; }
@@ -66,8 +67,8 @@ class EyeSocket {
     std::uint32_t index;
   };
   /// Returns `motion` improved by one step of the optimisation.
-  /// \param far  The function removes lid points that are farther away than this fraction of the
-  ///             radius.
+  /// \param far  The function removes lid points whose distance from the eyeball is larger than
+  ///             this fraction of the radius.
   RigidMotion step(std::size_t target, const RigidMotion& skin_motion, const RigidMotion& motion,
                    double far, SizeMode size_mode, std::vector<LidPoint>& lids) const;
   RigidMotion iterate_steps(std::size_t target, const RigidMotion& skin_motion, RigidMotion motion,

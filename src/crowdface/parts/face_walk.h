@@ -64,13 +64,13 @@ class MirroredWalk {
 
   const Topology& topology_;
   const VertexFaces& vertex_faces_;
-  /// #V: for each vertex of the first side, the mirror partner that the current walk found on the
+  /// for each vertex of the first side: the mirror partner that the current walk found on the
   /// second side; kNoIndex if none
   std::vector<std::uint32_t> partner_of_vertex_;
-  std::vector<std::uint32_t> vertex_of_partner_;  ///< #V: the inverse of partner_of_vertex_
-  /// #F: whether the walk has visited the polygon on the first side
+  std::vector<std::uint32_t> vertex_of_partner_;  ///< the inverse of partner_of_vertex_
+  /// for each polygon of the first side: whether the walk has visited the polygon
   std::vector<bool> is_visited_;
-  std::vector<FacePair> faces_;  ///< visited faces, in the order of visits
+  std::vector<FacePair> faces_;  ///< visited pairs of polygons, in the order of visits
   std::vector<MirroredPair> pairs_;
 };
 

@@ -28,7 +28,7 @@ constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 // Largest overlap of facing skin. An overlap is allowed because touching lips overlap a little on
 // the mean head. The limit is less than the thickness of an eyelid.
 constexpr double kOverlap = 0.0005;
-constexpr double kAside = 0.0035;  // smallest gap that the test of kSideways assumes
+constexpr double kAside = 0.0035;  // the test of kSideways replaces smaller gaps by this gap
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
 // pairs whose midpoints are at most this far apart belong to the same group; a coarse mesh has a
 // larger limit
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const s
   const auto mixed = [](const Cell& cell) {
     std::uint64_t bits = 0;
     for (const double at : cell) {
-      // Adding zero turns −0 into +0, which compares equal and needs the same hash.
+      // Adding zero turns −0 into +0. Both compare equal, so both need the same hash.
       bits = (bits ^ std::bit_cast<std::uint64_t>(at + 0.0)) * 0x9e3779b97f4a7c15ULL;
       bits ^= bits >> 32U;
     }
@@ -120,7 +120,7 @@ void agree_on_sides(FacingGroup& group) {
   }
 }
 
-/// Returns the mean length of the mesh edges at one vertex of each pair, FacingPair::low.
+/// Returns the mean length of the mesh edges at the low vertices (FacingPair::low) of the pairs.
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {
@@ -181,8 +181,8 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
       throw_if_interrupted();
       goals.clear();
       for (const Candidate& candidate : candidates[i]) goals.push_back(candidate.vertex);
-      // Keep the candidate that is nearest in space among those that are far away along the
-      // surface.
+      // Consider only candidates that are far away along the surface. Keep the candidate that is
+      // nearest in space.
       along.search_for(some[i], goals,
                        std::max(kTimesAway * candidates[i].back().distance, kMinAway * extent));
       for (const Candidate& candidate : candidates[i]) {

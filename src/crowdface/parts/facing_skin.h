@@ -22,8 +22,8 @@ using FacingGroup = std::vector<FacingPair>;
 
 /// Finds where skin nearly touches skin. The two vertices of a pair are nearer to each other than
 /// about a hundredth of the skin's extent, and their normals are opposite. The gap between the two
-/// vertices is outside the head. Along the surface, they are at least three times as far apart as
-/// in space. A closed mouth gives one group; nostrils and open eyes give no group.
+/// vertices is outside the head. Along the surface, the two vertices are at least three times as
+/// far apart as in space. A closed mouth gives one group; nostrils and open eyes give no group.
 ///
 /// \param positions  #V by 3; preferably the mean head.
 /// \param skin       The skin's vertices, ascending; at least one. A dense skin is subsampled

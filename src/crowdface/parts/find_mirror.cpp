@@ -21,11 +21,11 @@ namespace {
 /// A coordinate plane is preferred if its error is at most this factor times the error of the best
 /// plane.
 constexpr double kAsGood = 1.05;
-/// Largest number of seeds. A seed is a vertex of a component where a walk over the polygons of the
-/// component and of its mirror image starts.
+/// Largest number of seeds. A seed is a vertex of a component. A walk over the polygons of the
+/// component and of its mirror image starts there.
 constexpr std::size_t kMaxMirrorSeeds = 24;
 /// A walk with an error below this fraction of the component's extent is accepted without further
-/// walks, because a sphere has many symmetries.
+/// walks. On a sphere, many walks are about equally good.
 constexpr double kAcceptedError = 0.01;
 // Lengths are fractions of the skin's extent, about 43 cm.
 // largest distance of a partner from the vertex's mirror image
@@ -48,8 +48,8 @@ using Box = Eigen::AlignedBox3d;
 
 /// Matches each component with the component at its mirror image; kNoIndex if there is none. First
 /// pairs components with equally many vertices, the nearest pairs first, so that each layer of
-/// lashes finds its counterpart. Each remaining component gets the component that is nearest to its
-/// mirror image.
+/// lashes finds its counterpart. Then matches each remaining component with the component nearest
+/// to its mirror image.
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;
@@ -246,7 +246,7 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
 
 /// Computes offsets for vertices without partner, so that mirroring keeps the mean head's shape
 /// there. An offset points from the vertex's mirror image to the vertex. Its length is the distance
-/// between both minus `reach`, or zero for shorter distances, so that the surface has no step.
+/// between the two minus `reach`, but not less than zero. So the surface has no step.
 void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
   map.unpaired_offsets.resize(static_cast<Index>(map.unpaired_vertices.size()), 3);

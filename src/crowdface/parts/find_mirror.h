@@ -12,7 +12,7 @@ struct FoundMirror {
   /// number of vertices in pairs: each vertex of a pair is the partner of the other
   Index paired_vertex_count = 0;
   /// number of vertices whose partner is a point inside a polygon or on an edge, not a vertex.
-  /// All vertices that neither paired_vertex_count nor this field counts have no partner.
+  /// Vertices that belong to neither this count nor paired_vertex_count have no partner.
   Index surface_mirrored_vertex_count = 0;
   /// Distance of the mean head from its mirror image, in the unit of the heads: root mean square
   /// and maximum over all vertices.
@@ -25,7 +25,7 @@ struct FoundMirror {
 /// Finds the symmetry plane of the mean head and the partner of each vertex. A coordinate plane is
 /// preferred if it fits nearly as well as the best plane.
 ///
-/// Components are matched by position: the left eye with the right one. If the polygons of two
+/// Components are matched by position: the left eye with the right eye. If the polygons of two
 /// matched components mirror each other, a walk over the polygons gives the partners, however
 /// asymmetric the mean head is. Otherwise, two vertices are partners if each of the two is the
 /// vertex nearest to the mirror image of the other vertex, and is close to this image. Every other

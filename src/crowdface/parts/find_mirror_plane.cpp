@@ -78,7 +78,8 @@ class PlaneSearch {
   const MirrorPlane& start_;
   PointGrid grid_;
   Vertices some_;
-  std::vector<Eigen::Vector3d> places_;  ///< #some: nearest surface point of each vertex
+  /// for each of `some_`: nearest surface point of its image
+  std::vector<Eigen::Vector3d> places_;
   MirrorPlane best_;
   double least_ = HUGE_VAL;
 };

@@ -50,7 +50,7 @@ bool have_same_positions(const Positions& before, const Positions& after,
 
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<double> unit_weights;  ///< #vertices: all 1, for fits of the part's shape
+  std::vector<double> unit_weights;  ///< all 1, one per vertex; for fits of the part's shape
   Socket socket;
   bool is_eyeball = false;
   EyeSocket eye;        ///< used if the part is an eyeball
@@ -123,7 +123,7 @@ struct PartFollower::State {
   double extent;  ///< extent of the skin
   std::vector<RigidPart> rigid;
   Anchors anchors;
-  std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< #heads: offsets of the bound vertices
+  std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< per head: offsets of the bound vertices
   PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
 
   struct PartMotion {

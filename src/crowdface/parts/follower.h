@@ -15,7 +15,7 @@ namespace crowdface {
 /// has costs).
 ///
 /// - A rigid part moves by the rotation, translation and uniform scale that best fits the motion of
-///   the skin around it from the target to the face. Then eyeballs are shifted and rescaled until
+///   the surrounding skin from the target to the face. Then eyeballs are shifted and rescaled until
 ///   the gaps to the lids equal the gaps on the target; other parts move out of lips and cheeks.
 /// - A vertex of a bound part keeps its position relative to the nearest skin.
 ///
@@ -27,7 +27,8 @@ class PartFollower {
                PartShape shape = PartShape::kTarget);
   ~PartFollower();
 
-  /// Moves the parts of a blended face. Several threads may call this, each with its own `result`.
+  /// Moves the parts of a blended face. Several threads may call this function, each with its own
+  /// `result`.
   ///
   /// \param target  The head that the face is built on.
   /// \param result  #V by 3, blended; the skin is left unchanged.

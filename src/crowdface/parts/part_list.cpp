@@ -20,16 +20,16 @@ namespace {
 // Lengths are fractions of the skin's extent, the diagonal of its bounding box: about 43 cm for a
 // head with its neck.
 
-// smallest extent of a component that counts as skin; the largest component always does
+// smallest extent of a component that counts as skin; the largest component always counts as skin
 constexpr double kSkinExtent = 0.5;
 constexpr double kOpen = 0.7;            // isoperimetric ratio: a hemisphere has 0.5, a disc 1
 constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
 // largest distance of components that nearly touch, such as teeth
 constexpr double kTouch = 0.006;
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
-/// Smallest diagonal (kWhole) and thickness (kThick) of an eyeball's bounding box, in radii. A ball
-/// has a diagonal of 3.5 radii, half a ball 3, and neither is thinner than one radius. A row of
-/// teeth fits a sphere too, but is half as thick.
+/// Smallest diagonal (kWhole) and thickness (kThick) of an eyeball's bounding box, in radii. The
+/// diagonal is 3.5 radii for a ball and 3 radii for half a ball. Both are at least one radius
+/// thick. A row of teeth also fits a sphere, but is only half as thick.
 constexpr double kWhole = 2.6, kThick = 0.8;
 // largest root mean square distance of an eyeball's surface from the fitted sphere, in radii; not
 // zero, because the cornea bulges out of the sphere

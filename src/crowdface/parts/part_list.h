@@ -31,15 +31,15 @@ struct Part {
 
 /// The parts of a mesh.
 struct PartList {
-  std::vector<ComponentShape> shapes;  ///< #components
-  std::vector<PartClass> classes;      ///< #components
+  std::vector<ComponentShape> shapes;  ///< one per component
+  std::vector<PartClass> classes;      ///< one per component
   /// ordered by their first components; the skin is not a part
   std::vector<Part> parts;
 };
 
 /// Assignments of components to classes and parts that the user has made.
 struct PartOverrides {
-  std::vector<std::optional<PartClass>> classes;              ///< #components, or empty
+  std::vector<std::optional<PartClass>> classes;              ///< one per component; or empty
   std::vector<std::vector<std::uint32_t>> joined_components;  ///< components of each part
 };
 
@@ -50,8 +50,8 @@ struct PartOverrides {
 /// - bound: open strips and shells near the skin;
 /// - rigid: all other components. Round components as large as an eye are eyeballs; a component
 ///   whose centre is inside an eyeball belongs to this eyeball. Other components that nearly touch
-///   form one part, unless they form two rows, one above the other; then the teeth of each jaw are
-///   one part.
+///   form one part. But if they form two rows, one above the other, the teeth of each jaw are one
+///   part.
 ///
 /// \param positions  #V by 3, any unit; preferably the mean head.
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,

@@ -17,15 +17,15 @@ class PointGrid {
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
-  /// A fast, conservative test. If a vertex lies within `reach` of the point, returns true. If none
-  /// does, may return false or true.
+  /// A fast, conservative test. If a vertex lies within `reach` of the point, returns true. If no
+  /// vertex does, may return false or true.
   bool may_have_vertex_within(const Eigen::Vector3d& point, double reach) const;
 
   struct NearestVertex {
     std::uint32_t vertex = kNoIndex;  ///< kNoIndex: no vertex is in reach
     double distance = 0;
   };
-  /// The nearest vertex within `reach` of a point. If several vertices are equally near, the one
+  /// The nearest vertex within `reach` of a point. Of several equally near vertices, the vertex
   /// with the lowest index.
   NearestVertex nearest(const Eigen::Vector3d& point, double reach = 1e300) const;
 

@@ -22,7 +22,7 @@ class ProximityJoiner {
   /// groups while this object exists.
   /// \param points      the rows listed in `rows` must be finite; other rows are not read.
   /// \param rows        rows of the points in the tree; may be empty.
-  /// \param components  #points: the component of each point.
+  /// \param components  the component of each point.
   ProximityJoiner(const Positions& points, std::vector<std::uint32_t> rows,
                   const std::vector<std::uint32_t>& components, DisjointSets& groups);
 
@@ -41,8 +41,8 @@ class ProximityJoiner {
   DisjointSets& groups_;
   MedianSplitTree tree_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
-  /// #nodes: the group of components to which all points of the node belong, given as the index of
-  /// one of its components; kNoIndex if the points are not known to belong to a single group
+  /// for each node: the index of one component of the group to which all points of the node belong;
+  /// kNoIndex if no single group is known
   std::vector<std::uint32_t> groups_of_nodes_;
 };
 

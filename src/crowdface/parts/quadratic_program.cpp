@@ -103,8 +103,8 @@ bool move_onto(Active& active, const Vector& a, double lower, Vector& x, std::si
   return false;
 }
 
-/// All constraints, as conditions on y = Lᵀ x. They are stored by column, so that loops over
-/// constraints vectorise.
+/// All constraints, as conditions on y = Lᵀ x, where L is the Cholesky factor of the quadratic
+/// form. They are stored by column, so that loops over constraints vectorise.
 template <class Bound>
 class Table {
  public:
@@ -198,7 +198,8 @@ void QuadraticProgram::add_slack(std::size_t unknown, double penalty) {
 QuadraticProgram::Vector QuadraticProgram::solve(double tolerance) const {
   constexpr int kMaxSteps = 200;
   const std::size_t n = unknowns_;
-  // In y = Lᵀ x the quadratic form is the Euclidean distance. Constraint normals are normalised.
+  // In the coordinates y = Lᵀ x, with the Cholesky factor L, the objective is a squared Euclidean
+  // distance. Constraint normals are normalised.
   const Matrix l = cholesky(quadratic_, n);
   const Table table(bounds_, l, n);
   Vector y = solve_lower(l, linear_, n);

@@ -12,6 +12,9 @@ namespace crowdface {
 ///
 /// minimise Σ w/2 (a·x − target)² + Σ penalty·x_i subject to a·x ≥ lower
 ///
+/// Here, x is the vector of unknowns. Each target and each constraint has its own coefficients a,
+/// and each target its own weight w.
+///
 /// The class uses plain arithmetic in a fixed order, so that the result has the same bits on every
 /// machine.
 class QuadraticProgram {
@@ -29,9 +32,9 @@ class QuadraticProgram {
   void add_lower_bound(const Vector& a, double lower);
   /// Adds the constraints lower ≤ x_i ≤ upper for an unknown.
   void add_bounds(std::size_t unknown, double lower, double upper);
-  /// Makes an unknown a slack variable: it is not negative, and each unit costs `penalty`. A
-  /// constraint in which this unknown occurs may be violated by up to the unknown's coefficient
-  /// times its value.
+  /// Makes an unknown x_i a slack variable, with the bound x_i ≥ 0 and the cost penalty·x_i +
+  /// x_i²/2. A constraint in which x_i occurs may be violated by up to the coefficient of x_i times
+  /// the value of x_i.
   void add_slack(std::size_t unknown, double penalty);
 
   /// Returns the solution, by the dual active-set method (Goldfarb & Idnani 1983). Every unknown

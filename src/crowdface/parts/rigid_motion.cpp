@@ -16,8 +16,9 @@ Eigen::Matrix3d rotation_of(double w, double x, double y, double z) {
                          {f * (x * z - w * y), f * (y * z + w * x), 1 - f * (x * x + y * y)}};
 }
 
-/// Returns the rotation R that maximises Σ w b·(R a), given s = Σ w a bᵀ. Its quaternion is the
-/// eigenvector of the largest eigenvalue of Horn's matrix.
+/// Returns the rotation R that maximises Σ w b·(R a) over pairs of vectors (a, b) with weights w,
+/// given s = Σ w a bᵀ. Its quaternion is the eigenvector of the largest eigenvalue of Horn's
+/// matrix.
 Eigen::Matrix3d best_turn(const Eigen::Matrix3d& s) {
   Eigen::MatrixXd n(4, 4);
   n(0, 0) = s(0, 0) + s(1, 1) + s(2, 2);

@@ -17,8 +17,8 @@ namespace {
 constexpr double kSectionSpacing = 0.008;  // spacing of the sections
 constexpr double kProfile = 0.015;         // length of a profile to either side of a section
 constexpr double kMotionReach = 0.07;      // radius of the skin that moves around a section
-// distance along the surface, from the contact, within which each vertex is assigned to one of the
-// contact's two sides (such as upper and lower lip)
+// vertices within this distance of the contact, measured along the surface, are assigned to one of
+// the contact's two sides (such as upper and lower lip)
 constexpr double kSideReach = 0.09;
 constexpr double kRounding = 0.006;  // width of the smoothing of the sides' borders
 constexpr double kTolerance = 1e-5;  // tolerance of a gap
@@ -46,7 +46,8 @@ double bump(double distance) {
 /// The skin around a group of facing vertices, and the side of the gap on which each vertex lies.
 struct Sides {
   std::vector<std::uint32_t> vertices;  ///< ascending
-  /// #V: ½ on the high side of the gap, −½ on the low side; linear along the surface in between
+  /// for each vertex: ½ on the high side of the gap, −½ on the low side; linear along the surface
+  /// in between
   std::vector<double> side_weights;
 };
 

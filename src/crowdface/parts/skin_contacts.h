@@ -45,7 +45,7 @@ class SkinContacts {
   /// Moves the skin so that the gap at each section lies in its range. Moves nothing if all gaps
   /// are already in their ranges.
   ///
-  /// \param ranges     #sections: the wanted range of each gap.
+  /// \param ranges     The wanted range of each section's gap.
   /// \param positions  #V by 3; adjusted.
   void fit_gaps(std::span<const Range> ranges, Positions& positions) const;
 
@@ -65,9 +65,9 @@ class SkinContacts {
   struct SectionGroup {
     std::size_t begin = 0, end = 0;       ///< range of sections
     std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
-    /// #vertices: the kernels of the nearby sections, evaluated at the vertex
+    /// for each vertex: the kernels of the nearby sections, evaluated at the vertex
     CompressedRows<KernelValue> kernels;
-    std::vector<PointMotions> point_motions;  ///< #sections of the group
+    std::vector<PointMotions> point_motions;  ///< one per section of the group
   };
 
   /// The current positions of the profile points of all sections of a group. Each section has two
@@ -77,7 +77,7 @@ class SkinContacts {
     /// its second section, and so on
     std::vector<double> heights, depths;
     std::vector<std::size_t> begins;  ///< index of each section's first point
-    /// #sections: opposite points of the two profiles
+    /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposites;
 
     double gap(std::size_t section) const;
@@ -88,9 +88,10 @@ class SkinContacts {
   /// Sets the vertices that a group's corrections move, and the kernel values (see KernelValue) at
   /// these vertices.
   ///
-  /// \param mean_head     #V by 3: the mean head.
+  /// \param mean_head     The mean head, #V by 3.
   /// \param near_skin     The skin around the group, ascending.
-  /// \param side_weights  #V: ½ on the gap's high side, −½ on the low side, smooth in between.
+  /// \param side_weights  For each vertex of the mesh: ½ on the gap's high side, −½ on the low
+  ///                      side, smooth in between.
   /// \param skin_extent   Extent of the whole skin.
   void compute_kernels(const Positions& mean_head, std::span<const std::uint32_t> near_skin,
                        const std::vector<double>& side_weights, double skin_extent,
@@ -121,7 +122,7 @@ class SkinContacts {
 
   double tolerance_ = 0;
   std::vector<GapSection> sections_;
-  std::vector<Clearance> clearances_;  ///< #sections
+  std::vector<Clearance> clearances_;  ///< one per section
   std::vector<SectionGroup> section_groups_;
   std::vector<std::vector<double>> head_gaps_;  ///< #heads by #sections
 };

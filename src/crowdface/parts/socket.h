@@ -13,7 +13,8 @@ namespace crowdface {
 /// skin.
 struct Socket {
   std::vector<std::uint32_t> vertices;  ///< ascending
-  /// #vertices: area times a weight that decreases with distance
+  /// for each vertex: its area times a weight that decreases with the distance from the part or
+  /// point
   std::vector<double> weights;
 };
 
@@ -22,7 +23,7 @@ struct Socket {
 ///
 /// \param part   The part's vertices.
 /// \param skin   The skin's vertices, ascending.
-/// \param areas  #V: area of each vertex.
+/// \param areas  Area of each vertex of the mesh.
 Socket find_socket(const Positions& positions, const PointGrid& part,
                    std::span<const std::uint32_t> skin, const std::vector<double>& areas,
                    double reach);

@@ -15,7 +15,8 @@ namespace crowdface {
 /// Finds landmarks on a scan from the form of the surface: midpoints of nose, lips and chin and, if
 /// the scan has eyeballs, corners of the eyes and edges of the lids. Omits landmarks whose
 /// positions do not fit the template's landmarks; returns nothing if no face is found.
-/// \param template_vertices  landmarks of the template by name, as vertex numbers (see propose_landmarks)
+/// \param template_vertices  landmarks of the template by name, as vertex numbers (see
+///                           propose_landmarks)
 /// \param hint  up and front direction of the scan
 std::vector<WrapLandmark> find_landmarks(
     const WrapTemplate& wrap_template,

@@ -25,9 +25,9 @@ struct LandmarkFile {
 /// The mesh whose landmarks a file contains if the file has no keys `template` and `scan`.
 enum class LandmarkMesh { kTemplate, kScan };
 
-/// Reads a landmark file: YAML with the keys `template: {chin: 966}` and `scan: {chin: [x, y, z]}`,
-/// both optional and with at most 100 names each; or a list from another program
-/// (parse_landmark_list).
+/// Reads a landmark file. The file is YAML with the optional keys `template: {chin: 966}` and
+/// `scan: {chin: [x, y, z]}`, with at most 100 names each, or a list from another program (see
+/// parse_landmark_list).
 /// \throws UsageError, MissingInput with a message that names every wrong place.
 LandmarkFile read_landmarks(const std::filesystem::path& path,
                             LandmarkMesh mesh = LandmarkMesh::kScan);
@@ -50,7 +50,7 @@ std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
 struct PickedLandmark {
   std::string name;
   std::optional<std::uint32_t> template_vertex;
-  std::optional<Eigen::Vector3d> scan_point;  ///< in the unit of its file
+  std::optional<Eigen::Vector3d> scan_point;  ///< in the unit of the scan's file
   /// Scan vertex of the landmark, if the landmark file gives a vertex number instead of a point.
   std::optional<std::uint32_t> scan_vertex;
 };

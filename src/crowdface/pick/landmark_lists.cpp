@@ -185,7 +185,7 @@ void read_json_item(const std::string& key, const ListJson& item, PlaceList& lis
   list.add(name, numbers, name.empty() ? "" : concat(": ", name));
 }
 
-/// \return false if the text has the keys of our own format, or is not JSON.
+/// \return false if the text has a key `template` or `scan` (see read_landmarks), or is not JSON.
 bool read_json(std::string_view text, PlaceList& list) {
   const ListJson root = parse_shallow_json(text);
   if (root.is_discarded() || (!root.is_object() && !root.is_array())) return false;

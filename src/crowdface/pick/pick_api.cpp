@@ -233,7 +233,7 @@ void pick_landmarks(PickableScans& scans, std::optional<std::filesystem::path> p
   PickApi api(scans, std::move(pages), kMaxTriangles);
   LocalServer server([&](const HttpRequest& request) { return api.answer(request); }, port);
   started(server.address());
-  server.run(interrupted);
+  server.run(is_interrupted);
 }
 
 }  // namespace crowdface

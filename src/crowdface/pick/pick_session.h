@@ -51,9 +51,9 @@ class PickSession {
   /// at the start of the file.
   bool saving_deletes_comments() const;
 
-  /// The first point at which a ray hits the mesh. On the template, this is a vertex. On the scan,
-  /// it is a point whose coordinates are rounded to a power of ten that is at most a millionth of
-  /// the scan's size.
+  /// The first point at which a ray hits the mesh. On the template, the result is a vertex. On the
+  /// scan, the result is a point whose coordinates are rounded to a power of ten that is at most a
+  /// millionth of the scan's size.
   std::optional<PickedPlace> pick_on_template(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const;
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,

@@ -34,9 +34,9 @@ class PickableMesh {
   PickableMesh(const PickableMesh&) = delete;
   PickableMesh& operator=(const PickableMesh&) = delete;
 
-  /// The first point of the skin along a ray. If the ray first hits something else, the nearest
-  /// skin point within `max_skin_distance` of the hit: users often point at the eyeball when they
-  /// mean the corner of the eye.
+  /// Returns the first point of the skin along a ray. If the ray first hits another part, returns
+  /// the skin point nearest to the hit, if this point lies within `max_skin_distance`. (Users often
+  /// point at the eyeball when they mean the corner of the eye.)
   /// \param direction          any nonzero length
   /// \param max_skin_distance  in the unit of the mesh
   std::optional<PickedPlace> cast_ray(const Eigen::Vector3d& origin,
@@ -72,7 +72,7 @@ class PickableMesh {
   /// (number of triangles of the full mesh). Arrays: `positions` (relative to `origin`), `normals`
   /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other), and `colours` if there
   /// are any.
-  /// \param colours  of the vertices, or no rows
+  /// \param colours  vertex colours; no rows: none
   std::string encode_reduced(std::size_t max_triangles, const ColourRows& colours = {}) const;
 
  private:
@@ -81,7 +81,8 @@ class PickableMesh {
 
   Positions positions_;
   std::vector<Triangle> skin_;
-  /// Triangles of the skin, then those of all other parts, as quads whose last corner repeats.
+  /// The triangles of the skin, followed by the triangles of all other parts. Each triangle is
+  /// stored as a quad whose last corner repeats.
   std::vector<Quad> quads_;
   Positions normals_;
   Eigen::AlignedBox3d box_;  ///< bounding box of the skin

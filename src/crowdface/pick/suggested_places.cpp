@@ -39,7 +39,8 @@ bool spread_out(const Positions& places) {
   return values(1) > kMinRatio * values(0);
 }
 
-/// Fits a similarity transform to the pairs whose flag in `used` is set, without pair `without`.
+/// Fits a similarity transform to the pairs whose flag in `used` is set, except the pair with index
+/// `without`.
 std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<bool>& used,
                               std::size_t without) {
   std::vector<std::size_t> rows;
@@ -88,8 +89,8 @@ std::size_t farthest_outlier(const std::vector<double>& residuals, const std::ve
   return residuals[farthest] > most ? farthest : residuals.size();
 }
 
-/// Gaussian-weighted average of the fit's residual vectors near `place`, because faces differ
-/// locally.
+/// Gaussian-weighted average of the fit's residual vectors near `place`. The average corrects for
+/// local differences between faces.
 Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& pose,
                            const Eigen::Vector3d& place) {
   constexpr double kReachMm = 25, kHeld = 0.5;

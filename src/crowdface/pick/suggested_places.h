@@ -21,8 +21,8 @@ struct LandmarkPose {
     /// scan landmark. The fit uses all other pairs; if there are only three pairs, it uses all
     /// three.
     double distance_mm = 0;
-    /// Whether the distance is far larger than those of the other pairs, probably because a
-    /// landmark was misplaced; `pose` does not use outliers.
+    /// Whether the distance is far larger than the distances of the other pairs, probably because a
+    /// landmark was misplaced. The fit of `pose` ignores outliers.
     bool is_outlier = false;
   };
   std::map<std::string, Residual> residuals;  ///< one for each pair

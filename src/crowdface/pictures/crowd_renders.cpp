@@ -16,8 +16,8 @@
 namespace crowdface {
 namespace {
 
-/// Fraction of the heads' height that may lie outside the image: shoulders are not needed for
-/// judging faces.
+/// Fraction of the heads' height that may lie outside the image, because images of faces need not
+/// show the shoulders.
 constexpr double kCutBelow = 0.22;
 
 /// Estimates, for framing the images, the extreme points of the attachments on all heads. Maps a
@@ -52,8 +52,8 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
   return reach;
 }
 
-/// For each vertex, the displacement that reaches farthest down among all blend shapes, because an
-/// open jaw reaches below the neutral head.
+/// For each vertex, the displacement of the blend shape that moves the vertex farthest down. The
+/// images must leave room for an open jaw, which reaches below the neutral head.
 Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {

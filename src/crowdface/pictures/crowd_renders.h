@@ -51,8 +51,9 @@ class CrowdRenders {
   CrowdRenders(const Config& config, const Config::ContactSheet& sheet, const Inputs& inputs,
                const FaceTextures* textures = nullptr);
 
-  /// Enables gallery meshes: after this call, `render_files` also makes them. \param meshes  must
-  /// outlive this object.
+  /// Enables gallery meshes. After this call, `render_files` also makes the gallery script of a
+  /// face.
+  /// \param meshes  must outlive this object.
   void add_gallery(const GalleryMeshes& meshes) { gallery_ = &meshes; }
   /// Whether `render_files` needs the blend shapes of a face.
   bool needs_shapes() const { return gallery_ != nullptr; }

@@ -18,7 +18,7 @@ class EdgePoints {
 
   /// \return the row of the new point in `all()`.
   std::uint32_t at(std::uint32_t from, std::uint32_t to, double share) {
-    if (from > to) {  // the same bits in both directions
+    if (from > to) {  // both directions of an edge give the same bits
       std::swap(from, to);
       share = 1 - share;
     }

@@ -124,7 +124,7 @@ void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& wh
   const auto eyes =
       eye_coordinates(whole.topology(), whole.surfaces(), mean.positions(), config.faces.front);
   if (!eyes) return;
-  constexpr float kSteps = 65536;  // per radius
+  constexpr float kSteps = 65536;  // number of quantisation steps per radius of the eyeball
   std::vector<std::uint32_t> values;
   for (const std::uint32_t vertex : mesh.vertices) {
     for (int c = 0; c < 3; ++c) {
@@ -186,15 +186,15 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   }
   const std::vector<const Positions*> heads = positions_of(head_set);
   // The bounding box of all heads and the shoulders.
-  box_low_ = heads.front()->colwise().minCoeff().transpose();
-  box_high_ = heads.front()->colwise().maxCoeff().transpose();
+  box_min_ = heads.front()->colwise().minCoeff().transpose();
+  box_max_ = heads.front()->colwise().maxCoeff().transpose();
   for (const Positions* head : heads) {
-    box_low_ = box_low_.cwiseMin(head->colwise().minCoeff().transpose());
-    box_high_ = box_high_.cwiseMax(head->colwise().maxCoeff().transpose());
+    box_min_ = box_min_.cwiseMin(head->colwise().minCoeff().transpose());
+    box_max_ = box_max_.cwiseMax(head->colwise().maxCoeff().transpose());
   }
   if (shown.has_body()) {
-    box_low_ = box_low_.cwiseMin(shown.lowest_shown());
-    box_high_ = box_high_.cwiseMax(shown.lowest_shown());
+    box_min_ = box_min_.cwiseMin(shown.lowest_shown());
+    box_max_ = box_max_.cwiseMax(shown.lowest_shown());
   }
   add_shapes(surfaces, mean);
 }
@@ -272,7 +272,7 @@ std::string GalleryMeshes::textures_as_json(const TextureLayer& layer,
 std::string GalleryMeshes::pack_roughness(const TextureSet& texture_set) const {
   std::string bytes;
   if (texture_set.roughness.texture_of_face.empty()) return bytes;
-  constexpr float kSkin = 0.56F;  // the page's value for skin without a roughness map
+  constexpr float kSkin = 0.56F;  // roughness that the page uses for skin without a roughness map
   for (const TexturePlace& place : texture_places_) {
     const float rough = roughness_at(texture_set, place).value_or(kSkin);
     bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * rough)));
@@ -298,7 +298,7 @@ std::string GalleryMeshes::shared_script() const {
   json["front"] = axis_to_json(config_.faces.front);
   json["low"] = to_json(packing_frame_.low_corner);
   json["step"] = packing_frame_.step;
-  json["box"] = {to_json(box_low_), to_json(box_high_)};
+  json["box"] = {to_json(box_min_), to_json(box_max_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
   json["draft"] = base64(little_endian(draft_triangles_));
   json["twins"] = base64(little_endian(mesh_.first_copy_of_vertex));

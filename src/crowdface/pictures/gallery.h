@@ -50,8 +50,8 @@ class GalleryMeshes {
   /// The vertex colours as three sRGB bytes per vertex, darkened at vertices from which little of
   /// the sky is visible.
   std::string pack_vertex_colours(const VertexColours& colours) const;
-  /// Returns as JSON the textures of a layer, and for each material of the reduced mesh the index of
-  /// its texture.
+  /// Returns JSON with the textures of a layer and, for each material of the reduced mesh, the
+  /// index of its texture.
   /// \param picture_of  encodes a texture as a data URL
   std::string textures_as_json(const TextureLayer& layer,
                                std::string (*picture_of)(const Texture&, int max_px)) const;
@@ -72,17 +72,18 @@ class GalleryMeshes {
   ShownAttachments attachments_;
   /// colours of surfaces without textures, per vertex of the reduced mesh
   VertexColours colours_;
-  std::vector<float> visibility_;  ///< vertex_visibility of these vertices on the mean head
-  /// #V of the reduced mesh; empty if there are no textures.
+  /// visible fraction of the sky at the vertices of the reduced mesh, on the mean head
+  std::vector<float> visibility_;
+  /// one entry per vertex of the reduced mesh; empty if there are no textures
   std::vector<TexturePlace> texture_places_;
-  Eigen::Vector3d box_low_, box_high_;  ///< bounding box of all heads and the shoulders of the body
+  Eigen::Vector3d box_min_, box_max_;  ///< bounding box of all heads and the shoulders of the body
 
   /// The vertices of the gallery's reduced mesh that a blend shape visibly moves.
   struct ShownShape {
     std::vector<std::uint32_t> rows;      ///< rows of the shape's displacements
     std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
   };
-  std::vector<ShownShape> shown_shapes_;  ///< #shapes
+  std::vector<ShownShape> shown_shapes_;  ///< one entry per blend shape
   /// index of the shape that moves most, such as an open jaw
   std::size_t largest_motion_shape_ = 0;
   /// like `visibility_`, but in the shape `largest_motion_shape_`

@@ -16,7 +16,7 @@ namespace {
 using Colour = std::array<std::uint8_t, 3>;
 constexpr Colour kDot = {255, 214, 64}, kRim = {20, 20, 22};
 constexpr double kTurnedAway =
-    0.08;  ///< cosine between normal and camera below which no dot is drawn
+    0.08;  ///< smallest cosine between normal and camera direction at which dots are drawn
 
 struct Pixel {
   double x, y;

@@ -42,7 +42,8 @@ std::string jpeg_address(const Texture& texture, int max_px, const TexelOf& texe
 }  // namespace
 
 std::uint8_t srgb_byte(float light) {
-  constexpr std::size_t kSteps = 4096;  // steps of the square root, which resembles the sRGB curve
+  // The index into the table is the square root of the light, which resembles the sRGB curve.
+  constexpr std::size_t kSteps = 4096;
   static const std::vector<std::uint8_t> bytes = [] {
     std::vector<std::uint8_t> table;
     for (std::size_t i = 0; i < kSteps; ++i) {

@@ -20,8 +20,8 @@ namespace crowdface {
 /// at the chest. Vertices and polygons of the face come first.
 class PicturedMesh {
  public:
-  /// Images of faces show this much of the body below the heads, as a fraction of the heads'
-  /// height.
+  /// Height of the part of the body that images of faces show below the heads, as a fraction of the
+  /// heads' height.
   static constexpr double kShoulderHeight = 0.1;
 
   /// \param inputs    must outlive this object.
@@ -44,7 +44,7 @@ class PicturedMesh {
   /// Adds the body's texture to the face's textures. The body gets the mean roughness of the face
   /// at the neck ring.
   /// \param body    texture of the body, or null
-  /// \param max_px  maximum side length of that texture
+  /// \param max_px  maximum side length of the body's texture, in texels
   TextureSet add_body(TextureSet textures, const BlendedPicture* body, int max_px) const;
   VertexColours add_body(const VertexColours& face, const BlendedPicture* body) const;
 
@@ -52,8 +52,9 @@ class PicturedMesh {
   struct Body {
     Topology topology;       ///< face and body
     TextureCoordinates uvs;  ///< face and body
-    Positions points;        ///< of the body, without its rim
-    /// #points: for each vertex of the body, the row of one of its texture coordinates in `uvs`, or
+    /// positions of the vertices of the body, except the vertices of its rim
+    Positions points;
+    /// for each vertex in `points`: the row in `uvs` of one of the vertex's texture coordinates, or
     /// kNoIndex
     std::vector<std::uint32_t> uv_rows;
     /// the vertices of the neck ring, as places in the face's textures

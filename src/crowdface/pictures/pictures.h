@@ -27,8 +27,8 @@ class CrowdPictures {
 
   const CrowdRenders& renders() const { return renders_; }
 
-  /// Sets the measurements of the input heads that the gallery shows. \param head_traits  for each
-  /// head, the value of each named trait
+  /// Sets the measurements that the gallery shows for the input heads.
+  /// \param head_traits  for each head, the value of each named trait
   void set_head_traits(std::vector<std::vector<double>> head_traits) {
     head_traits_ = std::move(head_traits);
   }

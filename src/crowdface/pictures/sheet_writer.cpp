@@ -37,7 +37,7 @@ std::string to_exr(const Rgb8Image& image) {
 SheetWriter::SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
                          std::string title)
     : folder_(std::move(folder)), formats_(formats), title_(std::move(title)) {
-  // Background tasks point to elements, which must not move.
+  // Background tasks hold pointers to the elements, so the elements must not move in memory.
   pdf_page_pngs_.reserve(kPagesPerBatch);
 }
 

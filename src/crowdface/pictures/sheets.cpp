@@ -20,7 +20,7 @@
 namespace crowdface {
 namespace {
 
-constexpr int kMaxRows = 64;  // heads or family members on one page
+constexpr int kMaxRows = 64;  // maximum number of rows of heads or family members on one page
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return concat(count, ' ', count == 1 ? one : many);
@@ -213,7 +213,8 @@ class CrowdSheets {
             concat(name, '\n', role)};
   }
 
-  /// The label of a family member: what a child inherits; for other members the most similar face.
+  /// The label of a family member. The label of a child names what the child inherits. The label of
+  /// any other member names the most similar face.
   std::string label_of_member(std::size_t member) const {
     const FacePlan& face = crowd_.faces[member];
     if (face.parents.empty()) {

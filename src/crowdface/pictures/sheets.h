@@ -20,8 +20,8 @@ WrittenSheets write_sheets(const PicturedCrowd& crowd);
 
 /// Adds pages `shapes_001` … with one row per face: the neutral face, then each blend shape, all
 /// seen from the front. The first row shows the template.
-/// \param crowd  the first faces of the crowd are shown, as many as the config requests; their
-///               meshes are read from the folder.
+/// \param crowd  the pages show the first faces of the crowd, as many as the config requests. Reads
+///               the meshes of these faces from the crowd's folder.
 void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages);
 
 /// Number of pages with faces in a crowd's contact sheets.

@@ -20,12 +20,13 @@ class ShownAttachments {
   /// faces.
   std::string appearance_as_json(const AttachmentLook& look,
                                  const AttachmentSurface& surface) const;
-  /// Positions on a face as JSON, 16 bits per coordinate, material by material; and for each shape
-  /// of the face the vertices that the shape moves, with their displacements.
+  /// Returns JSON with an attachment's vertex positions on a face (16 bits per coordinate),
+  /// material by material. For each shape of the face, the JSON also has the vertices that the
+  /// shape moves, and the displacements of these vertices.
   /// \param min_displacement  shortest displacement to store, in the unit of the positions
   std::string positions_as_json(const PlacedAttachment& placed, const PackingFrame& frame,
                                 double min_displacement) const;
-  /// Positions on a face as plain numbers, three per vertex.
+  /// An attachment's vertex positions on a face, three numbers per vertex.
   std::vector<float> vertex_positions(const PlacedAttachment& placed) const;
 
  private:

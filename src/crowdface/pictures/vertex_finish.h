@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// The position of a reduced mesh's vertex in the textures of the full mesh.
 struct TexturePlace {
-  Index face = -1;  ///< face of the full mesh at the vertex; −1: no texture
+  Index face = -1;  ///< polygon of the full mesh at the vertex; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 

@@ -15,8 +15,8 @@ using PlanePoint = Eigen::Vector2d;
 /// position is at an anchor, the anchor's head has weight one. If several heads have this anchor,
 /// they share the weight equally.
 ///
-/// \param anchors   #heads, at least one.
-/// \return          #heads, not negative, summing to one.
+/// \param anchors   one anchor per head; at least one.
+/// \return          one weight per head, not negative, summing to one.
 std::vector<double> inverse_square_weights(const std::vector<PlanePoint>& anchors,
                                            const PlanePoint& position);
 

@@ -30,14 +30,14 @@ struct ReducedMesh {
   std::vector<Triangle> triangles;      ///< indices into `vertices`
 };
 
-/// Like reduce_triangles, but also drops unused vertices and renumbers the other vertices. \param
-/// max_triangles maximum number of triangles.
+/// Like reduce_triangles, but also drops unused vertices and renumbers the other vertices.
+/// \param max_triangles  maximum number of triangles.
 ReducedMesh reduce_mesh(const std::vector<Triangle>& triangles, const Positions& positions,
                         std::size_t max_triangles);
 
 /// Like reduce_triangles, but with a separate limit for hidden triangles. Edges on the border
 /// between visible and hidden triangles do not collapse, so that no gap opens at this border.
-/// \param hidden         #triangles: whether each triangle is hidden.
+/// \param hidden         for each triangle, whether it is hidden.
 /// \param max_triangles  maximum number of all triangles together.
 /// \param max_hidden     maximum number of hidden triangles.
 std::vector<Triangle> reduce_hidden(const std::vector<Triangle>& triangles,

@@ -64,7 +64,7 @@ SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
   SplitMesh split;
   std::map<std::pair<std::uint32_t, std::array<double, 2>>, std::uint32_t> known_materials;
   std::vector<SplitMesh::Corner> all;
-  std::vector<std::uint32_t> face_of;  // parallel to `all`
+  std::vector<std::uint32_t> face_of;  // the polygon of each corner in `all`
   for (Index f = 0; f < topology.face_count(); ++f) {
     if (materials[static_cast<std::size_t>(f)] == kNoIndex) continue;
     const auto rows = uvs.rows() > 0 ? topology.face_uvs(f) : std::span<const std::uint32_t>();

@@ -22,7 +22,7 @@ struct SplitMesh {
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Corner> corners;  ///< distinct corners, ascending
-  /// for each corner, which several polygons may share: the first polygon with this corner
+  /// for each corner, the first polygon with this corner (several polygons may share a corner)
   std::vector<std::uint32_t> face_of_corner;
   std::vector<Triangle> triangles;  ///< indices into `corners`
   /// for each material: the first polygon with this material

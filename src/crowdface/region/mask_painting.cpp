@@ -66,8 +66,8 @@ class Canvas {
     }
   }
 
-  /// Extends the painted area by one texel: each unpainted texel beside it gets the mean of its
-  /// painted neighbours.
+  /// Extends the painted area by one texel: each unpainted texel beside the area gets the mean of
+  /// its painted neighbours.
   void bleed() {
     const std::vector<std::uint8_t> before = painted_;
     for (int y = 0; y < size_; ++y) {
@@ -91,7 +91,7 @@ class Canvas {
 
   /// Adjusts texels iteratively until samples at the given places match the given weights. Each
   /// round distributes the error of every sample over the four texels of the sample.
-  /// \param weights  #places: the weights that each sample should have.
+  /// \param weights  for each place, the weights that the sample there should have.
   void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
     std::vector<float> sum(value_.size()), share(count());
     for (const Texels& place : places) {

@@ -37,11 +37,11 @@ struct PaintedMasks {
 /// then adjusts texels until the sampled weights match the vertex weights as closely as the
 /// resolution allows.
 /// \param alpha  #V by #R, not negative, rows summing to one.
-/// \param has_priority  #V, or empty for all: whether the vertex has priority over other vertices;
-///                      for example, skin has priority over eyes and lashes. Where polygons overlap
-///                      in the texture, polygons whose first corner has priority win; otherwise the
-///                      polygon with the lower index wins. Only the weights of vertices with
-///                      priority are matched.
+/// \param has_priority  one entry per vertex, or empty if all vertices have priority: whether the
+///                      vertex has priority over other vertices; for example, skin has priority
+///                      over eyes and lashes. Where polygons overlap in the texture, polygons whose
+///                      first corner has priority win; otherwise the polygon with the lower index
+///                      wins. Only the weights of vertices with priority are matched.
 /// \param size   texels per side, at least 1.
 /// \throws InvalidInput if there are no texture coordinates, a polygon lacks texture coordinates,
 ///         or a texture coordinate lies outside all UDIM tiles.
@@ -50,7 +50,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
                          int size);
 
 struct MaskFiles {
-  /// #images: path of each mask image for the config; has <UDIM> if there are several tiles.
+  /// Path of each mask image, as it stands in a config; contains <UDIM> if there are several tiles.
   std::vector<std::filesystem::path> mask_paths;
   /// Path and content of each PNG file.
   std::vector<std::pair<std::filesystem::path, std::string>> png_files;

@@ -37,7 +37,7 @@ struct LoadedMask {
   std::map<int, LoadedTile> tiles;
   /// set if the mask is a file of vertex weights; then `tiles` is empty
   std::optional<VertexWeights> weights;
-  std::vector<std::string> names;  ///< #channels, if the file has channel names
+  std::vector<std::string> names;  ///< one name per channel; empty if the file has no channel names
 
   std::size_t channels() const {
     if (weights) return weights->rows.width();
@@ -143,7 +143,7 @@ void use_grey_or_alpha(LoadedMask& mask, const std::string& path) {
 
 /// Loads a mask's tiles or vertex weights; adds errors to `problems`.
 /// \param used    UDIM numbers of the tiles in which texture coordinates lie.
-/// \param needed  those of the used tiles that must exist.
+/// \param needed  UDIM numbers of the used tiles that must exist.
 LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::set<int>& needed,
                 Index vertices, Problems& problems) {
   LoadedMask mask;
@@ -237,8 +237,8 @@ bool is_colour_name(const std::string& name) {
   return colours.contains(lower_case(name));
 }
 
-/// Finds the channels that have the names of regions, in the order of the regions. Returns nothing
-/// if no channel has such a name.
+/// Returns for each region the channel with the region's name, if there is such a channel. Returns
+/// nothing if no channel has the name of a region.
 /// \throws InvalidInput if a mask's channels have names and no name is the name of a region.
 std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
     const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
@@ -279,8 +279,8 @@ bool has_word(const std::string& file, const std::string& word) {
   return false;
 }
 
-/// For each region, the index of its image, if there are as many images as regions. If all file
-/// names match regions, the file names decide; otherwise the order does.
+/// The index of each region's image, for masks with as many images as regions. If all file names
+/// match regions, the file names decide. Otherwise, image i belongs to region i.
 std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& sources,
                                            const std::vector<std::string>& regions) {
   std::vector<std::size_t> by_order(sources.size());

@@ -35,7 +35,8 @@ RegionWeights whole_head_weights(const Topology& topology);
 ///   or its alpha if it is not grey. File names that match all regions determine the order.
 /// - If all colour channels are constant and alpha is not, alpha is the mask.
 /// - If there is one channel for two regions, the second region gets the remainder.
-///Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at v
+///
+/// Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at v
 /// = 1. With UDIM tiles, a sample comes from the tile that contains the texture coordinate. If the
 /// coordinate lies on a tile border, the mean coordinate of the corner's polygon selects the tile.
 /// A single image covers u and v in [0, 1]; coordinates outside this range are clamped. A vertex
@@ -44,8 +45,9 @@ RegionWeights whole_head_weights(const Topology& topology);
 /// the vertex belongs to the last region.
 ///
 /// \param masks   may be empty if there is one region.
-/// \param is_needed  #V, or empty for all vertices. Tiles that none of these vertices use may be
-///                missing; vertices that lie only in missing tiles belong to the last region.
+/// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex needs
+///                   masks. Tiles that no needed vertex uses may be missing; vertices that lie only
+///                   in missing tiles belong to the last region.
 /// \param names   names of the regions; empty: assigns channels by order only.
 /// \throws MissingInput naming every missing image, and every missing tile that a needed vertex
 ///         uses.
@@ -59,7 +61,8 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
 
 /// Samples the first channel of a mask at every vertex, like region_weights, but does not scale the
 /// values. Returns zero for vertices that no polygon uses. Throws the errors of region_weights.
-/// \param is_needed  #V, or empty for all: vertices that must have texture coordinates.
+/// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex must have
+///                   texture coordinates.
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
                                 const MaskSource& mask, const std::vector<bool>& is_needed = {});
 

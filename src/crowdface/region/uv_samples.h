@@ -34,7 +34,8 @@ enum class UvTiling { kOne, kUdim };
 
 /// Collects the texture coordinates of every vertex. The list of a vertex that no polygon uses is
 /// empty.
-/// \param is_needed  #V, or empty for all: vertices that must have a texture coordinate.
+/// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex must have
+///                   a texture coordinate.
 /// \throws InvalidInput if a needed vertex that some polygon uses has no texture coordinate at any
 ///         corner, or if a coordinate lies outside all UDIM tiles (for UvTiling::kUdim).
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs,

@@ -27,7 +27,7 @@ class AttachmentSurface {
  public:
   /// \param uvs        #T by 2, may be empty.
   /// \param materials  at least one.
-  /// \param material_of_face  #F: index into `materials`.
+  /// \param material_of_face  for each polygon, an index into `materials`.
   AttachmentSurface(const Topology& topology, const TextureCoordinates& uvs,
                     std::vector<AttachmentMaterial> materials,
                     const std::vector<std::uint32_t>& material_of_face);

@@ -33,7 +33,7 @@ double turn_degrees(View view) {
 }
 
 /// Vertices above this fraction of the mesh's height belong to the head. Only these vertices
-/// determine the centre of the image, so that shoulders do not shift it.
+/// determine the centre of the image, so that shoulders do not shift the centre.
 constexpr double kNeck = 0.45;
 
 Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {

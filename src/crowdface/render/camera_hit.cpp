@@ -121,8 +121,8 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   finish(stage, hit.primitive, weights, normal, result.surface);
   result.surface.normal = towards(result.surface.to_viewer, side * normal);
   result.can_receive_key_light = can_receive_key_light(result.surface.normal, result.surface.kind);
-  // Start shadow rays on the smooth surface that the vertex normals imply, which lies above the
-  // facets, so that facets do not show at grazing light (Hanika 2021, "Hacking the shadow
+  // Start shadow rays on the smooth surface that the vertex normals imply. This surface lies above
+  // the facets, so that facets do not show at grazing light (Hanika 2021, "Hacking the shadow
   // terminator"). At sharp edges a vertex normal may point below the facet; skip such vertices,
   // because they would move the start below the facet.
   Vector lift = Vector::Zero();

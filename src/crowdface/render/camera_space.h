@@ -26,14 +26,14 @@ void to_camera_space(const Positions& positions, const Camera& camera, std::vect
 Eigen::Vector3f to_camera_space(const Camera& camera, Axis axis);
 
 /// Returns the vertex normals times `sign`: #V unit vectors in camera space.
-/// \param fans    faces around each vertex of the topology.
+/// \param fans    polygons around each vertex of the topology.
 /// \param points  positions from to_camera_space.
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign);
 
 /// Computes vertex normals. Reuses its memory from one head to the next.
 struct CameraNormals {
-  /// #F: for each polygon, its normal times twice its area
+  /// for each polygon: its normal times twice its area
   std::vector<Eigen::Vector3f> area_vectors;
   std::vector<Eigen::Vector3f> normals;  ///< #V
 

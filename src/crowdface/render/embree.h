@@ -26,7 +26,7 @@ inline RTCIntersectArguments intersect_arguments(RayCoherence coherence) {
 }
 
 /// Finds the first hit of each ray of a packet.
-/// \param valid  -1 for lanes with a ray, 0 for the others; aligned to 64 bytes.
+/// \param valid  -1 for lanes with a ray, 0 for other lanes; aligned to 64 bytes.
 /// \param query  Rays with empty hits; the function writes the distances and hits.
 inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, RTCRayHit8& query) {
   RTCIntersectArguments arguments = intersect_arguments(coherence);

@@ -12,16 +12,17 @@
 
 namespace crowdface {
 
-/// The eyeballs of a mesh: connected components of the faces of kind kEye. On eyeballs without a
+/// The eyeballs of a mesh: connected components of the polygons of kind kEye. On eyeballs without a
 /// texture, the renderer paints an iris that looks straight ahead.
 struct Eyeballs {
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  /// #V: number of the eyeball that the vertex belongs to, or kNone; empty if there are no eyeballs
+  /// for each vertex: index of the eyeball that the vertex belongs to, or kNone; empty if there are
+  /// no eyeballs
   std::vector<std::uint32_t> eyeball_of_vertex;
   std::uint32_t count = 0;
 };
 
-/// \param kinds  #F kinds, or empty.
+/// \param kinds  the kind of each polygon; or empty.
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
 /// Radii of pupil and iris as fractions of the eyeball's radius, as in dim light. The edges of

@@ -34,7 +34,7 @@ namespace {
 /// surface.
 constexpr float kReducedClearance = 2e-3F;
 
-/// Memory for rendering one face. It can be large, so it is reused for the next face.
+/// Memory for rendering one face. This memory can be large, so it is reused for the next face.
 struct Workspace {
   std::vector<float> points;
   CameraNormals normals;
@@ -106,8 +106,9 @@ struct FaceRenderer::Prepared {
   Sampling sampling;
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
-  std::vector<std::optional<LinearRgb>> quad_colours;  ///< linear; or empty
-  std::vector<TexturedQuad> quad_uvs;                  ///< or empty: no texture coordinates
+  std::vector<std::optional<LinearRgb>> quad_colours;  ///< linear colour of each quad; or empty
+  /// empty if there are no texture coordinates
+  std::vector<TexturedQuad> quad_uvs;
   Eyeballs eyeballs;
   RayDevice device;
   Occluders occluders;
@@ -164,7 +165,7 @@ void add_coordinates(const Topology& topology, const TextureCoordinates& uvs, In
   for (const Quad& quad : fan) {
     TexturedQuad textured{static_cast<std::uint32_t>(face), {}};
     for (std::size_t c = 0; c < 4; ++c) {
-      // If a corner of the face has no texture coordinates, the face gets no texture.
+      // If a corner of the polygon has no texture coordinates, the polygon gets no texture.
       if (quad[c] == kNoIndex) textured.face = TextureSet::kNone;
       if (quad[c] != kNoIndex) textured.uvs[c] = uvs.row(quad[c]).transpose().cast<float>();
     }

@@ -29,7 +29,7 @@ struct RenderOptions {
   Axis front = {2, 1};            ///< viewing direction of the eyes, for painted irises
 };
 
-/// Renders human faces of one topology in portrait light; without colours and textures they look
+/// Renders human faces of one topology in portrait light. Faces without colours and textures look
 /// like clay. Construct once, then render any number of faces from any thread. On one machine the
 /// pixels are reproducible and do not depend on the thread count. Polygons with more than four
 /// corners are drawn as fans around their first corner; polygons with fewer than three corners are
@@ -47,10 +47,10 @@ class FaceRenderer {
   ~FaceRenderer();
 
   /// \param positions  #V by 3, in the unit of the camera. If the constructor got no average face,
-  ///                   normals are flipped if the whole mesh is inside out, such as a mirrored
-  ///                   mesh.
+  ///                   the normals of a mesh that is inside out (such as a mirrored mesh) are
+  ///                   flipped.
   /// \param colours    #V by 3, override all other colours and textures; or nullptr.
-  /// \param texture_set  textures of the polygons that have one; or nullptr.
+  /// \param texture_set  textures for all or some of the polygons; or nullptr.
   /// \param attachments  attachments rendered with the face.
   /// \throws BrokenPrecondition if a size does not match; InvalidInput if a position is not finite.
   Rgb8Image render(const Positions& positions, const Camera& camera,

@@ -113,7 +113,7 @@ struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
   alignas(64) std::int32_t square[kCount];  ///< last square that the box overlaps; −1: not visible
-  alignas(64) std::int32_t alone[kCount];   ///< not 0: the box overlaps no other square
+  alignas(64) std::int32_t alone[kCount];   ///< not 0: the box overlaps only this square
   alignas(64) std::int32_t no_middle[kCount];  ///< 1: no pixel centre is in the box
   /// Box relative to `square`, packed into four bytes: left (lowest byte), top, right, bottom.
   alignas(64) std::int32_t in_square[kCount];

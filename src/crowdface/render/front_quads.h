@@ -78,7 +78,7 @@ struct SampledPixel {
 struct DepthBuffer {
   static constexpr std::uint32_t kNothing = 0xffffffffU;
   std::vector<float> nearness;             ///< 0: no quad
-  std::vector<std::uint32_t> front_quads;  ///< 2 · quad, plus 1 for the second triangle of the quad
+  std::vector<std::uint32_t> front_quads;  ///< 2 · quad index, plus 1 for the second triangle
 
   explicit DepthBuffer(std::size_t samples);
 };

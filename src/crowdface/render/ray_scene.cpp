@@ -33,7 +33,7 @@ struct SixteenRays {
   using RaysAndHits = RTCRayHit16;
 };
 
-/// \param valid  result: -1 for lanes with a ray, 0 for the others.
+/// \param valid  result: -1 for lanes with a ray, 0 for other lanes.
 template <class Packet, std::size_t kCount>
 void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& valid) {
   valid.fill(0);
@@ -187,7 +187,7 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kMovable;
-  // Robust mode avoids gaps along edges. Scenes with kMovable do without robust mode, because they
+  // Robust mode avoids gaps along edges. Scenes with kMovable do not use robust mode, because they
   // only cast shadows, where gaps are not visible.
   rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
   // Embree refits trees only in scenes of low build quality. The scene's quality affects only how

@@ -39,7 +39,8 @@ HWY_INLINE Vectors direction_of(const Lamp& lamp) {
 }
 
 /// Wrapped diffuse light: the terminator lies at a cosine of −wrap. The light falls off as the mean
-/// of a linear and a quadratic function; the integral is 5/6 of Lambert's for every wrap.
+/// of a linear and a quadratic function. For every wrap, the integral over all directions is 5/6 of
+/// the integral of Lambert's law.
 HWY_INLINE Numbers wrapped(Numbers cosine, Numbers wrap) {
   const Numbers whole = hn::Add(number(1), wrap);
   const Numbers lit = hn::Max(hn::Div(hn::Add(cosine, wrap), whole), number(0));

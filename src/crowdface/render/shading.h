@@ -36,7 +36,8 @@ class ShadeBatch {
   void add(const ShadePoint& point, float specular_factor);
   void shade();
 
-  /// Radiance of the point that was added as number `i`, from 0. Requires a call of `shade`.
+  /// Radiance of point `i`, counted from 0 in the order in which points were added. Requires a call
+  /// of `shade`.
   LinearRgb radiance(std::size_t i) const {
     const float* at = lights_.data() + i / kBlockSize * 3 * kBlockSize + i % kBlockSize;
     return {at[0], at[kBlockSize], at[2 * kBlockSize]};

@@ -21,7 +21,7 @@ namespace crowdface {
 
 /// Texture coordinates of a quad.
 struct TexturedQuad {
-  std::uint32_t face;  ///< face of the topology, or TextureSet::kNone
+  std::uint32_t face;  ///< index of the polygon in the topology, or TextureSet::kNone
   std::array<Eigen::Vector2f, 4> uvs;
 };
 
@@ -35,10 +35,11 @@ struct Stage {
   float ray_origin_offset;
   const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
   float winding_sign;                           ///< +1, or −1 if the winding is inside out
-  const VertexColours* colours;                 ///< #V, override all other colours; or nullptr
+  /// vertex colours, which override all other colours; or nullptr
+  const VertexColours* colours;
   const std::vector<Quad>& quads;
   const std::vector<SurfaceKind>& kinds;                      ///< #quads
-  const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< #quads linear colours, or empty
+  const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& textured_quads;            ///< #quads, or empty
   const TextureSet* texture_set;                              ///< textures, or nullptr
   std::vector<float> skin_lightness;  ///< lightness for each texture of `texture_set`

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// Material of a face of the mesh, for renders without textures.
+/// Material of a polygon of the mesh, for renders without textures.
 enum class SurfaceKind : std::uint8_t {
   kSkin,
   kEye,  ///< white of the eye
@@ -24,10 +24,11 @@ enum class SurfaceKind : std::uint8_t {
   kHidden,
 };
 
-/// Materials and colours of the faces of a mesh.
+/// Materials and colours of the polygons of a mesh.
 struct Surfaces {
-  std::vector<SurfaceKind> kinds;  ///< #F, or empty: all skin
-  /// #F colours of the polygons (sRGB) that replace the default colours of the kinds; or empty.
+  std::vector<SurfaceKind> kinds;  ///< one per polygon; if empty, all polygons are skin
+  /// For each polygon, an sRGB colour that replaces the default colour of the polygon's kind; or
+  /// empty.
   std::vector<std::optional<Eigen::Array3f>> polygon_colours = {};
   /// #T by 2 texture coordinates, indexed by the topology's corners; or empty: no textures.
   TextureCoordinates uvs = {};

@@ -29,7 +29,7 @@ Texture shrunk_texture(int width, int height, int max_px,
 /// Extends colours into unpainted texels, so that interpolation at the border of the painted area
 /// does not mix in unpainted texels. In each step, an unpainted texel gets the mean of its painted
 /// neighbours.
-/// \param painted  #texels
+/// \param painted  whether each texel is painted
 /// \param steps    number of steps: how far colours spread, in texels
 void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 
@@ -50,12 +50,12 @@ struct MipMap {
 struct TextureLayer {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::shared_ptr<const Texture>> textures;
-  /// #F: index into `textures`, or kNone; empty: no face has a texture
+  /// for each polygon: index into `textures`, or kNone; if empty, no polygon has a texture
   std::vector<std::uint32_t> texture_of_face;
 };
 
-/// Colour textures, normal maps and roughness maps of one head. Faces with kNone have the default
-/// colour of their surface kind.
+/// Colour textures, normal maps and roughness maps of one head. Polygons with kNone have the
+/// default colour of their surface kind.
 struct TextureSet : TextureLayer {
   /// Slopes of the surface along u and v, from tangent-space normal maps.
   TextureLayer slopes = {};

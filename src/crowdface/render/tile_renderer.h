@@ -14,9 +14,9 @@ namespace crowdface {
 struct Sampling {
   /// One sample in the centre of the pixel.
   PixelSamples centre_sample;
-  /// Samples for pixels that contain no edge, but whose normals differ from those of their
-  /// neighbours. If there are attachments (which may be transparent), samples for all pixels
-  /// without an edge.
+  /// Samples for pixels that contain no edge, but whose normals differ from their neighbours'
+  /// normals. If there are attachments (which may be transparent), samples for all pixels without
+  /// an edge.
   PixelSamples coarse_samples;
   PixelSamples fine_samples;                             ///< samples for pixels with edges
   InterleavedDisc key_light_directions, sky_directions;  ///< rays of a pixel towards each light

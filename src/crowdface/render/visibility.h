@@ -12,8 +12,8 @@ namespace crowdface {
 
 /// Ambient visibility of some vertices: the cosine-weighted fraction of the hemisphere above the
 /// surface that is free of obstacles, 0 … 1. Visibility is small between lips, in nostrils and at
-/// teeth. Faces of kind kHidden are not obstacles.
-/// \param kinds      #F, or empty: all skin.
+/// teeth. Polygons of kind kHidden are not obstacles.
+/// \param kinds      the kind of each polygon; if empty, all polygons are skin.
 /// \param positions  #V by 3, any unit.
 /// \return           one value for each of `vertices`.
 std::vector<float> vertex_visibility(const Topology& topology,

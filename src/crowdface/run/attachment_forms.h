@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// The attachments of a crowd at one level of detail. The "form" of an attachment is its data,
 /// converted for one file format.
-/// \tparam Form  the data of an attachment that are equal for all faces; a file combines these data
-///               with the attachment's positions on one face
+/// \tparam Form  the part of an attachment's data that is equal for all faces. A file combines this
+///               part with the attachment's positions on one face.
 template <class Form>
 class AttachmentForms {
  public:
@@ -74,8 +74,8 @@ class AttachmentForms {
   std::map<const Attachment*, Form> forms_;  ///< the converted data of each attachment
 };
 
-/// The data that the files of all faces share, converted for one file format: the data of the mesh,
-/// and the data ("forms", see AttachmentForms) of the attachments.
+/// The data of the mesh and of the attachments that are equal for all faces, converted for one file
+/// format.
 template <class Mesh, class Part>
 struct MeshWithAttachments {
   Mesh mesh;

@@ -160,8 +160,8 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
 /// the crowd's folder keep their own minimum distance in these trials.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
   if (config.crowd.existing_face_count) {
-    casting.diversity.min_distance_of_first_mm.try_emplace(*config.crowd.existing_face_count,
-                                                           casting.diversity.min_distance_mm);
+    casting.diversity.min_distance_mm_by_last_face.try_emplace(*config.crowd.existing_face_count,
+                                                               casting.diversity.min_distance_mm);
   }
   return casting;
 }
@@ -170,9 +170,9 @@ CastingOptions with_existing_faces(const Config& config, CastingOptions casting)
 
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache) {
-  const std::vector<double> areas =
-      face_vertex_areas(inputs.head_set.topology, inputs.skin_components, unplaced_mean(inputs),
-                        config.distance.area, config.faces.front, inputs.distance_weights);
+  const std::vector<double> areas = face_vertex_areas(
+      inputs.head_set.topology, inputs.skin_components, mean_before_placement(inputs),
+      config.distance.area, config.faces.front, inputs.distance_weights);
   const SampleCells cells = find_cells(inputs, prepared.samples);
   SampledHeads heads =
       sample_heads(inputs.head_set, inputs.regions, prepared.samples, prepared.trajectories,
@@ -297,7 +297,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     family.founder.family = family.name;
     result.founders.push_back(std::move(family.founder));
   }
-  // Keep the faces' points of the casting space only if a later stage needs these points: a million
+  // Keep the faces' points in the casting space only if a later stage needs these points. A million
   // points take a gigabyte.
   if (config.output.contact_sheet || !config.groups.empty()) {
     result.points = std::move(crowd.points);

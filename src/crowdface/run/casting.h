@@ -31,8 +31,8 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
 struct CrowdDistances {
   Quartiles between_heads;  ///< distances between input heads
   Quartiles between_faces;  ///< distances between faces of the crowd
-  /// one per region: distances between the faces, measured only in this region; empty if there is
-  /// only one region
+  /// for each region: distances between the faces, measured in this region only. Empty if there is
+  /// only one region.
   std::vector<Quartiles> between_faces_by_region;
   Quartiles to_nearest_head, to_nearest_face;
   /// median of `between_faces` divided by the median of `between_heads`; 0 if there are no heads to
@@ -49,25 +49,25 @@ struct FamilyReport {
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_outsider_mm = 0;
   double silhouette_coefficient = 0;  ///< see mean_silhouette_coefficient
-  /// The largest value over all children of this fraction: of the faces outside the family, the
-  /// fraction that is nearer to the child than the farther of its two parents. Empty if the family
-  /// has no parents.
+  /// For each child, take the fraction of the faces outside the family that are nearer to the child
+  /// than the child's farther parent. This value is the maximum over all children. Empty if the
+  /// family has no parents.
   std::optional<double> nearer_stranger_fraction;
 };
 
-/// A cast crowd: its faces, and the heads' positions on the plane.
+/// The result of casting: the faces of a crowd, and the heads' positions on the weight plane.
 struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads
   std::vector<FacePlan> crowd;      ///< the faces, with their nearest neighbours
-  std::vector<int> group_of_face;   ///< group of each sampled face, or −1
+  std::vector<int> group_of_face;   ///< group of each sampled face; −1: none
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
   std::vector<TraitReport> traits;  ///< reports on the measurements that the config names
   std::vector<FacePlan> founders;   ///< founders of families: hidden faces, not part of the crowd
   std::vector<FacePlan> rejected;   ///< faces that reviews rejected
-  /// one per face of the crowd: its point in the casting space; empty if there are neither contact
-  /// sheets nor groups
+  /// the point of each face in the casting space; empty if the config has neither contact sheets
+  /// nor groups
   std::vector<FaceSpace::Point> points;
 };
 

@@ -12,9 +12,9 @@
 namespace crowdface {
 namespace {
 
-/// Puts the named attachments on a face. Removes the face's other attachments that have the kind of
-/// a named attachment, exclude a named attachment, or are excluded by a named attachment. If
-/// `names` is empty, removes all attachments.
+/// Puts the named attachments on a face. Removes each attachment of the face that has the same kind
+/// as a named attachment, or that must not be worn together with a named attachment (`excludes`).
+/// If `names` is empty, removes all attachments.
 void replace_attachments(const Config& config, const std::vector<std::string>& names,
                          FacePlan& face) {
   const std::vector<Config::Attachment>& items = config.attachments.items;
@@ -91,7 +91,7 @@ class ChangedLooks {
   /// Gives `face` the skin that `other` would have at the age of `face`.
   void take_skin(FacePlan other, FacePlan& face) const {
     if (config_.textures.blend != TextureBlend::kAuto) return;  // the face has the same target
-    for (RegionRecipe& region : other.recipe.regions) {  // its skin ages like the finest band
+    for (RegionRecipe& region : other.recipe.regions) {  // skin ages like the finest band of detail
       if (region.colours.empty()) continue;
       band_of(region, band_count(region) - 1).weights = std::exchange(region.colours, {});
     }

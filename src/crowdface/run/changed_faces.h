@@ -16,8 +16,8 @@ namespace crowdface {
 /// Replaces the changed faces of a crowd, with their colours and attachments. No other face
 /// changes.
 ///
-/// - A face that is the same person keeps its colours and attachments. The hair greys with the age
-///   of the face.
+/// - A changed face that is still the same person keeps its colours and attachments. The hair greys
+///   with the age of the face.
 /// - A face that was sampled again gets new colours and attachments, see
 ///   choose_attachments_of_changed_face. A variant keeps the colours of its original.
 ///

@@ -67,7 +67,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
   // distance mask, which change the sheets only through the plan and the likeness data.
   try {
     add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
-  } catch (const MissingInput& error) {  // removed by another program: it existed a moment ago
+  } catch (const MissingInput& error) {  // another program has removed the plan
     throw IoError(error.what());
   }
   hasher.add(whole_text(plan_text(crowd_plan.founders, job.names, job.settings)));
@@ -121,7 +121,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
   const std::vector<FacePlan>& crowd = crowd_plan.crowd;
   const CrowdLikeness likeness = crowd_likeness(crowd_plan.anchors, crowd_plan.points);
   const Digest key = key_of_sheets(job, directory, crowd_plan, likeness, faces);
-  // If the sheets show a comparison image from a file, always make them again: the file may have
+  // If the faces are compared with a file, always make the sheets again, because the file may have
   // changed.
   const bool may_change = sheet.compare.reference == Config::MeshComparison::Reference::kFile;
   if (!may_change && ledger.find_verified(kItem, key)) return sheet_page_count(sheet, crowd.size());

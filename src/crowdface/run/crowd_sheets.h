@@ -17,7 +17,7 @@
 namespace crowdface {
 
 /// Makes the contact sheets, the gallery and the data files of both, unless these files are up to
-/// date. They depend on the faces' images and meshes, the config and the gallery's page.
+/// date. The files depend on the faces' images and meshes, the config and the gallery's page.
 /// \param faces    results, one per face of the crowd
 /// \param builder  builds the founders of families, which have no mesh files
 /// \return the number of sheets that the faces fill.

@@ -143,8 +143,8 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
                      const std::filesystem::path& cache) {
   const Job job = load_job(config_file, overrides, cache);
   const CrowdDirectory directory = crowd_directory_of(job.config);
-  // Accept a folder that holds another crowd: estimate.csv and estimate.svg overwrite none of its
-  // files.
+  // Accept a folder that holds another crowd: estimate.csv and estimate.svg overwrite none of that
+  // crowd's files.
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
   const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
   const CastingSpace judged_in = casting_space(job.config, job.inputs, prepared, cache);

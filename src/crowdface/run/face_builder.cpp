@@ -44,7 +44,7 @@ FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepa
       prepared_(prepared),
       keeps_contacts_(config.blending.contacts == ContactHandling::kAuto),
       mm_per_unit_(mm_per(config.faces.units)) {
-  BackgroundTasks beside;  // runs the contacts in parallel with the parts
+  BackgroundTasks beside;  // finds the contacts in parallel with the work on the parts
   beside.run([&] { contacts_.emplace(inputs.head_set, inputs.adjacency, skin_vertices(inputs)); });
   if (!inputs.parts.parts.empty()) {
     follower_.emplace(inputs.head_set, inputs.parts, head_axes(config), config.parts.shape);
@@ -144,7 +144,7 @@ const MirrorMap& FaceBuilder::mirror() const {
 
 SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
                                  const Positions& face) const {
-  std::optional<Positions> mixed;  // the target, unless it is a head
+  std::optional<Positions> mixed;  // the target shape; empty if a head itself is the target
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
     mixed = target_positions(inputs_.head_set, recipe);
     if (recipe.asymmetry != 1) {
@@ -156,7 +156,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
       mixed ? *mixed : inputs_.head_set.heads[static_cast<std::size_t>(recipe.target)].positions;
   Positions judged = face;
   const auto turn = motion_to_body(recipe);
-  if (inputs_.heads_on_body) {  // the bend at the neck is no defect: undo it
+  if (inputs_.heads_on_body) {  // the bend at the neck is not a defect
     Positions like = target;
     if (turn) move_rows(*turn, like);
     inputs_.heads_on_body->seam.bend_to_rim_of(recipe.mirrored ? mirrored(mirror(), like) : like,
@@ -233,7 +233,8 @@ std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
     const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
     bytes_per_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }
-  constexpr std::uint64_t kMirrored = 3;  // the face, its mirror image, and the mesh between them
+  // number of meshes of a face in memory: the face, its mirror image, and the mesh between both
+  constexpr std::uint64_t kMirrored = 3;
   if (inputs_.mirror_map != nullptr)
     bytes_per_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
   return face_count * bytes_per_face;

@@ -25,9 +25,9 @@ class MeshFileList {
 
   std::vector<FaceFile> files() {
     if (options_.formats.empty()) return {};
-    const std::size_t levels = options_.all_variants ? inputs_.levels.size() : 0;
+    const std::size_t levels = options_.includes_all_variants ? inputs_.levels.size() : 0;
     for (std::size_t level = 0; level <= levels; ++level) add_meshes(level);
-    if (options_.all_variants && !inputs_.points.empty()) {
+    if (options_.includes_all_variants && !inputs_.points.empty()) {
       add(kPointsFollowingFaceFile, {}, "following_points",
           [](const FinishedFace& face) { return face.encoders->points(face); });
     }
@@ -35,13 +35,13 @@ class MeshFileList {
       for (std::size_t level = 0; level <= levels; ++level) add_attachments(level);
     }
     if (has_own_textures(inputs_)) add_textures();
-    if (options_.all_variants && !config_.neck.body_texture.empty()) {
+    if (options_.includes_all_variants && !config_.neck.body_texture.empty()) {
       files_.push_back({options_.folder / kBlendedFolder / concat(face_.id, ".body.png"),
                         {},
                         {},
                         [](const FinishedFace& face) {
                           EncodedFile bytes;
-                          bytes.refer_to(face.textures->back().front());
+                          bytes.add_without_copy(face.textures->back().front());
                           return bytes;
                         }});
     }
@@ -53,7 +53,9 @@ class MeshFileList {
   bool has(const Is& is) const {
     return any_format(options_.formats, is);
   }
-  std::size_t shapes() const { return options_.all_variants ? inputs_.shapes.shapes.size() : 0; }
+  std::size_t shapes() const {
+    return options_.includes_all_variants ? inputs_.shapes.shapes.size() : 0;
+  }
 
   /// Joins the parts of a file name that stand between stem and extension, for example
   /// "LOD1+bob+smile".
@@ -99,7 +101,7 @@ class MeshFileList {
   void add_attachments(std::size_t level) {
     for (const std::string& name : face_.attachments) {
       add_attachment(name, level, {});
-      if (!options_.all_variants) continue;
+      if (!options_.includes_all_variants) continue;
       const auto shapes = shapes_in_files(inputs_.attachments.at(name), options_.formats, inputs_);
       for (std::size_t s = 0; s < shapes.size(); ++s) add_attachment(name, level, s);
     }
@@ -119,7 +121,8 @@ class MeshFileList {
     for (const OwnTextureFile& file : own_texture_files(config_, inputs_, face_.id)) {
       files_.push_back({options_.folder / file.name, {}, {}, [=](const FinishedFace& face) {
                           EncodedFile bytes;
-                          bytes.refer_to((*face.textures)[file.picture_index][file.format_index]);
+                          bytes.add_without_copy(
+                              (*face.textures)[file.picture_index][file.format_index]);
                           return bytes;
                         }});
     }

@@ -38,7 +38,7 @@ struct MeshFileOptions {
   std::filesystem::path folder;  ///< folder of the meshes
   std::string stem;              ///< first part of the file names
   /// false: only the whole mesh at rest; no levels of detail, shapes or points
-  bool all_variants = true;
+  bool includes_all_variants = true;
 };
 /// All mesh files of a face, including its attachments, textures and material file.
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,

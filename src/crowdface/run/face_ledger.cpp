@@ -52,19 +52,22 @@ std::string item_of(const FacePlan& face) {
 }
 
 Json to_json(const SkinDefects& skin) {
-  return {{"compared", skin.local.compared_count}, {"flipped", skin.local.flipped_count},
-          {"stretch", skin.local.stretch_factor},  {"intersecting", skin.intersecting_count},
-          {"wider_mm", skin.gap_excess_mm},        {"exposed_mm2", skin.exposed_back_face_mm2}};
+  return {{"compared", skin.local.compared_triangle_count},
+          {"flipped", skin.local.flipped_triangle_count},
+          {"stretch", skin.local.stretch_factor},
+          {"intersecting", skin.intersecting_triangle_count},
+          {"wider_mm", skin.gap_excess_mm},
+          {"exposed_mm2", skin.exposed_back_face_mm2}};
 }
 
 /// Parses the output of `to_json`. The caller has verified the checksum of the ledger line, so this
 /// function throws only if another version of the program wrote the line.
 SkinDefects noted_skin(const Json& json) {
   SkinDefects skin;
-  skin.local.compared_count = json.at("compared").get<Index>();
-  skin.local.flipped_count = json.at("flipped").get<Index>();
+  skin.local.compared_triangle_count = json.at("compared").get<Index>();
+  skin.local.flipped_triangle_count = json.at("flipped").get<Index>();
   skin.local.stretch_factor = json.at("stretch").get<double>();
-  skin.intersecting_count = json.at("intersecting").get<Index>();
+  skin.intersecting_triangle_count = json.at("intersecting").get<Index>();
   skin.gap_excess_mm = json.at("wider_mm").get<double>();
   skin.exposed_back_face_mm2 = json.at("exposed_mm2").get<double>();
   return skin;

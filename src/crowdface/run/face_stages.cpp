@@ -59,7 +59,7 @@ std::uint64_t level_bytes(const Prepared& prepared) {
   for (const StoredLevels& levels : prepared.levels) {
     if (!levels.mapped_file) bytes += levels.fields.quantized_values.size_bytes();
   }
-  const PatchLists& patches = prepared.patches.patches.lists();
+  const PatchArrays& patches = prepared.patches.patches.lists();
   if (!prepared.patches.mapped_file) {
     bytes += patches.weights.size_bytes() + patches.quantized_values.size_bytes();
   }
@@ -68,8 +68,8 @@ std::uint64_t level_bytes(const Prepared& prepared) {
 
 /// Memory, in bytes, of all attachments that some face wears: their meshes, and their textures for
 /// renders.
-std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
-                           const std::vector<FacePlan>& crowd) {
+std::uint64_t placement_memory_bytes(const Config& config, const Inputs& inputs,
+                                     const std::vector<FacePlan>& crowd) {
   std::set<std::string> placed;
   for (const FacePlan& face : crowd)
     placed.insert(face.attachments.begin(), face.attachments.end());
@@ -89,8 +89,8 @@ std::uint64_t placed_bytes(const Config& config, const Inputs& inputs,
                           " are allowed (--memory); fewer threads (--threads) need less"));
 }
 
-/// Maximum number of faces in memory: a group that is being blended, and one face of the previous
-/// group for each thread, because each thread may still be finishing one such face.
+/// Maximum number of faces in memory at the same time: the faces of the group that is being
+/// blended, and, for each thread, a face of the previous group that the thread is finishing.
 std::uint64_t faces_held(std::uint64_t at_once) {
   return at_once + std::min(at_once, static_cast<std::uint64_t>(thread_count()));
 }
@@ -164,7 +164,8 @@ class FaceGroup {
   std::function<void(std::size_t, const Positions&)> make_;
   FaceMemory* memory_ = nullptr;
   std::atomic<std::size_t> next_ = 0;
-  BackgroundTasks tasks_;  // last, so that it ends before the members that it uses
+  // declared last, so that the tasks end before the other members are destroyed
+  BackgroundTasks tasks_;
 };
 
 }  // namespace
@@ -188,8 +189,9 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   std::uint64_t fixed_bytes = input_bytes(inputs) + render_bytes(config, inputs) +
                               level_bytes(prepared) + encoders_.memory_bytes() +
                               shapes.memory_bytes() + attachments.memory_bytes() +
-                              placed_bytes(config, inputs, crowd);
-  std::uint64_t of_thread = encoders_.encoding_memory_bytes() + attachments.placed_bytes();
+                              placement_memory_bytes(config, inputs, crowd);
+  std::uint64_t of_thread =
+      encoders_.encoding_memory_bytes() + attachments.placement_memory_bytes();
   // Vertex colours: the face's own colours, and the colours for rendering.
   if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.has_textures()) {
@@ -208,16 +210,16 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     of_thread += check_->comparison_memory_bytes();
   }
   const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
-  waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
-  // Encoded files of up to `waiting_bytes_` wait in the queue. The batch that is being written may
-  // have the same size.
-  fixed_bytes += of_threads + 2 * waiting_bytes_;
+  max_waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
+  // Encoded files of up to `max_waiting_bytes_` wait in the queue. The batch that is being written
+  // may have the same size.
+  fixed_bytes += of_threads + 2 * max_waiting_bytes_;
   const std::uint64_t one_face = builder.memory_bytes(1);
   faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory_bytes);
   // If memory is left, enlarge the queue: a long queue keeps the disk busy while faces are blended.
   const std::uint64_t room = memory_bytes - fixed_bytes - faces_held(faces_per_group_) * one_face;
-  waiting_bytes_ = std::clamp(waiting_bytes_ + room / 2, waiting_bytes_,
-                              std::max(waiting_bytes_, FaceWriter::kMaxWaitingBytes));
+  max_waiting_bytes_ = std::clamp(max_waiting_bytes_ + room / 2, max_waiting_bytes_,
+                                  std::max(max_waiting_bytes_, FaceWriter::kMaxWaitingBytes));
 }
 
 /// Encodes, renders and judges faces, and passes their files to the writer. Thread-safe.
@@ -269,7 +271,7 @@ void FaceStages::build(const FaceFileLists& lists, const CrowdRenders* renders,
                        std::span<FaceResult* const> results, StageTimes& busy) const {
   lists.make_folders(faces);
   Progress progress("faces", faces.size());
-  FaceWriter writer(ledger, waiting_bytes_, [&] { progress.step(); });
+  FaceWriter writer(ledger, max_waiting_bytes_, [&] { progress.step(); });
   Output output(*this, lists, renders, writer, busy);
   FaceMemory memory;
   std::array<FaceGroup, 2> groups;

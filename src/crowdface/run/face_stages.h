@@ -61,7 +61,7 @@ class FaceStages {
   const FaceShapes& shapes_;
   std::optional<SkinCheck> check_;  ///< empty if no mesh is judged
   std::size_t faces_per_group_;
-  std::uint64_t waiting_bytes_;  ///< maximum size of encoded files that wait to be written
+  std::uint64_t max_waiting_bytes_;  ///< maximum size of encoded files that wait to be written
 };
 
 }  // namespace crowdface

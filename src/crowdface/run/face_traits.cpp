@@ -140,7 +140,7 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
   Recipe plain = recipe;
   plain.mirrored = false;
   const Positions at = sample_face(heads_, plain) / mm_per_unit_;
-  thread_local Positions face;  // only the rows of samples_ hold the face
+  thread_local Positions face;  // only the rows listed in samples_ are set
   if (face.rows() != vertex_count_) face = Positions::Zero(vertex_count_, 3);
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     face.row(samples_[s]) = at.row(static_cast<Index>(s));

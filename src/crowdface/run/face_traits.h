@@ -30,8 +30,9 @@ class FaceTraits {
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
-  /// Whether to measure the face as written, bent at the neck to fit the body (kBent), or before
-  /// this step (kAsBlended). Casting uses kAsBlended, so that a body does not change the recipes.
+  /// The mesh to measure: the face as written, bent at the neck to fit the body (kBent), or the
+  /// face before this bend (kAsBlended). Casting uses kAsBlended, so that a body does not change
+  /// the recipes.
   enum class Neck { kBent, kAsBlended };
   Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
   /// Replaces the positions of the vertices `landmark_vertices_` by their positions on the mirrored
@@ -46,8 +47,8 @@ class FaceTraits {
   std::shared_ptr<const HeadsOnBody> neck_;
   /// the vertices of the landmarks and, if there is a neck, of the ring of vertices at the neck
   std::vector<std::uint32_t> landmark_vertices_;
-  /// the vertices on which the exact landmark positions depend, ascending; and the heads' data at
-  /// these vertices
+  /// the vertices on which the exact landmark positions depend, ascending; `heads_` holds the
+  /// heads' data at these vertices
   FaceSamples samples_;
   SampledHeads heads_;
   Index vertex_count_;

@@ -15,10 +15,10 @@ constexpr std::size_t kMaxFiles = 200;
 
 }  // namespace
 
-FaceWriter::FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes,
+FaceWriter::FaceWriter(const FaceLedger& ledger, std::uint64_t max_waiting_bytes,
                        std::function<void()> on_recorded)
     : ledger_(ledger),
-      waiting_bytes_(waiting_bytes),
+      max_waiting_bytes_(max_waiting_bytes),
       on_recorded_(std::move(on_recorded)),
       thread_([this] { run(); }) {}
 
@@ -38,7 +38,7 @@ void FaceWriter::add(MadeFace face, std::vector<ReadyFile> files) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] {
     return error_ != nullptr || waiting_.faces.empty() ||
-           (waiting_.bytes + bytes <= waiting_bytes_ && waiting_.files.size() < kMaxFiles);
+           (waiting_.bytes + bytes <= max_waiting_bytes_ && waiting_.files.size() < kMaxFiles);
   });
   if (error_) std::rethrow_exception(error_);
   waiting_.faces.push_back(std::move(face));
@@ -84,7 +84,7 @@ void FaceWriter::run() {
 void FaceWriter::write(const Batch& batch) {
   std::vector<FileToWrite> files;
   for (const ReadyFile& file : batch.files) {
-    if (has_content(file.path, file.digest)) continue;  // only other files of the face are missing
+    if (has_content(file.path, file.digest)) continue;  // an earlier run has written this file
     files.push_back({file.path, file.bytes.pieces()});
     if (files.size() < kMaxFiles) continue;
     write_files(files);

@@ -24,15 +24,16 @@ struct ReadyFile {
 };
 
 /// Writes faces on a separate thread, so that computing threads need not wait for the disk. Faces
-/// that are finished while one batch is written form the next batch. Each batch needs only one sync to disk and one write to the ledger. A file
-/// that already has the right content is not written again.
+/// that are finished while one batch is written form the next batch. Each batch needs only one sync
+/// to disk and one write to the ledger. A file that already has the right content is not written
+/// again.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.
-  /// \param waiting_bytes  maximum size of the files that wait to be written; only a single face
-  /// may be larger
+  /// \param max_waiting_bytes  maximum total size of the files that wait to be written. A single
+  /// face may exceed this size.
   /// \param on_recorded    called after each recorded face
-  FaceWriter(const FaceLedger& ledger, std::uint64_t waiting_bytes,
+  FaceWriter(const FaceLedger& ledger, std::uint64_t max_waiting_bytes,
              std::function<void()> on_recorded);
   ~FaceWriter();  ///< drops files whose writing has not begun
   FaceWriter(const FaceWriter&) = delete;
@@ -64,7 +65,7 @@ class FaceWriter {
   void write(const Batch& batch);
 
   const FaceLedger& ledger_;
-  std::uint64_t waiting_bytes_;
+  std::uint64_t max_waiting_bytes_;
   std::function<void()> on_recorded_;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -72,7 +73,7 @@ class FaceWriter {
   bool is_writing_ = false, is_closing_ = false;
   std::exception_ptr error_;
   double busy_seconds_ = 0;
-  std::thread thread_;  // last, because the thread uses the other members
+  std::thread thread_;  // declared last, because the thread uses the other members
 };
 
 }  // namespace crowdface

@@ -119,10 +119,9 @@ std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd
   return warnings;
 }
 
-/// Reads the crowd, or a shard's faces, from the folder's plan. Returns null if the folder has no
-/// plan that belongs to this job, but the run may cast the crowd.
-/// \throws MissingInput if the folder has no plan that belongs to this job and the run must not
-/// cast the crowd.
+/// Reads the crowd, or a shard's faces, from the folder's plan. Returns null if there is no plan
+/// that belongs to this job and the run may cast the crowd itself.
+/// \throws MissingInput if there is no such plan and the run must not cast the crowd.
 std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& options,
                                         StageSeconds& stages) {
   const CrowdDirectory directory = crowd_directory_of(job.config);
@@ -220,7 +219,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     for (const LedgerEntry::File& file : planned.plan_files) ledger.record_existing(file);
     if (options.shard.is_whole_crowd()) {
       write(directory.table(),
-            table_text(crowd, job.names, neck_colours, tags_and_kinds_of(job.config)));
+            table_text(crowd, job.names, neck_colours, head_tags_and_attachment_kinds(job.config)));
     }
   } else {
     write_plan(job, directory, crowd_plan, planned.casting, neck_colours, write);
@@ -353,7 +352,8 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
     log_info(done);
   } catch (const std::exception& error) {
     if (progress) {
-      progress->end(interrupted() ? ShardState::kInterrupted : ShardState::kFailed, error.what());
+      progress->end(is_interrupted() ? ShardState::kInterrupted : ShardState::kFailed,
+                    error.what());
     }
     log_debug(error.what());  // `main` reports the error after this log is closed
     throw;

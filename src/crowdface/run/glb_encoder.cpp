@@ -39,8 +39,9 @@ std::optional<GlbImage> supported_image(const fs::path& file) {
   return std::nullopt;
 }
 
-/// Returns an image whose RGB is `colour` and whose alpha is `opacity`. Null: white or opaque. If
-/// `opacity` has another size than `colour`, uses the nearest texel of `opacity`.
+/// Returns an image whose RGB is `colour` and whose alpha is `opacity`. A null `colour` gives
+/// white; a null `opacity` gives an opaque image. If `opacity` has another size than `colour`, uses
+/// the nearest texel of `opacity`.
 GlbImage rgba_image(const Image* colour, const Image* opacity) {
   const Image& size = colour != nullptr ? *colour : *opacity;
   std::vector<std::uint8_t> pixels;

@@ -66,8 +66,9 @@ std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& input
   return overlay;
 }
 
-/// Returns one value for each polygon: the index, among the images of the GLB file, of the
-/// polygon's texture of this kind, or kNoIndex. Empty if no polygon has such a texture.
+/// Returns one value for each polygon: the index in `held` (the images of the GLB file) of the
+/// polygon's texture of this kind; kNoIndex if the polygon has none. Returns an empty list if no
+/// polygon has such a texture.
 std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const Inputs& inputs,
                                      TextureKind kind) {
   std::size_t first = 0;
@@ -94,8 +95,8 @@ std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const 
   return {};
 }
 
-/// Adds one material for each different combination of material name, surface kind and textures
-/// that occurs among the polygons.
+/// Adds one material for each distinct combination of material name, surface kind and textures that
+/// occurs among the polygons.
 void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
                    const Surfaces& surfaces, GlbOptions& options) {
   const std::vector<std::uint32_t> colours = images_of(held, inputs, TextureKind::kColour);

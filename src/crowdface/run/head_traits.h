@@ -16,7 +16,7 @@ namespace crowdface {
 /// The landmarks of a config's heads: points on the common mesh topology of all heads and faces.
 struct HeadLandmarks {
   std::vector<std::optional<SurfacePoint>> surface_points;  ///< #trait_landmarks
-  /// #trait_landmarks: why the landmark has no point; empty text if it has one
+  /// for each landmark: the reason why the landmark has no point; empty if the landmark has a point
   std::vector<std::string> missing_reasons;
 
   /// Returns whether the positions of all landmarks of a measurement are known.

@@ -62,7 +62,7 @@ constexpr std::array<MeshEncoding, kMeshFormatCount> kEncodings = {{
        return kVector * size.vertex_count + size.polygon_count +
               sizeof(std::uint32_t) * size.corner_count;
      }},
-    {MeshFormat::kGlb, glb_encoders,  // positions, normals, texture coordinates, ids; triangles
+    {MeshFormat::kGlb, glb_encoders,  // 36 bytes per vertex, 12 bytes per triangle
      [](const MeshSize& size) {
        return 3 * kVector * size.vertex_count +
               kVector * (size.corner_count - 2 * size.polygon_count) +

@@ -64,8 +64,8 @@ inline bool has_normals(const Inputs& inputs, Index head) {
   return !inputs.head_files[static_cast<std::size_t>(head)].corner_normals.empty();
 }
 
-/// Whether each face gets a separate texture for this attachment. True only for the body, which is
-/// an attachment, too, and only if `neck.body_texture` is set.
+/// Whether each face gets a separate texture for this attachment. True only for the body (which is
+/// also an attachment), if `neck.body_texture` is set.
 bool has_own_texture(const MeshSource& source, const Attachment& item);
 
 /// Encodes faces in one format at one level of detail. Thread-safe.
@@ -79,8 +79,8 @@ struct MeshEncoder {
 /// One encoder for each level of detail for which files of the format are written.
 using MeshEncoders = std::vector<MeshEncoder>;
 
-/// Makes an encoder from a form, an object that holds the data that are equal for all faces. \param
-/// encode called with the form and a face
+/// Makes an encoder from a form. A form is an object with the data that are equal for all faces.
+/// \param encode  called with the form and a face
 template <class Form, class Encode>
 MeshEncoder make_encoder(std::shared_ptr<const Form> form, const Encode& encode) {
   return {[=](const FaceMesh& face) { return encode(*form, face); }, form->memory_bytes(),

@@ -60,8 +60,8 @@ std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& f
   return {memory, encode};
 }
 
-/// Returns new `mtllib` lines by target head. Contains only target heads whose own `mtllib` line
-/// names other material files than those that this run writes.
+/// Returns new `mtllib` lines by target head. Omits target heads whose own `mtllib` line already
+/// names the material files that this run writes.
 std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.target_heads) {
@@ -74,9 +74,9 @@ std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   return lines;
 }
 
-/// For each target head whose first polygons have no material although the head's material files
-/// define exactly one material: a `usemtl` line, written after the `mtllib` line. Without this
-/// line, programs ignore the material.
+/// Returns `usemtl` lines by target head, to be written after the `mtllib` line. Contains the
+/// target heads whose first polygons have no material although their material files define exactly
+/// one material. Without this line, programs ignore the material.
 std::map<Index, std::string> material_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.target_heads) {

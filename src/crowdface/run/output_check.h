@@ -17,12 +17,14 @@ void check_output(const Job& job, Replace replace);
 void open_output(const Job& job, Replace replace);
 
 /// Refuses to replace a crowd that was cast from other heads, because that crowd could not be made
-///     again. \throws UsageError in this case.
+/// again.
+/// \throws UsageError in this case.
 /// \param settings  hash of the present heads, see settings_digest
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
 
-/// Compares the inputs with the report in the folder. \throws UsageError if the faces in the folder
-///         have other textures, attachments, shapes, points or another rig than these inputs.
+/// Compares the inputs with the report in the folder.
+/// \throws UsageError if the faces in the folder have other textures, attachments, shapes, points
+/// or another rig than these inputs.
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory);
 
 }  // namespace crowdface

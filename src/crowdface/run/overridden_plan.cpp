@@ -76,7 +76,7 @@ class OverriddenPlan {
     return worn;
   }
 
-  /// Finds attachments that fewer sampled faces wear than the quota requests. A face that lacks an
+  /// Finds attachments that fewer sampled faces wear than a quota requests. A face that lacks an
   /// attachment because of a change does not count as missing.
   void find_missed_quotas() {
     constexpr double kRounding = 1e-9;
@@ -107,7 +107,8 @@ class OverriddenPlan {
   /// Finds hair colours that fewer faces have than the config requests. Does not count changed
   /// faces.
   void find_missed_hair() {
-    std::map<std::string, std::vector<const FacePlan*>> groups;  // "": all without own colours
+    // key "": faces without a group, and faces whose group has no hair colours of its own
+    std::map<std::string, std::vector<const FacePlan*>> groups;
     const auto own = [&](const std::string& name) {
       return std::ranges::find_if(config_.groups, [&](const Group& group) {
         return group.name == name && !group.hair_colours.empty();

@@ -35,11 +35,11 @@ std::string file_name(const std::string& id, const PictureName& picture, Texture
 
 std::string encode_exr_of(const BlendedPicture& picture) {
   std::vector<float> pixels;
-  if (picture.values16.empty()) {
+  if (picture.values_16_bit.empty()) {
     const std::array<float, 256>& light = linear_of_srgb8();
     for (const std::uint8_t value : picture.srgb) pixels.push_back(light[value]);
   } else {
-    for (const std::uint16_t word : picture.values16) {
+    for (const std::uint16_t word : picture.values_16_bit) {
       pixels.push_back(picture.low + picture.step * static_cast<float>(word));
     }
   }
@@ -48,12 +48,12 @@ std::string encode_exr_of(const BlendedPicture& picture) {
 
 std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
   if (!as_bytes) {
-    return encode_png16(picture.width, picture.height, picture.channels, picture.values16);
+    return encode_png16(picture.width, picture.height, picture.channels, picture.values_16_bit);
   }
   constexpr int kWordsPerByte = 257;
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(picture.values16.size());
-  for (const int word : picture.values16) {
+  bytes.reserve(picture.values_16_bit.size());
+  for (const int word : picture.values_16_bit) {
     bytes.push_back(static_cast<std::uint8_t>((word + kWordsPerByte / 2) / kWordsPerByte));
   }
   return encode_png(picture.width, picture.height, picture.channels, bytes);
@@ -62,15 +62,15 @@ std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
 std::string encode_picture(const BlendedPicture& picture, const PictureName& name,
                            TextureFormat format) {
   if (format == TextureFormat::kExr) return encode_exr_of(picture);
-  if (!picture.values16.empty()) return encode_words(picture, name.has_only_bytes);
+  if (!picture.values_16_bit.empty()) return encode_words(picture, name.has_only_bytes);
   return format == TextureFormat::kJpeg
              ? encode_jpeg(picture.width, picture.height, picture.srgb)
              : encode_png(picture.width, picture.height, 3, picture.srgb);
 }
 
-constexpr std::uint64_t kChannels = 3;  // at most
+constexpr std::uint64_t kChannels = 3;  // maximum number of channels of a texture
 
-/// Maximum size of an encoded image: bytes per texel for each channel.
+/// Maximum size of an encoded image, in bytes per texel and channel.
 std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) {
   if (format == TextureFormat::kExr) return sizeof(float);
   return picture.has_only_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);

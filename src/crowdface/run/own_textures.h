@@ -27,7 +27,8 @@ struct OwnTextureFile {
 std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
                                               const std::string& id);
 
-/// An image in a GLB file. GLB supports no EXR, and only colour, normal and roughness maps.
+/// An image in a GLB file. GLB files contain only colour, normal and roughness maps, and no EXR
+/// images.
 struct GlbPicture {
   std::size_t picture_index = 0;  ///< index into face_picture_names
   TextureFormat format = TextureFormat::kPng;

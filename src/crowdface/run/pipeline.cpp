@@ -50,8 +50,8 @@ void check_smoothness(const SmoothnessDistribution& distribution, const std::str
   }
 }
 
-/// Adds a problem unless, for all values that casting can sample, each band begins at fewer
-/// smoothing iterations than the previous band.
+/// Checks that each band begins at fewer smoothing iterations than the previous band, for all
+/// values that casting can sample. Otherwise adds a problem.
 /// \param where  prefix of the config keys in messages
 void check_sampling(const SamplingOptions& sampling, const std::string& where, const Config& config,
                     const Inputs& inputs, Problems& problems) {
@@ -131,12 +131,12 @@ Config with_kept_distances(Config config, const std::string& before) {
   DiversityOptions& diversity = config.diversity;
   const auto kept = distances_in_config(before);
   const auto count = number_in_config(before, "crowd.count");
-  const bool is_own = !diversity.min_distance_of_first_mm.empty() && kept &&
-                      diversity.min_distance_of_first_mm != kept->min_distance_of_first_mm;
+  const bool is_own = !diversity.min_distance_mm_by_last_face.empty() && kept &&
+                      diversity.min_distance_mm_by_last_face != kept->min_distance_mm_by_last_face;
   if (!kept || !count || is_own || diversity.min_distance_mm > kept->min_distance_mm) return config;
-  diversity.min_distance_of_first_mm = kept->min_distance_of_first_mm;
+  diversity.min_distance_mm_by_last_face = kept->min_distance_mm_by_last_face;
   if (diversity.min_distance_mm < kept->min_distance_mm) {
-    diversity.min_distance_of_first_mm[*count] = kept->min_distance_mm;
+    diversity.min_distance_mm_by_last_face[*count] = kept->min_distance_mm;
   }
   return config;
 }
@@ -144,7 +144,7 @@ Config with_kept_distances(Config config, const std::string& before) {
 /// Completes a config with facts about the crowd that exists in the output folder: the number of
 /// existing faces, the minimum distances of these faces, and whether there are numbered subfolders.
 /// A new crowd gets subfolders if it is large.
-/// \param replaced  the run casts the crowd again (`--force`).
+/// \param replaced  whether the run casts the crowd again (`--force`).
 void continue_crowd(Config& config, bool replaced) {
   const CrowdDirectory directory{config.output.directory};
   const std::string before =

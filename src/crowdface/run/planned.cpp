@@ -73,8 +73,8 @@ void remove_report_of_other_plan(const CrowdDirectory& directory, const TextPiec
 
 }  // namespace
 
-TagsAndKinds tags_and_kinds_of(const Config& config) {
-  TagsAndKinds facts{config.faces.tags, {}};
+HeadTagsAndAttachmentKinds head_tags_and_attachment_kinds(const Config& config) {
+  HeadTagsAndAttachmentKinds facts{config.faces.tags, {}};
   for (const Config::Attachment& item : config.attachments.items)
     facts.attachment_kinds.push_back(item.kind);
   return facts;
@@ -83,16 +83,16 @@ TagsAndKinds tags_and_kinds_of(const Config& config) {
 void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
                 const nlohmann::ordered_json& casting,
                 const std::vector<Eigen::Array3d>& neck_colours, const WriteFile& write) {
-  const TextPieces plan =
-      annotated_plan_text(crowd_plan.crowd, job.names, job.settings, tags_and_kinds_of(job.config));
+  const TextPieces plan = annotated_plan_text(crowd_plan.crowd, job.names, job.settings,
+                                              head_tags_and_attachment_kinds(job.config));
   remove_report_of_other_plan(directory, plan);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   const auto write_and_mark = [&](const std::filesystem::path& path, const TextPieces& text) {
     files.push_back(file_to_json({directory.relative(path), write(path, text)}));
   };
   write_and_mark(directory.plan(), plan);
-  write(directory.table(),
-        table_text(crowd_plan.crowd, job.names, neck_colours, tags_and_kinds_of(job.config)));
+  write(directory.table(), table_text(crowd_plan.crowd, job.names, neck_colours,
+                                      head_tags_and_attachment_kinds(job.config)));
   if (!crowd_plan.founders.empty()) {
     write_and_mark(directory.founders(), plan_text(crowd_plan.founders, job.names, job.settings));
   }
@@ -114,8 +114,8 @@ std::optional<PlannedFaces> read_planned_faces(const Job& job, const CrowdDirect
       mark.value("job", nlohmann::ordered_json()) != key_of(job, directory).hex()) {
     return std::nullopt;
   }
-  // A shard checks only the plan, the only one of these files that it reads; `gather` checks the
-  // other files.
+  // A shard checks only the first file, the plan, because the shard does not read the other files.
+  // `gather` checks all files.
   for (const LedgerEntry::File& file :
        std::span(*files).first(shard.is_whole_crowd() ? files->size() : 1)) {
     if (!has_content(directory.root / file.name, file.content)) return std::nullopt;

@@ -21,7 +21,7 @@ namespace crowdface {
 using WriteFile = std::function<FileDigest(const std::filesystem::path& path, const TextPieces&)>;
 
 /// The tags of heads and the kinds of attachments, for the table crowd.csv.
-TagsAndKinds tags_and_kinds_of(const Config& config);
+HeadTagsAndAttachmentKinds head_tags_and_attachment_kinds(const Config& config);
 
 /// Writes the plan of a cast crowd, the table, and the other files that casting produces. Then
 /// writes a marker file, which shows that the plan is complete and to which job the plan belongs.

@@ -144,10 +144,10 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   }
   if (result.skin_defects) {
     const SkinDefects& skin = *result.skin_defects;
-    face["skin"] = {{"triangles", skin.local.compared_count},
-                    {"flipped", skin.local.flipped_count},
+    face["skin"] = {{"triangles", skin.local.compared_triangle_count},
+                    {"flipped", skin.local.flipped_triangle_count},
                     {"stretch", rounded(skin.local.stretch_factor)},
-                    {"intersecting", skin.intersecting_count},
+                    {"intersecting", skin.intersecting_triangle_count},
                     {"wider_mm", rounded(skin.gap_excess_mm)},
                     {"exposed_mm2", rounded(skin.exposed_back_face_mm2)}};
   }
@@ -159,8 +159,8 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   return face;
 }
 
-/// For each blend shape: the number of triangles of the skin that intersect in this shape, but
-/// neither in the template nor in the face at rest.
+/// For each blend shape: the number of skin triangles that intersect each other if this shape is
+/// applied. Does not count intersections that already exist in the template or in the face at rest.
 Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results) {
   Json shapes = Json::object();
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {

@@ -17,9 +17,9 @@
 
 namespace crowdface {
 
-/// report.json: constraints and results, versions, and hashes of all inputs. It contains no times
-/// and no machine names, so that the same inputs give the same bytes. The arguments must outlive
-/// the text.
+/// report.json: constraints and results, versions, and hashes of all inputs. The file contains no
+/// times and no machine names, so that the same inputs give the same bytes. The arguments must
+/// outlive the text.
 /// \param casting  content of casting.json
 /// \param faces    results, one per face of the crowd
 /// \param lists    lists the files of each face
@@ -64,8 +64,8 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// timings.json: the durations of the stages and the number of threads, which may differ between
-/// runs.
+/// timings.json: the durations of the stages and the number of threads. These values may differ
+/// between runs.
 std::string format_timings(const StageSeconds& stages, const StageTimes& busy, std::size_t faces,
                            std::size_t heads_from_cache);
 

@@ -32,7 +32,7 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
     const std::string smaller =
         remedy.largest_distance_mm
             ? concat("diversity.min_distance: ", *remedy.largest_distance_mm, " mm",
-                     remedy.trial_faces == config.crowd.count ? "" : " or less")
+                     remedy.trial_face_count == config.crowd.count ? "" : " or less")
             : std::string("a smaller diversity.min_distance");
     advice.push_back(
         concat(smaller, shortfall.changed_face.empty() ? "" : ", and the change in a review",
@@ -59,9 +59,9 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy,
   if (config.crowd.existing_face_count) return advice_for_existing(config, remedy, shortfall);
   std::vector<std::string> advice;
   if (remedy.largest_distance_mm) {
-    const bool all = remedy.trial_faces == config.crowd.count;
+    const bool all = remedy.trial_face_count == config.crowd.count;
     advice.push_back(concat("the largest ", name_of(remedy.binding_constraint), " with which ",
-                            all ? "all " : "the first ", remedy.trial_faces,
+                            all ? "all " : "the first ", remedy.trial_face_count,
                             " faces were cast in a trial: ", *remedy.largest_distance_mm, " mm",
                             all ? "" : "; more faces need a smaller value"));
   }

@@ -32,7 +32,8 @@ struct WrapOptions {
   Shard shard;          ///< the part of the batch to wrap
 };
 
-/// The value of `--landmarks` that turns landmarks off: none are read from files or detected.
+/// The value of `--landmarks` with which the program neither reads landmarks from files nor detects
+/// them.
 inline constexpr const char* kNoLandmarks = "none";
 
 /// The inputs of a run that are equal for all scans.

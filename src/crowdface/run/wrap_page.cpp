@@ -29,9 +29,9 @@ constexpr std::string_view kPageHead = R"(<!doctype html>
 /// The content of the table row for one scan on the page.
 struct ScanRow {
   std::string name, picture;
-  std::string worst;       ///< the feature that agrees least
-  double agreement = 1;    ///< agreement of this feature with the scan
-  double distance_mm = 0;  ///< 95th percentile
+  std::string worst;       ///< the face feature that agrees least with the scan
+  double agreement = 1;    ///< agreement of the feature `worst` with the scan
+  double distance_mm = 0;  ///< 95th percentile of the distance between skin and scan
   bool has_head = false;
   std::vector<std::string> warnings;
 
@@ -95,7 +95,7 @@ ScanRow row_of(const WrappedScan& scan) {
       }
     }
   } catch (const nlohmann::ordered_json::exception&) {
-    row.has_head = false;  // a report of another program
+    row.has_head = false;  // another program wrote this report
   }
   return row;
 }

@@ -131,8 +131,8 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 /// Returns the landmarks from the files. If the files have too few landmarks and the pose of the
 /// scan is known, adds landmarks that are detected from the scan's shape.
 /// \param hint  pose of the scan; empty if unknown. If the files have too few landmarks, the
-///     function searches the scan for a face and stores it in `hint->face`. If `hint` was empty,
-///     the axes of the face that was found become its pose.
+///     function searches the scan for a face and stores this face in `hint->face`. If `hint` was
+///     empty, the axes of this face become the pose of the scan.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -283,7 +283,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
                                 ": --texture: expected a texture or colours at vertices, found "
                                 "neither: an OBJ file names its texture in a material file"));
     }
-    facts.filled_share = textures->write(result, scan, colours, task.textures);
+    facts.share_without_scan = textures->write(result, scan, colours, task.textures);
     head = textures->head_file(std::move(head), task.textures);
   }
   head.write(task.head);

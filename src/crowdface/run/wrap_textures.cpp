@@ -104,8 +104,8 @@ double WrapTextures::write(const WrapResult& result, const Scan& scan, const Sca
     const BakedPicture picture = bake.bake_picture(p);
     write_file(files.map_files[p], encode_png(picture.width, picture.height, 3, picture.srgb));
     write_file(files.mask_files[p],
-               encode_png(picture.width, picture.height, 1, picture.filled_mask));
-    filled += picture.filled_share / static_cast<double>(files.map_files.size());
+               encode_png(picture.width, picture.height, 1, picture.mask_without_scan));
+    filled += picture.share_without_scan / static_cast<double>(files.map_files.size());
   }
   copy_other_textures(files.material_file.parent_path());
   write_file(files.material_file, materials_text(files));
@@ -117,7 +117,7 @@ EncodedFile WrapTextures::head_file(EncodedFile plain, const TextureFiles& files
   if (target_.pictures_by_material().contains("")) first += concat("\nusemtl ", kSkinMaterial);
   if (plain.replace_line("mtllib", first)) return plain;
   EncodedFile with_materials(first + '\n');
-  for (const std::string_view piece : plain.pieces()) with_materials.refer_to(piece);
+  for (const std::string_view piece : plain.pieces()) with_materials.add_without_copy(piece);
   with_materials.share_ownership(std::make_shared<EncodedFile>(std::move(plain)));
   return with_materials;
 }

@@ -18,7 +18,7 @@ namespace crowdface {
 struct TextureFiles {
   std::filesystem::path material_file;           ///< the material file, beside the head's OBJ file
   std::vector<std::filesystem::path> map_files;  ///< one colour texture per image
-  /// masks of filled texels, in the report's folder
+  /// masks of the texels that the scan does not show, in the folder of the report
   std::vector<std::filesystem::path> mask_files;
 
   /// The paths of all these files; empty if the template has no images.

@@ -51,9 +51,11 @@ void write_face(const Job& job, const FaceTextures& textures, const FacePlan& fa
     write_attachment_materials(job, face, folder);
   const auto shared = shared_files(format, job.config, job.inputs);
   if (shared && shared->is_referenced_by_meshes) shared->write(folder);
-  const std::vector<FaceFile> files = mesh_files(
-      job.config, job.inputs, face,
-      {.formats = formats, .folder = folder, .stem = file.stem().string(), .all_variants = false});
+  const std::vector<FaceFile> files = mesh_files(job.config, job.inputs, face,
+                                                 {.formats = formats,
+                                                  .folder = folder,
+                                                  .stem = file.stem().string(),
+                                                  .includes_all_variants = false});
   for (const FaceFile& one : files) make_directories(one.path.parent_path());
   write_files_of(finished, files);
 }

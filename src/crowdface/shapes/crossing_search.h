@@ -38,19 +38,18 @@ class CrossingSearch {
     std::vector<LeafBoxes> triangle_boxes;  ///< #leaves
     std::vector<LeafNormals> leaf_normals;  ///< #leaves
     std::vector<Box> leaf_boxes;
-    std::vector<std::uint8_t>
-        is_changed;  ///< #leaves: whether the leaf changed since the last search
+    std::vector<std::uint8_t> is_changed;  ///< whether each leaf changed since the last search
   };
   Boxes make_boxes(const Positions& mesh) const;
   /// Updates the boxes after vertices moved.
   ///
-  /// \param changed  #V: whether each vertex moved since the last update.
+  /// \param changed  Whether each vertex moved since the last update.
   void update(const Positions& mesh, const std::vector<bool>& changed, Boxes& boxes) const;
 
   /// Returns the intersecting pairs with at least one triangle in a changed leaf, ascending.
   ///
-  /// \param is_exempt  Returns whether a triangle is exempt from the search. Pairs of two exempt
-  ///                   triangles are ignored.
+  /// \param is_exempt  Returns whether a triangle is exempt. The search ignores pairs of two exempt
+  ///                   triangles.
   std::vector<Pair> intersecting_pairs(const Positions& mesh, const Boxes& boxes,
                                        const std::function<bool(std::uint32_t)>& is_exempt) const;
 

@@ -18,8 +18,9 @@ namespace {
 constexpr double kSpacing = 0.06;   // spacing of the nodes
 constexpr double kInfluence = 0.1;  // radius of a node's influence
 constexpr double kPatch = 0.1;      // radius of the patch that determines a node's map
-/// Weight of the whole skin's similarity transform in the fit of a node's linear map, as a fraction
-/// of the scatter (sum of squared deviations) of the patch around the node.
+/// A node's linear map is fitted to the patch of skin around the node. The fit also includes the
+/// similarity transform of the whole skin, with a small weight. The weight is this fraction of the
+/// patch's scatter (sum of squared distances from the patch's mean).
 constexpr double kRegularisation = 0.02;
 /// Largest numbers of vertices in use: kMaxSkin in the fit of the whole skin, kMaxCandidates as
 /// possible nodes, kMaxPatch in the patch around a node.

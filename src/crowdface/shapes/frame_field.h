@@ -29,7 +29,7 @@ class FrameField {
 
   struct Frames {
     RigidMotion face_motion;                 ///< motion from the template to the face
-    std::vector<Eigen::Matrix3d> node_maps;  ///< #nodes: linear map at each node
+    std::vector<Eigen::Matrix3d> node_maps;  ///< linear map at each node
   };
   Frames frames(const Positions& face) const;
   /// Returns the linear map at the vertex `vertices[i]`. If the face is the template rotated,
@@ -62,9 +62,9 @@ class FrameField {
 
   const Positions* neutral_ = nullptr;
   std::vector<std::uint32_t> sampled_skin_;
-  std::vector<double> unit_weights_;  ///< #sampled_skin_: all 1
+  std::vector<double> unit_weights_;  ///< all 1, one per vertex of sampled_skin_
   std::vector<Node> nodes_;
-  /// #vertices: the nodes between which each vertex interpolates, with weights
+  /// for each vertex: the nodes whose maps are interpolated there, with weights
   CompressedRows<NodeWeight> node_weights_;
 };
 

@@ -40,8 +40,8 @@ class GapPreserver {
   /// Moves the skin of a face with a blend shape applied, so that gaps become
   /// `rest_gaps + gap_changes`.
   ///
-  /// \param rest_gaps    #gaps: gaps of the face at rest.
-  /// \param gap_changes  #gaps: target change of each gap.
+  /// \param rest_gaps    Width of each gap on the face at rest.
+  /// \param gap_changes  Target change of each gap.
   /// \param selection    Which gaps to adjust.
   /// \param shaped_face  The face with the blend shape applied, #V by 3; adjusted.
   void adjust(std::span<const double> rest_gaps, std::span<const double> gap_changes,
@@ -49,7 +49,7 @@ class GapPreserver {
 
  private:
   SkinContacts contacts_;
-  /// With kNearlyUnchanged, `adjust` skips the gaps whose change is larger than this.
+  /// With kNearlyUnchanged, `adjust` skips the gaps whose change is larger than this length.
   double max_gap_change_ = 0;
 };
 

@@ -327,8 +327,8 @@ double LidClosure::largest_open_gap(const Positions& face, const RigidMotion& fa
   return open;
 }
 
-void LidClosure::close_again(const Positions& face, const RigidMotion& face_motion,
-                             const LidTargets& targets, Positions& moves) const {
+void LidClosure::restore_closure(const Positions& face, const RigidMotion& face_motion,
+                                 const LidTargets& targets, Positions& moves) const {
   const EyeAxes axes = eye_axes(face_motion);
   std::vector<double> gains =
       gap_excesses(measure_gaps(axes, face, moves), targets, face_motion.scale);

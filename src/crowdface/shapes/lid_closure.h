@@ -28,7 +28,7 @@ struct FaceEye {
   const BallRadii* ball;
   RigidMotion motion;
   std::vector<double> rest_gaps =
-      {};  ///< #skin_vertices of the TemplateEye: distance from the eyeball
+      {};  ///< distances of the TemplateEye's skin_vertices from the eyeball
 
   BallRadii::Gap gap_at(const Eigen::Vector3d& point) const;
 };
@@ -69,8 +69,8 @@ class LidClosure {
   /// are known, and divided by the mesh's scale relative to the template.
   struct LidTargets {
     std::vector<Gap> gaps;  ///< #sections
-    /// #lids (lid vertices): distance from the eyeball in the shape, and this distance minus the
-    /// distance at rest
+    /// One entry per lid vertex. `ball_distances`: distance from the eyeball in the shape.
+    /// `distance_changes`: this distance minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;
   };
   /// Measures the targets on a mesh with known displacements.
@@ -88,15 +88,14 @@ class LidClosure {
   /// Returns the indices of the rows in the shape's displacements that `fit_lids` may change.
   std::vector<std::uint32_t> adjustable_rows() const;
 
-  /// Returns how far the lids are too far open, in radii of the eyeball: the maximum, over the
-  /// sections, of the gap minus the allowed gap; 0 if no gap is too large. The allowed gap is the
-  /// target gap, or the gap that counts as closed if that is larger. Only for shapes that close the
-  /// lids.
+  /// Returns the largest excess of a section's gap over the allowed gap, in radii of the eyeball; 0
+  /// if no gap is too large. The allowed gap is the larger of two gaps: the target gap, and the gap
+  /// that counts as closed. Only for shapes that close the lids.
   double largest_open_gap(const Positions& face, const RigidMotion& face_motion,
                           const LidTargets& targets, const Positions& moves) const;
-  /// Scales the lids' vertical movement to close lids again that other corrections have opened.
-  void close_again(const Positions& face, const RigidMotion& face_motion, const LidTargets& targets,
-                   Positions& moves) const;
+  /// Closes lids that other corrections have opened, by scaling the lids' vertical movement.
+  void restore_closure(const Positions& face, const RigidMotion& face_motion,
+                       const LidTargets& targets, Positions& moves) const;
 
   /// Adjusts a shape until it meets the targets.
   ///
@@ -150,7 +149,7 @@ class LidClosure {
   /// Scales the vertical movement of each of the first `count` lid vertices by 1 + the weighted sum
   /// of the sections' gains.
   /// \param carried  displacements before scaling, one row for each vertex of the shape.
-  /// \param gains    #sections: relative increase of the vertical movement at each section.
+  /// \param gains    relative increase of the vertical movement at each section.
   void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the

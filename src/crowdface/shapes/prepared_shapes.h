@@ -33,9 +33,9 @@ struct PreparedEye {
 struct PartMove {
   std::size_t part;                           ///< index into the rigid parts
   std::vector<std::uint32_t> moved_vertices;  ///< vertices of the part that the shape moves
-  /// #moved_vertices: the row of each vertex in the shape's displacements
+  /// the row of each of `moved_vertices` in the shape's displacements
   std::vector<std::uint32_t> displacement_rows;
-  std::vector<RigidTurn> turns;  ///< #sets: the part's motion in each set of shapes
+  std::vector<RigidTurn> turns;  ///< the part's motion in each set of shapes
 };
 
 /// How a shape moves the lids of one eye.
@@ -44,11 +44,11 @@ struct LidMove {
   std::vector<LidClosure::LidTargets> targets;  ///< #sets
 };
 
-/// A vertex of a lash or of another part that is bound to the skin. When LidClosure corrects the
-/// lid's position, the vertex moves along.
+/// A vertex of a lash, or of another part that is bound to the skin of a lid. When LidClosure
+/// corrects the lid's position, the vertex moves with the lid.
 struct LidFollower {
   std::uint32_t row;
-  /// The vertex is bound to a skin triangle. These are the rows of the triangle's corners in the
+  /// The vertex is bound to a skin triangle. `rows` has the rows of the triangle's corners in the
   /// shape; kNoIndex for a corner that is not corrected.
   std::array<std::uint32_t, 3> rows;
   std::array<double, 3> shares;  ///< barycentric coordinates in this triangle
@@ -61,8 +61,8 @@ struct LidFollower {
 /// than half.
 ///
 /// \param extent  Diagonal of the skin's bounding box.
-/// \return        #shapes: the index of each corrective shape's prerequisite; nothing for other
-///                shapes, or if no prerequisite is found.
+/// \return        For each shape: the index of its prerequisite if the shape is corrective; nothing
+///                if the shape is not corrective or no prerequisite is found.
 std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape_set,
                                                            const GapPreserver& contacts,
                                                            double extent);
@@ -73,7 +73,7 @@ struct PreparedShape {
   /// are repaired after both shapes have been added.
   std::optional<std::size_t> prerequisite;
   std::vector<std::uint32_t>
-      vertex_indices;  ///< #rows: indices into PreparedShapes::moved_vertices
+      vertex_indices;  ///< for each row: index into PreparedShapes::moved_vertices
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
   std::vector<FloatPositions> head_moves;
@@ -123,15 +123,15 @@ struct PreparedShapes {
   struct FaceFrames {
     const Positions& mesh;
     FrameField::Frames frames;
-    std::vector<Eigen::Matrix3d> maps;  ///< #moved_vertices: linear map at each vertex
+    std::vector<Eigen::Matrix3d> maps;  ///< linear map at each of `moved_vertices`
     std::vector<double> gaps;           ///< #contacts
-    /// #V: whether each vertex belongs to a triangle that intersects another triangle on the face
-    /// at rest
+    /// whether each vertex belongs to a triangle that intersects another triangle on the face at
+    /// rest
     std::vector<bool> crosses_at_rest;
   };
   FaceFrames make_face_frames(const Positions& face) const;
   /// Returns the mean of `maps` over the vertices of a part that the shape moves.
-  /// \param maps  #moved_vertices: FaceFrames::maps of a face.
+  /// \param maps  FaceFrames::maps of a face.
   Eigen::Matrix3d mean_map_of_part(const PartMove& part, const PreparedShape& prepared,
                                    std::span<const Eigen::Matrix3d> maps) const;
 

@@ -112,9 +112,9 @@ RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetSh
   return mean;
 }
 
-void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
-                std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
-                Positions& moves) {
+void transfer_turn(const RigidTurn& turn, const PlacedPart& placed,
+                   std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
+                   Positions& moves) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     moves.row(rows[i]) = (rotation_displacement(turn.quaternion, placed, vertices[i]) +
                           multiply3(placed.map, turn.translation + turn.residuals[i]))

@@ -16,19 +16,21 @@ namespace crowdface {
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> fitted_vertices;  ///< the subset of `vertices` that determines motions
-  std::vector<double> unit_weights;            ///< #fitted_vertices: all 1, for fit_rigid_motion
+  /// all 1, one per fitted vertex; for fit_rigid_motion
+  std::vector<double> unit_weights;
   /// centre of rotation: the centre of an eyeball, or the mean of the teeth
   Eigen::Vector3d centre;
 };
 
 /// The motion of a rigid part in a shape, independent of the mesh on which the motion was measured.
-/// find_turn removes this mesh's local rotation and stretch relative to the template; carry_turn
+/// find_turn removes this mesh's local rotation and stretch relative to the template; transfer_turn
 /// applies the rotation and stretch of another face.
 struct RigidTurn {
   /// unit quaternion (w, x, y, z) of the rotation about the centre
   std::array<double, 4> quaternion = {1, 0, 0, 0};
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< translation of the centre
-  /// #rows: each vertex's displacement minus its displacement by rotation and translation
+  /// for each vertex that the shape moves: its displacement minus its displacement by rotation and
+  /// translation
   std::vector<Eigen::Vector3d> residuals;
 };
 
@@ -40,15 +42,15 @@ struct PlacedPart {
   Eigen::Vector3d centre;
   const Positions& mesh;
   const RigidMotion& face_motion;  ///< motion from the template to the face
-  /// mean, over the vertices that the shape moves in this part, of the local linear map from the
-  /// template to the face
+  /// local linear map from the template to the face, averaged over the vertices of the part that
+  /// the shape moves
   const Eigen::Matrix3d& map;
 };
 
 /// Measures how a shape moves a rigid part of a mesh, and transforms this motion to the template.
 ///
-/// \param vertices  #rows: vertices of the part that the shape moves.
-/// \param rows      #rows: row of each of these vertices in `moves`.
+/// \param vertices  Vertices of the part that the shape moves.
+/// \param rows      Row of each of these vertices in `moves`.
 /// \param moves     Displacements of the shape.
 RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
                     std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
@@ -62,8 +64,8 @@ RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetSh
 ///
 /// \param turn    The motion on the template.
 /// \param placed  The part on the face at rest.
-void carry_turn(const RigidTurn& turn, const PlacedPart& placed,
-                std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
-                Positions& moves);
+void transfer_turn(const RigidTurn& turn, const PlacedPart& placed,
+                   std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
+                   Positions& moves);
 
 }  // namespace crowdface

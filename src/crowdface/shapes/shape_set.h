@@ -60,13 +60,13 @@ struct ShapeSetShare {
 };
 using ShapeSetShares = std::vector<ShapeSetShare>;
 
-/// #regions: for each region, the weights of the sets of shapes that are blended there. The weights
-/// of a region sum to one.
+/// For each region, the weights of the sets of shapes that are blended there. The weights of a
+/// region sum to one.
 using RegionShares = std::vector<ShapeSetShares>;
 
 /// Returns the weights of the sets at a position that belongs to several regions.
 ///
-/// \param alpha  #regions: weights of the regions, with sum one.
+/// \param alpha  Weight of each region at the position; the weights sum to one.
 inline ShapeSetShares shape_set_weights_at(std::span<const double> alpha,
                                            const RegionShares& region_shares) {
   ShapeSetShares shares;

@@ -16,8 +16,9 @@ namespace {
 /// Largest number of repair rounds. Another round follows only if a round moved lids into an
 /// eyeball or opened lids.
 constexpr int kMaxRepairs = 3;
-/// Cost of a gap of one eyeball radius between lids that should be closed, in intersecting
-/// triangles. The cost is high because a gap is visible, but an intersection of closed lids is not.
+/// Cost of a gap of one eyeball radius between lids that should be closed. The unit is the cost of
+/// one intersecting triangle. The cost is high because a gap is visible, but an intersection of
+/// closed lids is not.
 constexpr double kOpenLidsCost = 1000;
 
 using FaceFrames = PreparedShapes::FaceFrames;
@@ -134,8 +135,8 @@ void CarriedShape::move_parts() {
     const Eigen::Matrix3d map = prepared_.mean_map_of_part(part, shape_, face_frames_.maps);
     const PlacedPart placed(prepared_.rigid_parts[part.part], prepared_.shape_set.neutral,
                             face_frames_.mesh, face_frames_.frames.face_motion, map);
-    carry_turn(mean_turn(part.turns, shares_of_part(part.part)), placed, part.moved_vertices,
-               part.displacement_rows, result_.moves);
+    transfer_turn(mean_turn(part.turns, shares_of_part(part.part)), placed, part.moved_vertices,
+                  part.displacement_rows, result_.moves);
   }
 }
 
@@ -248,8 +249,8 @@ void CarriedShape::close_lids() {
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (!lids.closes_lids()) continue;
-    lids.close_again(face_frames_.mesh, face_frames_.frames.face_motion, targets_[e],
-                     result_.moves);
+    lids.restore_closure(face_frames_.mesh, face_frames_.frames.face_motion, targets_[e],
+                         result_.moves);
   }
 }
 

@@ -17,8 +17,8 @@ namespace crowdface {
 struct PreparedShapes;
 
 /// Transfers expressions to faces of the same topology (docs/shapes.md). The shapes come from a
-/// template. If each head has its own shapes, a face gets weighted means of them, normalised to the
-/// mean head.
+/// template. If each head has its own shapes, a face gets weighted means of these shapes,
+/// normalised to the mean head.
 ///
 /// - Skin, and everything bound to the skin: displacements are multiplied by the local rotation and
 /// stretch from the template's skin to the face's skin (FrameField).
@@ -44,11 +44,12 @@ class ShapeTransfer {
   ///
   /// \param target    The head that the face is built on. The face has this head's eyeballs.
   /// \param face      #V by 3.
-  /// \param shares    #shapes: weights of the heads' shapes. Empty: the template's shapes.
-  /// \param crossing_counts  Optional output, #shapes: number of skin triangles that intersect
-  ///                  other skin in this face's shape, but neither in the template's shape nor in
-  ///                  the face at rest.
-  /// \return          #shapes: displacements, for the same vertices as the shape in the ShapeSet.
+  /// \param shares    For each shape: weights of the heads' own shapes. If empty, the template's
+  ///                  shapes are used.
+  /// \param crossing_counts  Optional output, one entry per shape: number of skin triangles that
+  ///                  intersect other skin in this face's shape, but neither in the template's
+  ///                  shape nor in the face at rest.
+  /// \return          For each shape: displacements of the same vertices as in the ShapeSet.
   std::vector<Displacements> carry(Index target, const Positions& face,
                                    std::span<const RegionShares> shares = {},
                                    std::vector<Index>* crossing_counts = nullptr) const;

@@ -189,8 +189,8 @@ class SkinCrossings::Repair {
 
   /// Averages displacements around intersections, so that skin that is close together at rest also
   /// moves together.
-  /// \param grown  factor, at least 1, by which this round's averaging radius is larger than the
-  ///               first round's.
+  /// \param grown  ratio of this round's averaging radius to the first round's averaging radius, at
+  ///               least 1.
   void even_out(double grown) {
     const double unit = grown * skin_.extent_;
     std::vector<Eigen::Vector3d> around;
@@ -285,7 +285,7 @@ class SkinCrossings::Repair {
   Displacements& shape_;
   CrossingSearch::Boxes boxes_;
   std::vector<Pair> pairs_;    ///< intersecting pairs
-  std::vector<bool> changed_;  ///< #V: whether the vertex moved in this round
+  std::vector<bool> changed_;  ///< whether each vertex moved in this round
   double best_ = HUGE_VAL;
   Positions best_moves_;
   std::vector<Pair> best_pairs_;

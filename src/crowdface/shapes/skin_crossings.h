@@ -31,11 +31,11 @@ class SkinCrossings {
   /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
   struct SearchedSkin {
     CrossingSearch search;
-    /// #triangles of `search`: whether the triangle may intersect other such triangles on a face,
-    /// because it is part of an intersection on the template
+    /// for each triangle of `search`: whether the triangle may intersect other such triangles on a
+    /// face, because it is part of an intersection on the template
     std::vector<bool> may_intersect;
-    /// #V: 1 for the upper lid and −1 for the lower lid if the shape closes this eye, 0 for other
-    /// skin; empty if the shape closes no eye.
+    /// For each vertex: 1 for the upper lid and −1 for the lower lid if the shape closes this eye,
+    /// 0 for other skin. Empty if the shape closes no eye.
     std::vector<signed char> lid_sides;
     std::vector<DisplacementRow> rows;  ///< rows of the shape that are skin
     /// #rows by 3: positions of the vertices of `rows` on the template with the shape applied
@@ -64,8 +64,8 @@ class SkinCrossings {
 
   struct Face {
     const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
-    /// #V, from crossing_at_rest: whether each vertex belongs to an intersection that the shape did
-    /// not cause
+    /// from crossing_at_rest: whether each vertex belongs to an intersection that the shape did not
+    /// cause
     const std::vector<bool>& crosses_at_rest;
     const RigidMotion& face_motion;  ///< motion from the template to the face
   };
@@ -93,7 +93,7 @@ class SkinCrossings {
 
   double extent_ = 0;
   HeadAxes axes_;
-  std::vector<bool> is_skin_;  ///< #V: whether the vertex is skin
+  std::vector<bool> is_skin_;  ///< whether each vertex is skin
   SkinTriangles skin_;
 };
 

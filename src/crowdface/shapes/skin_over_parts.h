@@ -57,8 +57,8 @@ class SkinOverParts {
     Eigen::Vector3d position, displacement;
   };
   /// Returns the pushes that move skin in front of covered vertices.
-  /// \param max_push  #covered: the largest push that each covered vertex may still cause; reduced
-  ///                  by each push.
+  /// \param max_push  for each covered vertex, the largest push that the vertex may still cause;
+  ///                  reduced by each push.
   std::vector<Push> find_pushes(const Positions& mesh, const RigidMotion& face_motion,
                                 std::span<double> max_push) const;
   void apply_pushes(std::span<const Push> pushes, double scale,

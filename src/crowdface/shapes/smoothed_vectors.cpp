@@ -75,8 +75,8 @@ class CellMeans {
   Eigen::Vector3d low_;
   double cell_;
   std::array<std::size_t, 3> nodes_a_side_;
-  /// #grid nodes: index of each grid node in `nodes_`, which holds only the nodes with samples;
-  /// kNoIndex for the other grid nodes
+  /// for each grid node: its index in `nodes_`, which holds only the nodes with samples; kNoIndex
+  /// for nodes without samples
   std::vector<std::uint32_t> node_index_;
   std::vector<Node> nodes_;
 };

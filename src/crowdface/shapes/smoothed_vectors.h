@@ -36,7 +36,7 @@ class SmoothedVectors {
   };
   /// Returns the changes for all samples whose distance to a centre is less than `outer_radius`.
   ///
-  /// \param samples  Only samples at positions for which `affects` is true.
+  /// \param samples  The samples. `affects` must be true for the position of each sample.
   std::vector<Change> changes(std::span<const Sample> samples) const;
 
  private:

@@ -14,7 +14,7 @@ namespace crowdface {
 struct SkinTriangles {
   std::vector<std::uint32_t> vertices;  ///< ascending
   std::vector<Triangle> triangles;
-  CompressedRows<std::uint32_t> vertex_triangles;  ///< #V: triangles at each vertex
+  CompressedRows<std::uint32_t> vertex_triangles;  ///< triangles at each vertex
 };
 
 /// Returns one value for each vertex: whether a shape folds the skin there, or brings this skin so

@@ -17,9 +17,9 @@ namespace crowdface {
 /// evaluate on it. Rows are in the filter's row order (`ChebyshevFilter::vertex_of_row`).
 template <class T>
 struct FilterInput {
-  std::vector<Row<T>> values;           ///< x, #V rows
-  std::vector<ChebyshevSeries> series;  ///< coefficients of the polynomials Σ_k a_k T_k(W) x to
-                                        ///< compute
+  std::vector<Row<T>> values;  ///< x, #V rows
+  /// coefficients a_k of each polynomial Σ_k a_k T_k(W) x to evaluate
+  std::vector<ChebyshevSeries> series;
 };
 
 /// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. Any level at these
@@ -41,9 +41,9 @@ class ChebyshevFilter {
 
   Index vertex_count() const { return static_cast<Index>(tiling_.vertex_of_row.size()); }
   OperatorKind kind() const { return kind_; }
-  /// #V: the vertex of each row.
+  /// Returns the vertex of each row.
   std::span<const std::uint32_t> vertex_of_row() const { return tiling_.vertex_of_row; }
-  /// #V: the row of each vertex.
+  /// Returns the row of each vertex.
   std::span<const std::uint32_t> row_of_vertex() const { return tiling_.row_of_vertex; }
 
   /// Returns columns 3·group to 3·group + 2 of x, with rows in the filter's row order.

@@ -19,9 +19,10 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level, double tole
   if (level == 0) return {1.0};
   const bool lazy = kind == OperatorKind::kLazy;
   const double l = static_cast<double>(level);
-  // For the umbrella operator: a_k = 2^{1−L} C(L, (L−k)/2) for k ≡ L (mod 2), so a_{k+2}/a_k =
-  // (L−k)/(L+k+2). For the lazy operator: a_k = 2^{1−2L} C(2L, L−k), so a_{k+1}/a_k =
-  // (L−k)/(L+k+1). In both series a_0 is halved.
+  // L is the level, and C(n, m) is the binomial coefficient. In both series a_0 is halved.
+  // Umbrella operator: a_k = 2^{1−L} C(L, (L−k)/2) for k ≡ L (mod 2).
+  //   So a_{k+2}/a_k = (L−k)/(L+k+2).
+  // Lazy operator: a_k = 2^{1−2L} C(2L, L−k). So a_{k+1}/a_k = (L−k)/(L+k+1).
   const std::uint64_t stride = lazy ? 1 : 2;
   const std::uint64_t start = lazy ? 0 : level % 2;
   ChebyshevSeries series(start, 0.0);

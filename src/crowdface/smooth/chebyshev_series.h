@@ -21,13 +21,13 @@ inline constexpr double kSeriesTolerance = 1e-10;
 /// ln(2/tolerance)) terms, and the lazy series has 1/√2 as many terms. The coefficients are not
 /// negative and sum to one, so constant fields and fixed boundaries stay unchanged. Level 0 gives
 /// exactly {1}. Source: Sachdeva & Vishnoi 2014, "Faster algorithms via approximation theory", thm
-/// 3.3. Each coefficient is computed from the ratio to the previous one, so that no level overflows
-/// (docs/method.md).
+/// 3.3. Each coefficient is computed from the previous coefficient and the ratio of the two, so
+/// that no level overflows (docs/method.md).
 ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level,
                              double tolerance = kSeriesTolerance);
 
-/// The Chebyshev series of S_L − 1. Applied to positions, it gives the displacements after L =
-/// `level` iterations.
+/// The Chebyshev series of S_L − 1, where S_L stands for L = `level` smoothing iterations. Applied
+/// to positions, this series gives the displacements after L iterations.
 ChebyshevSeries displacement_series(OperatorKind kind, std::uint64_t level,
                                     double tolerance = kSeriesTolerance);
 

@@ -42,7 +42,7 @@ std::vector<double> error_weights(const HeadSmoothing& head,
   return weights;
 }
 
-/// The lists of a sequence of patches while the patches are made; see PatchLists.
+/// The lists of a sequence of patches while the patches are made; see PatchArrays.
 struct MadePatches {
   std::vector<std::uint32_t> stored_vertex_counts, field_counts;
   std::vector<float> quantization_steps, weights;
@@ -84,8 +84,8 @@ class PatchMaker {
     return fields;
   }
 
-  /// Fills columns_ with the coordinates of all fields, each scaled by its error weight: 3·#fields
-  /// by kPatchVertices.
+  /// Fills columns_ with the coordinates of all fields, each scaled by its error weight. The size
+  /// is 3·#fields by kPatchVertices.
   void fill_columns(std::span<const std::uint32_t> vertices, std::size_t fields) {
     columns_.assign(3 * fields * kPatchVertices, 0.0F);
     float* first = columns_.data();
@@ -105,7 +105,7 @@ class PatchMaker {
     }
   }
 
-  /// Chooses the skeleton (the vertices from whose rows all rows are interpolated) by a pivoted
+  /// Chooses the skeleton (the vertices from which all others are interpolated) by a pivoted
   /// Cholesky factorization of the vertices' Gram matrix. In each step, the vertex with the largest
   /// error becomes the pivot. The diagonal that remains holds the squared error of each vertex.
   /// Stops when all errors are within the tolerance.
@@ -207,7 +207,7 @@ class PatchMaker {
   std::vector<std::size_t> skeleton_;
 };
 
-/// Owns the memory that the spans of PatchLists refer to.
+/// Owns the memory that the spans of PatchArrays refer to.
 struct OwnedPatches {
   std::vector<std::uint32_t> vertices;
   MadePatches made;
@@ -246,8 +246,8 @@ bool are_patches(std::span<const std::uint32_t> vertices, std::size_t count) {
 
 }  // namespace
 
-std::optional<FieldPatches> FieldPatches::from_lists(PatchLists lists, Index vertex_count,
-                                                     std::span<const Index> head_field_counts) {
+std::optional<FieldPatches> FieldPatches::from_arrays(PatchArrays lists, Index vertex_count,
+                                                      std::span<const Index> head_field_counts) {
   const auto vertices = static_cast<std::size_t>(vertex_count);
   const std::size_t patches = patch_count(vertices);
   if (!are_patches(lists.vertices, vertices) || lists.stored_vertex_counts.size() != patches ||
@@ -365,9 +365,9 @@ FieldPatches interpolate_fields(std::span<const HeadSmoothing> heads,
       join(parts, &MadePatches::quantization_steps), join(parts, &MadePatches::weights),
       join(parts, &MadePatches::quantized_values)};
   auto result =
-      FieldPatches::from_lists({all->vertices, made.stored_vertex_counts, made.field_counts,
-                                made.quantization_steps, made.weights, made.quantized_values, all},
-                               static_cast<Index>(order.size()), ranks);
+      FieldPatches::from_arrays({all->vertices, made.stored_vertex_counts, made.field_counts,
+                                 made.quantization_steps, made.weights, made.quantized_values, all},
+                                static_cast<Index>(order.size()), ranks);
   require(result.has_value(), "patches: not each vertex once, or numbers that are none");
   return *std::move(result);
 }

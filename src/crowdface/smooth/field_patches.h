@@ -27,13 +27,13 @@ struct HeadSmoothing {
 struct FieldPatch {
   std::span<const std::uint32_t> vertices;  ///< the vertices of the patch, as ascending vertex
                                             ///< numbers of the mesh
-  /// #heads: for each head, how many of its leading fields the patch stores.
+  /// For each head, how many of its leading fields the patch stores.
   std::span<const std::uint32_t> field_counts;
   std::size_t field_count = 0;  ///< number of stored fields of all heads together, the sum of
                                 ///< `field_counts`
   /// number of vertices at which fields are stored (the skeleton, see FieldPatches)
   std::size_t stored_vertex_count = 0;
-  const float* quantization_steps = nullptr;  ///< #fields: powers of two, or zero
+  const float* quantization_steps = nullptr;  ///< one per field: a power of two, or zero
   /// #fields by values_per_field(), in multiples of the quantization step. For each field: x of all
   /// skeleton vertices, then all y, then all z, then zeros as padding.
   const std::int16_t* quantized_values = nullptr;
@@ -58,9 +58,9 @@ inline std::size_t patch_count(std::size_t vertex_count) {
 }
 
 /// The data of all patches, concatenated.
-struct PatchLists {
-  std::span<const std::uint32_t> vertices;  ///< #V: each vertex once, ordered by patch
-  /// #patches: see FieldPatch::stored_vertex_count
+struct PatchArrays {
+  std::span<const std::uint32_t> vertices;  ///< all vertices, each once, ordered by patch
+  /// one per patch: see FieldPatch::stored_vertex_count
   std::span<const std::uint32_t> stored_vertex_counts;
   std::span<const std::uint32_t>
       field_counts;  ///< #patches by #heads: see FieldPatch::field_counts
@@ -72,30 +72,31 @@ struct PatchLists {
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all
 /// heads are strongly correlated: the fields' values at a few vertices, the skeleton, determine the
 /// values at the other vertices by weighted sums, with the same weights for all heads. This is an
-/// interpolative decomposition (Cheng, Gimbutas, Martinsson & Rokhlin 2005) of the matrix of the
-/// patch's vertices by the coordinates of all fields. Blending therefore sums the fields at the
-/// skeleton only. A patch that does not compress stores all its vertices.
+/// interpolative decomposition (Cheng, Gimbutas, Martinsson & Rokhlin 2005) of a matrix with one
+/// row per vertex of the patch and one column per coordinate of each field. Blending therefore sums
+/// the fields at the skeleton only. A patch that does not compress stores all its vertices.
 class FieldPatches {
  public:
   FieldPatches() = default;
   /// Makes the patches from stored lists, if the lists are valid.
-  /// \param head_field_counts  #heads: number of fields of each head.
-  /// \return       nothing if the lists are not valid, that is, if `interpolate_fields` cannot make
-  ///               such lists for heads with `head_field_counts` fields.
-  static std::optional<FieldPatches> from_lists(PatchLists lists, Index vertex_count,
-                                                std::span<const Index> head_field_counts);
+  /// \param head_field_counts  number of fields of each head.
+  /// \return       nothing if the lists are invalid. In valid lists, each vertex occurs once, the
+  ///               lengths and counts agree with each other and with `head_field_counts`, and all
+  ///               numbers are finite.
+  static std::optional<FieldPatches> from_arrays(PatchArrays lists, Index vertex_count,
+                                                 std::span<const Index> head_field_counts);
 
   std::size_t size() const { return patches_.size(); }
   Index vertex_count() const { return static_cast<Index>(lists_.vertices.size()); }
   std::size_t head_count() const { return heads_; }
   FieldPatch operator[](std::size_t patch) const;
-  const PatchLists& lists() const { return lists_; }
+  const PatchArrays& lists() const { return lists_; }
 
  private:
   struct Patch {
     std::size_t field_count, first_field, first_value, first_weight;
   };
-  PatchLists lists_;
+  PatchArrays lists_;
   std::size_t heads_ = 0;
   std::vector<Patch> patches_;
 };
@@ -112,8 +113,8 @@ std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
 /// Compresses the fields of all heads patch by patch.
 /// \param heads      at least one head; all of the same mesh.
 /// \param levels     levels at which the error must not exceed `tolerance`.
-/// \param order      #V: all vertices, consecutive vertices close to each other, for example the
-///                   result of vertex_order_for_patches.
+/// \param order      all vertices, ordered so that consecutive vertices are close to each other;
+///                   for example the result of vertex_order_for_patches.
 /// \param tolerance  largest allowed compression error of any vertex of any head at any of the
 ///                   levels, in the unit of the positions. Rounding to quantization steps adds to
 ///                   this error; no step of a patch exceeds the largest step of the tiles that

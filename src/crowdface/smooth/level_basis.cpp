@@ -34,8 +34,8 @@ std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
 }
 
 /// Chooses the rows (vertices) from which the principal directions are computed. Half of the chosen
-/// rows are evenly spaced. The other half are, in each block of rows, the row that moves most at
-/// the first node (level 1), because a small number of fields fits such rows worst.
+/// rows are evenly spaced. The other half consists of the row of each block that moves most at the
+/// first node (level 1), because a small number of fields fits such rows worst.
 NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacements) {
   const FieldRows& first = displacements.front();
   const auto moved = [&](std::size_t r) {
@@ -261,8 +261,8 @@ std::vector<double> level_function_values(const LevelNodes& nodes,
 NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions) {
   FilterInput<float> input;
-  // Centre the head, because single-precision rounding depends on the position, whereas
-  // displacements do not.
+  // Centre the head, because single-precision rounding depends on the position, but displacements
+  // do not.
   const Eigen::RowVector3d middle =
       0.5 * (positions.colwise().minCoeff() + positions.colwise().maxCoeff());
   input.values = filter.rows_of<float>(positions.rowwise() - middle);

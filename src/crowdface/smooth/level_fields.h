@@ -15,7 +15,7 @@ namespace crowdface {
 /// The fields of one head at one tile of vertices.
 struct TileFields {
   std::size_t count = 0;                           ///< number of fields
-  const float* quantization_steps = nullptr;       ///< #count
+  const float* quantization_steps = nullptr;       ///< one per field
   const std::int16_t* quantized_values = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
@@ -26,8 +26,9 @@ struct TileFields {
 /// half a step.
 struct LevelFields {
   Index vertex_count = 0;
-  Index rank = 0;  ///< R
-  /// #tiles + 1: index of each tile's first field in the concatenated fields of all tiles.
+  Index rank = 0;  ///< R, the number of fields
+  /// Index of each tile's first field in the concatenated fields of all tiles. The last entry is
+  /// the total number of fields.
   std::span<const std::uint32_t> first_field_of_tile;
   /// for each stored field of a tile, its quantization step in the unit of the positions
   std::span<const float> quantization_steps;

@@ -13,8 +13,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxNodes = 48;
-/// Weight of negative eigenvalues, which belong to checkerboard modes. It is the typical relative
-/// amplitude of these modes in the shape of a head.
+/// Weight of negative eigenvalues, which belong to checkerboard modes. The weight is the typical
+/// relative amplitude of these modes in the shape of a head.
 constexpr double kNegativeWeight = 1e-2;
 
 /// Exponentiation by squaring, because std::pow differs between C libraries.
@@ -55,9 +55,9 @@ std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
 LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_residual)
     : max_level_(max_level) {
   require(max_level > 0, "nodes of levels need a largest level of at least 1");
-  // Build the grid: s = 1 − |λ| falls geometrically from 1 until s is too small to matter at any
-  // level up to L_max. In the shape of a head, the amplitude of a mode grows with the mode's
-  // wavelength, which is proportional to 1/√s.
+  // Build the grid of eigenvalues λ: s = 1 − |λ| falls geometrically from 1 until s is too small to
+  // matter at any level up to L_max. In the shape of a head, the amplitude of a mode grows with the
+  // mode's wavelength, which is proportional to 1/√s.
   constexpr double kRatio = 1.1;
   const double least = 0.3 / static_cast<double>(max_level);
   for (double s = 1; s > least; s /= kRatio) {

@@ -11,11 +11,11 @@ namespace crowdface {
 /// A few levels, the nodes N_p, from which all other levels are interpolated: S_L x − x ≈ Σ_p
 /// w_p(L) (S_{N_p} x − x) for every x. The nodes and weights depend only on the operator kind and
 /// L_max, not on the mesh: L iterations displace an eigenvector v of the operator, with eigenvalue
-/// λ, by (λ^L − 1)·v. The nodes are chosen greedily and the weights by least squares over a grid of
-/// λ in the operator's spectrum. The spectrum is [−1, 1] for the umbrella operator (eigenvalues
-/// near −1, the checkerboard modes, make even and odd levels differ) and [0, 1] for the lazy
-/// operator. The grid is dense towards ±1, and the weight of each λ is the typical amplitude, in a
-/// head, of the modes with this eigenvalue (docs/method.md).
+/// λ, by (λ^L − 1)·v. A greedy algorithm chooses the nodes. The weights w_p(L) are computed by
+/// least squares over a grid of λ in the operator's spectrum. The spectrum is [−1, 1] for the
+/// umbrella operator and [0, 1] for the lazy operator. Eigenvalues near −1 belong to checkerboard
+/// modes, which make even and odd levels differ. The grid is dense towards ±1, and the weight of
+/// each λ is the typical amplitude, in a head, of the modes with this eigenvalue (docs/method.md).
 class LevelNodes {
  public:
   /// \param max_level  L_max, at least 1.
@@ -41,8 +41,9 @@ class LevelNodes {
   std::uint64_t max_level_;
   std::vector<double> eigenvalues_, grid_weights_;
   std::vector<std::uint64_t> levels_;
-  /// Gram-Schmidt basis of the nodes' displacements. Element q is the part of the displacement at
-  /// the node chosen as number q that is orthogonal to elements 0 … q − 1, normalized.
+  /// Gram-Schmidt basis of the nodes' displacements. Element q belongs to the node that was chosen
+  /// as number q. Element q is the component of this node's displacement that is orthogonal to
+  /// elements 0 … q − 1, normalized.
   std::vector<Spectrum> orthonormal_basis_;
   std::vector<std::size_t> choice_order_;  ///< indices into levels_, in the order in which
                                            ///< choose_nodes chose the nodes

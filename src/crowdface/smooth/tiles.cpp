@@ -139,7 +139,7 @@ class TileBuilder {
 
   const SmoothingOperator& smoothing_;
   Tiling& tiling_;
-  /// #V: each vertex's local row in the current tile
+  /// each vertex's local row in the current tile
   std::vector<std::uint32_t> local_;
   /// the vertex of each local row of the current tile
   std::vector<std::uint32_t> vertices_;

@@ -25,11 +25,11 @@ struct CrowdTextures {
 struct BlendedPicture {
   int width = 0;
   int height = 0;
-  /// Height by width by 3, first row on top; empty if `values16` is used.
+  /// Height by width by 3, first row on top; empty if `values_16_bit` is used.
   std::vector<std::uint8_t> srgb;
-  /// Height by width by `channels`, used instead of `srgb`. Each number n stands for the value low
-  /// + step · n. Normals are stored as x, y, z mapped to 0 … 1, as in normal map files.
-  std::vector<std::uint16_t> values16 = {};
+  /// Height by width by `channels`, used instead of `srgb`. A number n stands for the value `low` +
+  /// n · `step`. Normals are stored as x, y, z mapped to 0 … 1, as in normal map files.
+  std::vector<std::uint16_t> values_16_bit = {};
   int channels = 3;
   float low = 0, step = 1.0F / 65535;
 };

@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// Fills the uncovered texels of a texture image with one value per channel, and then copies
 /// covered texels into the gutter.
-/// \param fill    #channels
+/// \param fill    one value per channel
 /// \param values  height by width by #channels.
 template <class Value>
 void fill_uncovered(const SurfaceTexels& texels, std::span<const Value> fill, Value* values) {

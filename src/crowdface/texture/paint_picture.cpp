@@ -119,7 +119,7 @@ RowSums write_values(std::span<const SurfaceTexels::Span> spans, std::span<float
 
 /// Fills uncovered texels with the mean of the covered texels, and then copies covered texels into
 /// the gutter.
-/// \param sums    #rows: sums of covered texels.
+/// \param sums    for each row, the sums of the covered texels.
 /// \param values  height by width by `channels`.
 template <class Value>
 void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, std::size_t channels,
@@ -147,7 +147,7 @@ BlendedPicture blank_picture(const SurfaceTexels& texels, const MapCoding& codin
     picture.low = coding.low;
     picture.step = coding.step;
   }
-  picture.values16.resize(static_cast<std::size_t>(picture.channels) * count);
+  picture.values_16_bit.resize(static_cast<std::size_t>(picture.channels) * count);
   return picture;
 }
 
@@ -180,16 +180,16 @@ BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& codin
       if (coding.content == MapContent::kColours) {
         total = write_colours(spans, sums, result.srgb.data() + row);
       } else if (coding.content == MapContent::kSlopes) {
-        total = write_normals(spans, sums, result.values16.data() + row);
+        total = write_normals(spans, sums, result.values_16_bit.data() + row);
       } else {
-        total = write_values(spans, sums, result, result.values16.data() + row);
+        total = write_values(spans, sums, result, result.values_16_bit.data() + row);
       }
     }
   });
-  if (result.values16.empty()) {
+  if (result.values_16_bit.empty()) {
     fill_rest(texels, row_sums, channels, result.srgb);
   } else {
-    fill_rest(texels, row_sums, channels, result.values16);
+    fill_rest(texels, row_sums, channels, result.values_16_bit);
   }
   return result;
 }

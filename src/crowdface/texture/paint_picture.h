@@ -14,14 +14,15 @@ namespace crowdface {
 struct PictureFields {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads with a non-zero factor, ascending
-  std::vector<float> values;       ///< #vertices by #channels + #heads: base values, then factors
+  /// for each vertex: a base value per channel, then a factor per head
+  std::vector<float> values;
   std::size_t values_per_vertex() const { return channels + heads.size(); }
 };
 
 /// Computes a texture image of a face: the value of a covered texel is base + Σ_h factor_h ·
 /// (stored value of head h's map). Texels beyond the gutter get the mean of the covered texels.
 /// \param coding  content of the image, and the range to which its values are clamped.
-/// \param maps    #heads, each map with the size of the picture.
+/// \param maps    one map per head, each with the size of the picture.
 BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
                              const std::vector<std::shared_ptr<const TextureMap>>& maps,
                              const PictureFields& fields);

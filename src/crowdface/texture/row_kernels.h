@@ -20,8 +20,8 @@ struct Ramp {
 };
 
 /// Writes the first `count` values of each arithmetic sequence to one row. May overwrite up to
-/// kRowSlack values after them.
-/// \param rows  #ramps: the start of each sequence's row.
+/// kRowSlack further values in the row.
+/// \param rows  the start of each sequence's row.
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
 
 /// One row of a head's texture map, and the factor by which each texel is multiplied.
@@ -32,7 +32,7 @@ struct HeadTextureRow {
 };
 
 /// sums[c][x] += factors[x]·stored[c][x] for x in [begin, end), head by head.
-/// \param sums  #channels rows, one to three.
+/// \param sums  one row for each of the one to three channels.
 void add_products(std::span<const HeadTextureRow> heads, std::size_t begin, std::size_t end,
                   std::span<float* const> sums);
 

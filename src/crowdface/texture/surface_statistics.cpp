@@ -203,9 +203,9 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
   });
 }
 
-/// Groups consecutive pairs of heads, up to three pairs per group. Both heads of a pair have maps
-/// for certain texture images; these are the same images for all pairs of a group. The products of
-/// the pairs are therefore known at the same vertices, and can be smoothed as one row.
+/// Groups consecutive pairs of heads, up to three pairs per group. For all pairs of a group, the
+/// texture images for which both heads have maps are the same. The products of the pairs are
+/// therefore known at the same vertices, and can be smoothed as one row.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& maps) {
   std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map
   for (std::size_t a = 0; a < maps.front().size(); ++a) {

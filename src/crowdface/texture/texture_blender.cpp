@@ -37,8 +37,8 @@ HeadWeights mean_of(const HeadWeights& a, const HeadWeights& b) {
   return mean;
 }
 
-/// The weights W: half the target's weights plus half the area-weighted mean of the regions'
-/// weights.
+/// The weights W of TextureBlender: half the target's weights plus half the area-weighted mean of
+/// the regions' weights.
 HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWeights>& regions,
                              const std::vector<double>& region_shares) {
   HeadWeights mean(target.size(), 0.0);
@@ -68,9 +68,9 @@ HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> ch
 
 /// The heads' weights in one texture image of one face.
 struct FaceWeights {
-  HeadWeights of_target;               ///< τ, for vertices that get only the target's colour
-  HeadWeights of_face;                 ///< W
-  std::vector<HeadWeights> of_region;  ///< v at vertices of this region only
+  HeadWeights of_target;               ///< for vertices that get only the target's colour
+  HeadWeights of_face;                 ///< W of TextureBlender
+  std::vector<HeadWeights> of_region;  ///< v_h at vertices of one region only
 };
 
 FaceWeights face_weights(const Recipe& recipe,
@@ -88,7 +88,8 @@ FaceWeights face_weights(const Recipe& recipe,
   return weights;
 }
 
-/// The gain g that restores the contrast of blended detail, limited to 1 … 1/√Σ v_h².
+/// The gain g of TextureBlender, which restores the contrast of blended detail. It is limited to
+/// the range from 1 to 1/√(Σ v_h²), where v_h are the `weights`.
 double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
                const std::vector<std::size_t>& heads, const std::vector<double>& weights) {
   double wanted = 0, left = 0, squares = 0;
@@ -230,8 +231,9 @@ PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& 
                          weights.of_region[k][head];
             }
           }
-          // The base value is Σ W_h C_h + g Σ v_h (low_h − C_h) and the factor of head h is g v_h
-          // step_h, because D_h = low_h + step_h · stored.
+          // Symbols as in TextureBlender. A map stores D_h as D_h = low_h + step_h · stored.
+          // Therefore the base value is Σ W_h C_h + g Σ v_h (low_h − C_h), and the factor of head h
+          // is g v_h step_h.
           const double gain = gain_at(statistics_, vertex, fields.heads, lent);
           const auto coarse = [&](std::size_t head) -> Eigen::Array3d {
             return statistics_.coarse_values[head]

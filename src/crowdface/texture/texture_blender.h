@@ -15,9 +15,10 @@ namespace crowdface {
 
 struct TextureBlendOptions {
   StatisticsScale statistics_scale;  ///< how many smoothing iterations the statistics use
-  /// #V: weight of each vertex in means over the face; not all zero.
+  /// Weight of each vertex in means over the face; not all zero.
   std::vector<double> vertex_areas;
-  /// #V, or empty: whether the vertex has the colours of the target alone (eyes, teeth).
+  /// For each vertex, whether it gets only the target's colours, as eyes and teeth do; may be
+  /// empty.
   std::vector<bool> uses_target_colours_only;
 };
 

@@ -43,8 +43,10 @@ struct MapCoding {
   /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
   /// representable.
   static MapCoding slope_coding() { return {MapContent::kSlopes, 2, -8, 16.0F / 65534}; }
-  /// A coding of plain numbers. \param channels  1 or 3. \param low, high  range of all numbers; if
-  ///     they are equal, every stored value encodes this number.
+  /// A coding of plain numbers.
+  /// \param channels  1 or 3.
+  /// \param low, high  range of all numbers; if both are equal, every stored value encodes this
+  ///                   number.
   static MapCoding value_coding(int channels, float low = 0, float high = 1) {
     constexpr float kSmallestStep = std::numeric_limits<float>::min();
     return {MapContent::kValues, channels, low, std::max((high - low) / 65535, kSmallestStep)};

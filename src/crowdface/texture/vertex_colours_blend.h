@@ -11,9 +11,9 @@ namespace crowdface {
 /// Blends vertex colours: computes the weighted mean of the heads' optical densities. The weights
 /// are constant over the face, so that forehead and chin match in colour. Heads without colours get
 /// no weight.
-/// \param heads  #heads, each #V by 3 or without rows; at least one has rows.
-/// \param uses_target_colours_only  #V, or empty: vertices that use weights.target instead of
-///                                  weights.face, such as eyes.
+/// \param heads  the colours of each head, #V by 3, or no rows; at least one head has colours.
+/// \param uses_target_colours_only  for each vertex, whether it uses weights.target instead of
+///                                  weights.face, as the eyes do; may be empty.
 /// \return #V by 3.
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,

@@ -56,8 +56,9 @@ using Kind = Measurement::Kind;
 /// Fills the table of all measurements.
 class TableWriter {
  public:
-  /// Adds a distance. With `b`, it is the distance between the landmarks a and b on the midline of
-  /// the face; without `b`, the distance between the left and the right landmark of the pair a.
+  /// Adds a distance. With `b`, adds the distance between the landmarks a and b on the midline of
+  /// the face. Without `b`, adds the distance between the left and the right landmark of the pair
+  /// a.
   void distance(std::string_view name, std::string_view symbol, const char* a, const char* b,
                 std::string_view definition) {
     const std::string first = a, second = b;

@@ -38,7 +38,7 @@ struct Measurement {
   std::string_view symbol;  ///< the landmarks' symbols, such as "al-al"
   Kind kind;
   std::string_view definition;
-  /// For each side of the face, the landmarks, as indices into trait_landmarks(). The value of the
+  /// The landmarks for each side of the face, as indices into trait_landmarks(). The value of the
   /// measurement is the mean over the sides. Paired measurements have two sides, other measurements
   /// one side. Ratios have none.
   std::vector<std::array<std::size_t, 3>> landmarks_of_sides = {};

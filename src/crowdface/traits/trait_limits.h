@@ -40,14 +40,14 @@ struct TraitTarget {
 /// Returns all of `limits`, and the default limits of the traits that have no limit in `limits`.
 TraitLimits merge_limits(const TraitLimits& defaults, const TraitLimits& limits);
 
-/// The distributions of the measurements. They turn a quantile in a limit into a value. A
-/// distribution comes from the heads, or from a table.
+/// The distributions of the measurements, from the heads or from a table. The distributions convert
+/// quantiles in limits to values.
 class TraitDistributions {
  public:
   /// \param heads  for each head, the values of all measurements in the order of measurements();
   ///               nothing for a measurement that is not available.
-  /// \param table  distributions that replace the heads' distributions, for the measurements in the
-  ///               table
+  /// \param table  normal distributions of some measurements, which replace the heads'
+  ///               distributions of these measurements.
   explicit TraitDistributions(const std::vector<std::vector<std::optional<double>>>& heads,
                               std::vector<TraitTarget> table = {});
 

@@ -20,9 +20,10 @@ std::vector<TrianglePair> intersecting_pairs(const std::vector<Triangle>& triang
                                              const std::vector<TrianglePair>& pairs);
 
 /// Counts the triangles of a face that take part in new intersections, which the target does not
-/// have. Where the target already intersects itself (for example at the corner of the mouth),
-/// triangles next to the intersection may intersect too. Therefore a pair is ignored if each of its
-/// triangles shares a vertex with a triangle that intersects another triangle in the target.
+/// have. Where the target already intersects itself (for example at the corner of the mouth), the
+/// face's triangles next to this intersection may intersect too. Therefore a pair is ignored if
+/// each of its triangles shares a vertex with a triangle that intersects another triangle in the
+/// target.
 class NewIntersections {
  public:
   /// \param target_pairs  all pairs of triangles that intersect in the target.
@@ -34,8 +35,8 @@ class NewIntersections {
   Index count(const std::vector<TrianglePair>& face_pairs) const;
 
  private:
-  /// #T: whether the triangle shares a vertex with a triangle that intersects another triangle in
-  /// the target.
+  /// for each triangle, whether it shares a vertex with a triangle that intersects another triangle
+  /// in the target
   std::vector<bool> near_target_intersection_;
 };
 

@@ -81,8 +81,8 @@ std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b);
 /// Returns which triangles of two leaves have a vertex in common, as a bit mask with the bit order
 /// of `overlap_mask`.
 std::uint64_t shared_vertex_mask(const LeafCorners& a, const LeafCorners& b);
-/// Returns for which triangles of two leaves the cosine between the normals is above `min_cosine`,
-/// as a bit mask with the bit order of `overlap_mask`.
+/// Returns which triangles of two leaves have similar normals, as a bit mask with the bit order of
+/// `overlap_mask`. Two normals are similar if the cosine of their angle is above `min_cosine`.
 std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, float min_cosine);
 
 }  // namespace crowdface

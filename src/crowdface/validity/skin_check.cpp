@@ -152,7 +152,7 @@ SkinDefects SkinCheck::compare(const Positions& positions, const Target& target)
   defects.local = target.triangles.compare(positions);
   const SelfIntersections crossing =
       self_intersections_of(triangles_, tree_, positions, triangles_at_vertex_, view_setup_);
-  defects.intersecting_count = target.intersections.count(crossing.pairs);
+  defects.intersecting_triangle_count = target.intersections.count(crossing.pairs);
   defects.exposed_back_face_mm2 =
       std::max(0.0, crossing.exposed_back_area - target.exposed_back_area) *
       view_setup_.mm_per_unit * view_setup_.mm_per_unit;

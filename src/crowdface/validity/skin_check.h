@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The directions from which the skin is viewed, to measure how much of its back side is visible.
-/// Also the length of one unit of the positions.
+/// The directions from which the visible area of the skin's back side is measured, and the length
+/// of one unit of the positions.
 struct ViewSetup {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;
@@ -22,12 +22,12 @@ struct ViewSetup {
 struct SkinDefects {
   LocalDefects local;  ///< defects of single triangles
   /// number of triangles that take part in intersections which the target does not have
-  Index intersecting_count = 0;
+  Index intersecting_triangle_count = 0;
   /// How much the gap at a contact of the skin (such as between the lips) exceeds the widest gap of
   /// any head at the same contact. SkinCheck does not set this value; callers that know the
-  /// contacts do.
+  /// contacts set it.
   double gap_excess_mm = 0;
-  /// how much larger the visible area of the skin's back faces is than on the target
+  /// increase of the visible area of the skin's back faces, compared with the target
   double exposed_back_face_mm2 = 0;
 };
 

@@ -40,8 +40,8 @@ class TriangleScene {
   /// found triangle's position in the order of the tree, or kNoIndex if the ray hits no triangle.
   ///
   /// \param direction  of any length except zero
-  /// \param start      index of the triangle from which the ray starts, which is ignored; or
-  ///                   kNoIndex
+  /// \param start      index of the triangle from which the ray starts; the search ignores this
+  ///                   triangle. kNoIndex: no triangle is ignored
   /// \param guess      position (in the order of the tree) of the triangle to test first, or
   ///                   kNoIndex. Usually the result for the previous ray, because neighbouring rays
   ///                   often hit the same triangle.
@@ -57,8 +57,8 @@ class TriangleScene {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
-  /// Returns pairs of nodes whose leaves include all pairs of leaves that may overlap. Each pair of
-  /// nodes can be processed as one parallel task.
+  /// Returns pairs of nodes. Any two leaves that overlap are descendants of the two nodes of one of
+  /// these pairs. Each pair of nodes can be processed as one parallel task.
   std::vector<NodePair> initial_node_pairs() const;
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;

@@ -26,8 +26,8 @@ bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
   return least < 0 && most > 0;
 }
 
-/// Returns the interval in which triangle `t` meets the line that both triangles' planes have in
-/// common. The interval is given by coordinates along `axis`.
+/// Returns the interval in which triangle `t` meets the intersection line of both triangles'
+/// planes. The interval is given by coordinates along `axis`.
 ///
 /// \param distance  signed distances of the corners of `t` from the other triangle's plane. At
 ///                  least one is positive and one negative.
@@ -75,7 +75,7 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const bool turned = normal.dot(frame.normal) < 0;
     const bool collapsed =
         normal.squaredNorm() < kCollapsed * kCollapsed * frame.normal.squaredNorm();
-    if (turned || collapsed) ++defects.flipped_count;
+    if (turned || collapsed) ++defects.flipped_triangle_count;
     // Compute the square of the largest singular value of the linear map from the target triangle
     // to this triangle. x and y are the images of the axes of `frame`.
     const Vector x = u / frame.length;
@@ -83,7 +83,7 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();
     stretches.push_back(0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b));
   }
-  defects.compared_count = static_cast<Index>(stretches.size());
+  defects.compared_triangle_count = static_cast<Index>(stretches.size());
   if (!stretches.empty()) {
     const double count = static_cast<double>(stretches.size());
     const auto rank = static_cast<std::size_t>(kPercentile * count);

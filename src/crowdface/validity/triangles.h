@@ -11,18 +11,18 @@ namespace crowdface {
 
 /// Defects of single triangles of a face compared with the target's triangles.
 struct LocalDefects {
-  Index compared_count = 0;  ///< number of triangles that are not degenerate in the target
+  Index compared_triangle_count = 0;  ///< number of triangles that are not degenerate in the target
   /// number of triangles that are turned by more than 90° or shrunk below 1/50 of their area in the
   /// target
-  Index flipped_count = 0;
-  /// 99th percentile, over all triangles, of the factor by which a triangle is stretched in the
-  /// direction of its largest stretch
+  Index flipped_triangle_count = 0;
+  /// 99th percentile, over all triangles, of the triangle's largest stretch: the largest singular
+  /// value of the linear map from the target's triangle to the face's triangle
   double stretch_factor = 1;
 };
 
-/// The triangles of a target, prepared for comparison with faces. A comparison gives the number of
-/// bad triangles and a percentile of their stretch instead of maxima, because scans have sliver
-/// triangles that flip under any change.
+/// The triangles of a target, prepared for comparison with faces. A comparison counts flipped
+/// triangles and computes a percentile of the stretch instead of the maximum, because scans have
+/// sliver triangles that flip under any change.
 class TargetTriangles {
  public:
   /// \param target  positions of the target, #V by 3.

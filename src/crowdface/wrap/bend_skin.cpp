@@ -225,11 +225,11 @@ class Bending {
   Eigen::VectorXd areas_;
   SparseMatrix laplacian_;
   Eigen::VectorXd scan_areas_;
-  /// #skin, 0 … 1: weight of the scan at each skin vertex; grows with the ambient visibility, and
-  /// is 0 inside mouth, nose and eye sockets
+  /// For each skin vertex: weight of the scan, 0 … 1. The weight grows with the ambient visibility,
+  /// and is 0 inside mouth, nose and eye sockets.
   std::vector<double> visibility_weights_;
   std::vector<std::uint32_t> scan_points_;
-  std::vector<std::uint32_t> found_on_scan_;  ///< #skin: triangle found in the last query
+  std::vector<std::uint32_t> found_on_scan_;  ///< per skin vertex: triangle found last
   std::vector<SurfaceHit> found_on_skin_;     ///< #scan_points_
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;

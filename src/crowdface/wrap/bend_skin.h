@@ -11,7 +11,7 @@ namespace crowdface {
 
 struct BendOptions {
   /// Stiffness of each round, given as a wavelength. The round suppresses variations of the
-  /// displacement whose wavelength is shorter. The effect does not depend on the mesh resolution.
+  /// displacement with shorter wavelengths. The effect does not depend on the mesh resolution.
   std::vector<double> wavelengths_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
   /// Weight of offsets along the surface, in the first and in the last round. Offsets along the
   /// normal have weight 1.

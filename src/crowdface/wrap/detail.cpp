@@ -41,9 +41,10 @@ double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return parallel_dot(a.data(), b.data(), a.size(), kDetailBlock);
 }
 
-/// Solves (W + c Uᵀ U) x = W r, where U x is, for each vertex, the difference between the vertex's
-/// value and the mean of its neighbours' values. Uses conjugate gradients with the diagonal as
-/// preconditioner; this is sufficient because the stiffness acts over only one or two edges.
+/// Solves (W + c Uᵀ U) x = W r. W is the diagonal matrix of the weights, c the stiffness, and r the
+/// target values. U x is, for each vertex, the difference between the vertex's value and the mean
+/// of its neighbours' values. Uses conjugate gradients with the diagonal as preconditioner; this is
+/// sufficient because the stiffness acts over only one or two edges.
 class SmoothFit {
  public:
   SmoothFit(const Adjacency& adjacency, double stiffness)
@@ -118,9 +119,9 @@ TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const P
   return asked;
 }
 
-/// Whether the offsets flip a triangle. The triangle must keep its orientation of `before`. It must
-/// also keep its orientation of `rest_positions` (the template), unless it is already flipped in
-/// `before`.
+/// Whether the offsets flip a triangle. Compares the result with the triangle in `before` and in
+/// `rest_positions` (the template). Skips the second comparison if the triangle in `before` is
+/// already flipped relative to the template.
 bool flips(const Positions& rest_positions, const Positions& before, const Positions& normals,
            const Eigen::VectorXd& along, const Triangle& t) {
   const auto moved = [&](std::uint32_t v) -> Eigen::Vector3d {

@@ -12,7 +12,7 @@ namespace crowdface {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// The area of each vertex, #V: a third of the area of the adjacent triangles, but at least a
+/// The area of each vertex: a third of the area of the adjacent triangles, but at least a
 /// thousandth of the mean.
 Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Positions& positions);
 
@@ -24,29 +24,29 @@ SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& 
 /// The symmetric matrix B, #V by #V, for which dᵀ B d is the bending energy ∫ s |Δd|² of a
 /// displacement field d.
 /// \param areas  #V
-/// \param stiffness  #V: the relative stiffness s.
+/// \param stiffness  the relative stiffness s at each vertex.
 SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd& areas,
                             const Eigen::VectorXd& stiffness);
 
-/// Quadratic data term of each vertex: Σ (d − offset)ᵀ W (d − offset) with one 3 by 3 matrix W per
-/// vertex.
+/// Quadratic data terms Σ (d − offset)ᵀ W (d − offset), where d is the displacement of a vertex.
+/// Each vertex has its own 3 by 3 matrix W.
 struct DataTerms {
-  std::vector<Eigen::Matrix3d> matrices;  ///< #V: W, symmetric, positive semidefinite
+  std::vector<Eigen::Matrix3d> matrices;  ///< W of each vertex: symmetric, positive semidefinite
   Positions right_hand_side;              ///< #V by 3: W · offset
 
   explicit DataTerms(Index vertices)
       : matrices(static_cast<std::size_t>(vertices), Eigen::Matrix3d::Zero()),
         right_hand_side(Positions::Zero(vertices, 3)) {}
-  /// Adds normal_weight · (n · (d − offset))² + isotropic_weight · |d − offset|² for the
-  /// displacement d.
+  /// Adds normal_weight · (n · (d − offset))² + isotropic_weight · |d − offset|², where d is the
+  /// displacement and n is `normal`.
   void add(std::uint32_t vertex, const Eigen::Vector3d& normal, double normal_weight,
            double isotropic_weight, const Eigen::Vector3d& offset);
 };
 
-/// Finds displacements d that minimise the data terms plus Σ over coordinates of dᵀ B d. Uses
-/// conjugate gradients, preconditioned with one factorisation of B plus a typical weight per vertex
-/// (Eigen's SimplicialLDLT). The factorisation serves all three coordinates and any number of
-/// solves.
+/// Finds displacements d that minimise the data terms plus dᵀ B d, summed over the three
+/// coordinates. B is the stiffness matrix. Uses conjugate gradients, preconditioned with one
+/// factorisation of B plus a typical weight per vertex (Eigen's SimplicialLDLT). The factorisation
+/// serves all three coordinates and any number of solves.
 class ElasticSolver {
  public:
   /// \param stiffness  #V by #V, symmetric, positive semidefinite

@@ -119,8 +119,9 @@ double weighted_correlation(const Eigen::VectorXd& p, const Eigen::VectorXd& q,
   return sizes > 0 ? product(p, q) / sizes : 0;
 }
 
-/// Height of a surface at a point, interpolated between the vertices around the point.
-/// \param vertices  #vertices by 3: coordinates and heights in mm
+/// Height of a surface at the point (a, b), interpolated between the surface's vertices near this
+/// point.
+/// \param vertices  one row per vertex: the two coordinates and the height, in mm
 double height_at(const Positions& vertices, double a, double b) {
   const Eigen::ArrayXd squares =
       (vertices.col(0).array() - a).square() + (vertices.col(1).array() - b).square();

@@ -39,7 +39,7 @@ struct ReliefCorrelation {
   bool is_doubtful() const { return in_place < 0.55 || (!is_high() && in_place - beside < 0.1); }
 };
 
-/// \return #features
+/// \return one entry per feature
 std::vector<ReliefCorrelation> relief_correlations(const WrapTemplate& wrap_template,
                                                    const std::vector<FaceFeature>& features,
                                                    const Positions& wrapped);

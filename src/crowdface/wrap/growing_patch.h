@@ -30,7 +30,7 @@ class GrowingPatch {
  private:
   const SkinMesh& skin_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<int> rings_;  ///< ring of each vertex in `vertices_`
+  std::vector<int> rings_;  ///< ring number of each vertex in `vertices_`
   std::vector<bool> is_member_;
   int ring_ = 0;
   double weight_steepness_ = 1;
@@ -48,8 +48,9 @@ class PatchMender {
   /// vertices or to about 15 mm, measured in these positions.
   PatchMender(const SkinMesh& skin, const Positions& rest_positions);
 
-  /// For each bad triangle, applies the operation to the smallest patch around it in which this
-  /// reduces the number of bad triangles. If no patch does, the triangle stays unchanged.
+  /// For each bad triangle, finds the smallest surrounding patch on which the operation reduces the
+  /// number of bad triangles, and applies the operation there. If there is no such patch, the
+  /// triangle stays unchanged.
   void mend(std::span<const std::uint32_t> triangles,
             const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 

@@ -17,7 +17,7 @@ struct ReducedSkin {
     std::uint32_t triangle;
     std::array<float, 3> shares;
   };
-  std::vector<BarycentricPoint> vertex_positions;  ///< #vertices of the original skin
+  std::vector<BarycentricPoint> vertex_positions;  ///< one per vertex of the original skin
   int smoothing_steps = 0;  ///< number of smoothing steps after interpolation
 
   /// Interpolates values at the reduced skin's vertices (one row of three each) to the vertices of

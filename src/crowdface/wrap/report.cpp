@@ -39,8 +39,7 @@ bool seen(const WrapTemplate& wrap_template, Index v) {
   return wrap_template.skin.ambient_visibility[static_cast<std::size_t>(v)] > kVisibleSkinThreshold;
 }
 
-/// Distances from the skin's visible vertices to the scan; only of the vertices that have scan
-/// data.
+/// Distances to the scan, for all visible skin vertices that have scan data.
 /// \param regions, region  restrict the result to one region; null: the whole skin
 std::vector<double> seen_distances(const WrapTemplate& wrap_template, const WrapResult& result,
                                    const SkinRegions* regions = nullptr, std::size_t region = 0) {
@@ -269,7 +268,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_
         spread_json(seen_distances(wrap_template, result, &regions, r));
   }
   report["without_data"] = rounded(share_without_data(wrap_template, result));
-  if (facts.filled_share) report["textures_filled"] = rounded(*facts.filled_share);
+  if (facts.share_without_scan) report["textures_filled"] = rounded(*facts.share_without_scan);
   report["flipped_triangles"] = result.folded_triangle_count;
   report["landmarks"] = nlohmann::ordered_json::array();
   for (const LandmarkResidual& landmark : result.landmarks) {

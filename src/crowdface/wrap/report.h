@@ -22,7 +22,8 @@ WrapDistances measure_distances(const WrapTemplate& wrap_template, const WrapRes
 double share_without_data(const WrapTemplate& wrap_template, const WrapResult& result);
 
 /// Warnings for the user; one sentence each, with advice.
-/// \param regions  the warnings name each region of which a large fraction is far from the scan.
+/// \param regions  the warnings name the regions in which a large fraction of the skin is far from
+///                 the scan.
 /// \param model_head_count  number of heads in the model; 0: no model.
 std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_head_count);
@@ -39,15 +40,15 @@ void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result
 struct WrapFacts {
   std::string template_file, scan_file, inputs_digest, mesh_digest;
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
-  /// Leave-one-out error of the pose by landmark name, in mm: distance of the landmark from the
-  /// position that a similarity fitted to the other landmarks predicts; no entry if there is no
-  /// prediction.
+  /// Leave-one-out error of the pose by landmark name, in mm. A similarity that is fitted to the
+  /// other landmarks predicts the position of the landmark. The error is the landmark's distance
+  /// from this prediction. There is no entry if there is no prediction.
   std::map<std::string, double> leave_out_pose_errors_mm;
   /// Leave-out error of the wrap by landmark name, in mm: the result of `leave_out_distances`;
   /// empty if the user did not request it.
   std::map<std::string, double> leave_out_wrap_errors_mm = {};
   /// Fraction of the texels, 0 … 1, that are filled in because the scan does not cover them.
-  std::optional<double> filled_share = {};
+  std::optional<double> share_without_scan = {};
 };
 
 /// The report as JSON.

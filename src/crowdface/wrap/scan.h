@@ -15,8 +15,8 @@ struct Scan {
   Positions positions;                  ///< #V by 3
   std::vector<Triangle> triangles;      ///< oriented outwards
   std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
-  /// #triangles: index of each triangle among all triangles into which `triangles_of` divides the
-  /// file's polygons; empty if the scan does not come from a file
+  /// for each triangle: its index among all triangles into which `triangles_of` divides the file's
+  /// polygons; empty if the scan does not come from a file
   std::vector<std::uint32_t> file_triangle_indices = {};
 };
 
@@ -24,7 +24,7 @@ struct Scan {
 /// \param is_kept  called with the index of each triangle, in ascending order.
 void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept);
 
-/// #V: whether a triangle uses the vertex.
+/// For each vertex: whether a triangle uses the vertex.
 std::vector<bool> used_vertices(const Scan& scan);
 
 /// How far a surface is from being closed: the length of the sum of the triangles' area vectors,

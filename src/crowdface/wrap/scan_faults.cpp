@@ -20,8 +20,9 @@ namespace {
 constexpr double kClosed = 0.4;
 // half width, in eyeball radii, of the region in which the opening of the lids is measured
 constexpr double kMiddle = 0.4;
-constexpr double kOpenMouthMm = 3;  // how much farther apart than the template's the lips must be
-constexpr double kHairMm = 10;      // heads without hair differ by less than this
+// in an open mouth, the lips are farther apart than on the template by more than this length
+constexpr double kOpenMouthMm = 3;
+constexpr double kHairMm = 10;  // without hair, the skull differs from the template's by less
 constexpr double kMaxFar = 0.05;
 constexpr std::size_t kMin = 20;  // least number of vertices in a region
 

@@ -15,7 +15,7 @@ inline constexpr double kFarFromScanMm =
 /// Regions of the skin for which a report lists distances to the scan separately.
 struct SkinRegions {
   std::vector<std::string> names;
-  std::vector<std::size_t> region_of_vertex;  ///< #skin indices into `names`; empty: no regions
+  std::vector<std::size_t> region_of_vertex;  ///< one index into `names` per skin vertex; or empty
 
   /// Whether a vertex of the skin belongs to the region `name`.
   bool contains(std::uint32_t vertex, const std::string& name) const;

@@ -40,7 +40,7 @@ class ScanSurface {
 
   const Scan& scan() const { return scan_; }
   const Positions& normals() const { return normals_; }
-  /// #V: whether the vertex lies on the scan's boundary.
+  /// For each vertex: whether the vertex lies on the scan's boundary.
   const std::vector<bool>& is_boundary_vertex() const { return is_boundary_vertex_; }
 
  private:

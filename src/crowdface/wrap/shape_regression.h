@@ -16,9 +16,9 @@ struct RegressionOptions {
   double local_variance_fraction = 0.15;
   double correlation_length_mm = 45;  ///< correlation length of the local variation
   /// Standard deviation, along each axis, of an additional smooth random deformation with the same
-  /// correlation length. It allows shapes that a few heads do not span.
+  /// correlation length. This deformation allows shapes that a few heads do not span.
   double smooth_deviation_mm = 1.8;
-  double noise_deviation_mm = 1;   ///< standard deviation of the scan
+  double noise_deviation_mm = 1;   ///< standard deviation of the scan's noise
   std::size_t sample_count = 800;  ///< number of sampled vertices of the skin
   std::vector<double> search_radii_mm = {10, 8, 6, 5, 4, 4, 4};  ///< search radius of each round
 };
@@ -26,7 +26,7 @@ struct RegressionOptions {
 /// Returns the most likely head, given the model and the observation that points of the skin lie on
 /// the scan: Gaussian process regression (Lüthi et al. 2018). The scan constrains positions only
 /// along the scan's normals; the model determines positions along the surface.
-/// \param model  of the skin, in the scan's frame, in millimetres
+/// \param model  model of the skin, in the scan's frame, in millimetres
 /// \param positions  #skin by 3: an initial fit close to the scan.
 Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Positions& positions,
                         const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,

@@ -32,7 +32,7 @@ class SurfaceTree {
   /// \param positions, triangles  must outlive the tree; triangles without area are left out.
   SurfaceTree(const Positions& positions, const std::vector<Triangle>& triangles);
 
-  /// The closest point within `reach`; among equally close points the one on the triangle with the
+  /// The closest point within `reach`; of equally close points, the point on the triangle with the
   /// smallest index.
   /// \param guess  a triangle that is probably the closest, or kNoIndex. A good guess makes the
   /// search much faster.
@@ -56,7 +56,7 @@ class SurfaceTree {
   const std::vector<Triangle>& triangles_;
   /// for each triangle, the mean of its corners' normals
   std::vector<Eigen::Vector3d> mean_normals_;
-  MedianSplitTree tree_;                    ///< over the triangles with an area
+  MedianSplitTree tree_;                    ///< over the triangles with nonzero area
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
 };
 

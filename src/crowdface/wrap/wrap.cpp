@@ -210,7 +210,7 @@ static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeMod
     wrapped = regress_shape(bent, *used, used->evaluate(fit.coefficients), surface, marks);
     // After the model fit, differences are small and correspondences nearly correct. A tangential
     // weight would pull vertices along the surface to their closest points, which are less exact
-    // correspondences than those of the model.
+    // than the correspondences of the model.
     bend = {.wavelengths_mm = {10, 5, 2.5},
             .first_round_tangential_weight = 0,
             .last_round_tangential_weight = 0.05,

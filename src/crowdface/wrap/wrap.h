@@ -27,7 +27,8 @@ struct LandmarkResidual {
   double error_mm = 0;  ///< see `WrapLandmark::error_mm`
 };
 
-/// A feature of the template, and whether it lies on the same feature of the wrapped scan.
+/// A feature of the template, and whether the wrap has placed this feature on the same feature of
+/// the scan.
 struct FeatureCheck {
   std::string name;
   ReliefCorrelation correlation;
@@ -42,10 +43,12 @@ struct WrapResult {
   /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
   /// without them agrees better.
   std::vector<std::string> dropped_landmarks;
-  /// median distance to the scan of the template that is moved, rotated and scaled, but not bent
+  /// median distance between the scan and the template after the pose fit (translation, rotation
+  /// and scale), before the template is bent
   double pose_residual_mm = 0;
-  Eigen::VectorXd distance_mm;  ///< #skin: distance from the wrapped skin to the scan
-  /// #skin: true if the scan has no data near the vertex, or if only the scan's boundary is near
+  Eigen::VectorXd distance_mm;  ///< distance of each wrapped skin vertex from the scan
+  /// for each skin vertex: true if the scan has no data near the vertex, or if only the scan's
+  /// boundary is near
   std::vector<bool> lacks_data;
   Index folded_triangle_count = 0;  ///< triangles of the skin that remain folded
   /// Distance in mm between two estimates of the point between the eyes: on the wrapped template,

@@ -16,8 +16,8 @@ struct AssetLicence {
   std::string licence, author, homepage;
 };
 
-/// Returns whether the package names an author, and the named licence lets everybody use and change
-/// the asset (AGPL, GPL, CC0, MIT or CC BY without NC and ND).
+/// Returns whether the package names an author and a licence that lets everybody use and change the
+/// asset (AGPL, GPL, CC0, MIT or CC BY without NC and ND).
 bool is_free(const AssetLicence& licence);
 
 /// Returns the path of an image that the file of an asset refers to. \param name  path relative to
@@ -35,7 +35,7 @@ struct FittedMesh {
   };
   Topology topology;
   TextureCoordinates uvs;                             ///< #T by 2
-  std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V, each three base-mesh vertices
+  std::vector<std::array<std::uint32_t, 3>> anchors;  ///< three base-mesh vertices per vertex
   Positions weights;                                  ///< #V by 3, a weight for each anchor
   Positions offsets;                                  ///< #V by 3, decimetres
   std::vector<Picture> pictures;                      ///< one for each alternative material

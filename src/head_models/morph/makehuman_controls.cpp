@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
 /// A measure of the face with two morph targets, one to decrease and one to increase the measure.
 /// '*' in `stem` stands for l and r (left and right), whose values differ slightly. `spread` is the
-/// standard deviation. `aged` is the change of the mean per 20 years of age above 45, `weight` the
-/// change of the mean for the heaviest body.
+/// standard deviation. `aged` is the change of the mean per 20 years of age above 45. `weight` is
+/// the change of the mean for the heaviest body.
 struct Control {
   std::string_view stem, less, more;
   double spread;

@@ -13,7 +13,7 @@ namespace crowdface {
 
 inline constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
 
-/// Attributes of a person, from which the means of the person's random measures follow.
+/// Attributes of a person. They determine the means of the person's random measures.
 struct MakeHumanPerson {
   bool is_male = false;
   double age_years = 0;               ///< 20 … 80

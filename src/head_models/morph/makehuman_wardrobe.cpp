@@ -25,8 +25,8 @@ struct AgeShare {
   double share;
 };
 
-/// Returns the blending weights, for an age, of the package's skins, which show people of 27, 48
-/// and 68 years; interpolates linearly between these ages.
+/// Returns the blending weights of the package's skins for a person's age. The skins show people of
+/// 27, 48 and 68 years. The weights are interpolated linearly between these ages.
 std::array<AgeShare, 3> age_shares(double years) {
   const double middle = std::clamp((years - 27) / (48 - 27), 0.0, 1.0);
   const double old = std::clamp((years - 48) / (68 - 48), 0.0, 1.0);
@@ -110,7 +110,7 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 struct Wearable {
   std::string_view folder, kind, tags;
   double share = 1;
-  bool young = false;  ///< whether old people do not wear the attachment
+  bool young = false;  ///< true: the attachment is not for old people
 };
 // The tags "male" and "female" of hair come from the package; for brows they are assigned by the
 // thickness of the brows.

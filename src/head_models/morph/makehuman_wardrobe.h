@@ -57,7 +57,7 @@ struct MakeHumanAttachment {
   std::string name, kind;
   std::filesystem::path file;        ///< path in the package
   std::vector<std::string> tags;     ///< tags that a head needs to wear the attachment
-  bool excludes_old_people = false;  ///< whether the attachment is not for old people
+  bool excludes_old_people = false;  ///< true: the attachment is not for old people
   double relative_frequency = 1;     ///< relative frequency among attachments of the same kind
 };
 
@@ -65,8 +65,8 @@ struct MakeHumanAttachment {
 /// first.
 std::vector<MakeHumanAttachment> makehuman_attachments(const std::filesystem::path& package);
 
-/// Returns the ancestry ("african", "asian" or "caucasian") whose share is above 0.5; if there is
-/// none, an empty text.
+/// Returns the ancestry ("african", "asian" or "caucasian") whose share is above 0.5. Returns an
+/// empty text if no share is above 0.5.
 std::string prevailing_ancestry(const MakeHumanPerson& person);
 
 }  // namespace crowdface

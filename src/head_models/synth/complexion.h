@@ -26,7 +26,7 @@ struct Complexion {
   ScreenColour skin;        ///< base colour of the skin
   ScreenColour young_hair;  ///< colour of the scalp hair in young years
   ScreenColour hair;        ///< colour of the scalp hair, including grey
-  ScreenColour brow_hair;   ///< colour of brows and beard, which turn grey later
+  ScreenColour brow_hair;   ///< colour of brows and beard; turns grey later than `hair`
   double redness = 0;       ///< 0 … 1: redness of cheeks, nose and ears
   double freckles = 0;      ///< 0 … 1
   double age_spots = 0;     ///< 0 … 1
@@ -34,17 +34,16 @@ struct Complexion {
   double brow_width = 1;
   double brow_arch = 0;  ///< additional height of the brows' arch in cm; 0 for men
   double beard = 0;  ///< hair on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
-  double moustache = 0;   ///< on the upper lip, on the same scale as `beard`
-  double chin_beard = 0;  ///< on the chin, on the same scale as `beard`
+  double moustache = 0;   ///< hair on the upper lip, on the same scale as `beard`
+  double chin_beard = 0;  ///< hair on the chin, on the same scale as `beard`
   ScreenColour iris;
-  double recession = 0;  ///< of the hairline: 0 (full hairline) … 1 (bald on top)
+  double recession = 0;  ///< recession of the hairline: 0 (full) … 1 (bald on top)
   double makeup = 0;     ///< 0 … 1: make-up on lids, lashes and cheeks
   double lipstick = 0;   ///< 0 … 1; 0 for most people
 };
 
-/// Returns the random complexion of head `index`. Skin tones are stratified: of five successive
-/// women, and of five successive men (starting at index 10k), each has a tone in a different fifth
-/// of the range.
+/// Returns the random complexion of head `index`. Skin tones are stratified: the five women among
+/// heads 10k to 10k + 9 have tones in different fifths of the range, and so do the five men.
 Complexion random_complexion(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace crowdface::synth

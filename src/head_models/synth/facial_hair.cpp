@@ -21,9 +21,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kAboveSkin = 0.04;      // cm
-constexpr double kTexelsPerUnit = 2048;  // texels of a whole head's texture
+constexpr double kTexelsPerUnit = 2048;  // texels per unit of texture coordinates
 constexpr int kMaxTexels = 512;
-constexpr std::uint64_t kSeed = 41;  // of the noise in the strands
+constexpr std::uint64_t kSeed = 41;  // seed of the noise in the strands
 
 SkinPaint paint_of(const FacialHair& style) {
   Complexion look;

@@ -85,7 +85,7 @@ double Hair::strand_brightness(const Vector3d& p) const {
   return straight + style_.curliness * (curled - straight);
 }
 
-/// Returns the amount, 0 … 1, of long hair that hangs over the neck at a point; such hair starts
+/// Returns the amount, 0 … 1, of long hair that hangs over the neck at a point. Hanging hair starts
 /// behind the ears.
 double Hair::hanging_fraction(const Vector3d& p) const {
   if (style_.nape_length <= 0) return 0;

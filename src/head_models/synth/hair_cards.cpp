@@ -158,7 +158,8 @@ class Grower {
     return card;
   }
 
-  /// Returns the fraction of the lock's length that the first fraction t of the pieces covers.
+  /// Maps a fraction t of the lock's pieces, counted from the root, to a fraction of the lock's
+  /// length.
   static double along(double t) { return t * (0.3 + 0.7 * t); }
 
   /// Moves a point in front of the face sideways, to the edge of the face. Does not move the points
@@ -170,7 +171,8 @@ class Grower {
     return p;
   }
 
-  /// Resamples a card to `pieces_` pieces at equal steps of the index.
+  /// Resamples a card to `pieces_` pieces, at evenly spaced fractional indices of the card's
+  /// points.
   Card resampled(const Card& card) const {
     Card even;
     const auto last = static_cast<double>(card.middle.size() - 1);

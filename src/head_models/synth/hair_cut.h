@@ -16,10 +16,10 @@ struct HairCut {
   bool is_for_women = false;
   bool is_curly = false;
   bool has_bald_crown = false;  ///< the crown is bald
-  double recession = 0;  ///< of the hairline, 0 … 1; if above 0, young people do not wear the cut
+  double recession = 0;  ///< hairline recession, 0 … 1; above 0, the cut is not for young people
   double parting_x = 0;  ///< x of the parting
   double sideways_combing = 1;  ///< component of the combing direction away from the parting
-  double backward_combing = 0;  ///< component of the combing direction; negative: forward
+  double backward_combing = 0;  ///< backward component of the combing direction
   double top_length = 5;        ///< length on top
   double side_length = 5;       ///< length above and behind the ears; 0: no hair there
   double hem_y = -30;           ///< height y at which hair is cut
@@ -28,8 +28,9 @@ struct HairCut {
   double wave_amplitude = 0;    ///< amplitude of waves in the locks
   /// 1: combed locks. Larger numbers: the number of layers of curls, which have random directions
   int layers = 1;
-  bool is_tied = false;              ///< tied at the back: lies on the head until behind the ears
-  bool excludes_old_people = false;  ///< whether old people do not wear the cut
+  /// tied at the back; in front of the tie, the hair lies on the head
+  bool is_tied = false;
+  bool excludes_old_people = false;  ///< true: the cut is not for old people
 
   bool has_fringe() const { return fringe_y < kNoFringe; }
 };

@@ -28,16 +28,16 @@ Eigen::Vector3d combing_direction(const HairCut& cut, const Eigen::Vector3d& p);
 /// A hair mesh of quads under construction. Vertex i has texture coordinate i.
 struct HairMesh {
   std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector2d> uvs;  ///< #points
+  std::vector<Eigen::Vector2d> uvs;  ///< one per point
   Topology topology;
 
   /// Returns the complete mesh. There must be at least one point.
   Mesh to_mesh() &&;
 };
 
-/// Adds a cap below the hair cards, which fills the gaps between cards: the hair-covered scalp,
-/// raised by hair_stand_off. The cap shows the last strip of hair_picture, with the tips at the
-/// cap's edge.
+/// Adds a cap below the hair cards, which fills the gaps between cards. The cap is the hair-covered
+/// scalp, raised by hair_stand_off. The cap shows the last strip of hair_picture, with the tips at
+/// the cap's edge.
 void add_hair_cap(const HairCut& cut, HairMesh& hair);
 
 }  // namespace crowdface::synth

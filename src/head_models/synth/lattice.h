@@ -7,8 +7,8 @@ namespace crowdface::synth {
 
 /// The patches of the skin. The strip surrounds the head like a sleeve, from the edge of the crown
 /// down to the neck; the cap closes the strip at the top. The strip has rectangular openings that
-/// are filled with concentric rings. The rings of eyes, nostrils and mouth end in an open hole, the
-/// rings of an ear in a core.
+/// are filled with concentric rings. The rings of eyes, nostrils and mouth end in an open hole. The
+/// rings of an ear end in a core.
 enum class SkinPatch { kStrip, kCap, kEye, kNostril, kMouth, kEar, kEarCore };
 
 /// A parametric location on the skin, independent of the tessellation.

@@ -12,7 +12,7 @@ namespace crowdface::synth {
 struct Layout {
   Topology topology;
   TextureCoordinates uvs;          ///< #T by 2, in [0, 1]²
-  std::vector<Address> addresses;  ///< #V: location of each vertex on the skin patches
+  std::vector<Address> addresses;  ///< location of each vertex on the skin patches
 };
 
 /// Makes the quad mesh of a head with about this number of vertices. The left and right halves have

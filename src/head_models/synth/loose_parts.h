@@ -51,7 +51,7 @@ class LooseParts {
   std::vector<Eigen::Vector3d>
       points_;  ///< eyeballs: on the unit sphere; teeth: in the mean head, cm
   std::vector<Eigen::RowVector2d> uvs_;  ///< one per vertex
-  std::vector<std::uint32_t> corners_;   ///< four per face
+  std::vector<std::uint32_t> corners_;   ///< four per polygon
   std::vector<Index> first_vertices_, first_faces_;
 };
 

@@ -72,8 +72,8 @@ Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
   if (b <= 1.2) return eye_centre() + foot;
   const double t = (b - 1.2) / 0.8, radius = foot.norm();
-  // Go along the eyeball, away from the viewing direction, and stay on the eyeball. Blended lids
-  // may be thinner than the heads' lids, and the pocket must not protrude from them.
+  // Go along the eyeball, away from the viewing direction. The skin stays on the eyeball, so that
+  // the pocket does not protrude from blended lids, which may be thinner than the heads' lids.
   const Vector3d spoke = foot / radius, gaze(0, 0, 1);
   const Vector3d back = (spoke * spoke.z() - gaze).normalized();
   return eye_centre() + radius * (spoke + 0.2 * t * back).normalized();

@@ -66,7 +66,8 @@ double coarseness(const Vector3d& p) {
   return (0.5 + 0.5 * face + 0.8 * face * middle) * (1 - 0.6 * scalp);
 }
 
-/// Fraction of the amplitude of this wavelength that a mesh with this edge length can represent.
+/// Fraction of a wave's amplitude that a mesh can represent, for the given wavelength and edge
+/// length.
 double carried(double wavelength, double edge) {
   return smooth_step(2, 4, wavelength / edge);
 }

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFinest = 0.02;  // edge length in cm that includes all folds and lines
+constexpr double kFinest = 0.02;  // edge length in cm at which no fold or line is left out
 
 /// Returns 1 at the centre of an ellipse in the front view, falling to 0 at its edge. The ellipse
 /// is mirrored at x = 0.
@@ -246,8 +246,8 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
   ScreenColour iris =
       complexion_.iris * (1.05 + 0.22 * pores_.at(0.7 * spoke) + 0.12 * hairs_.at(1.6 * spoke));
-  // The iris is lighter around the pupil. It is also lighter in its lower half, because light from
-  // above reaches this half.
+  // The iris is lighter around the pupil. The lower half of the iris is also lighter, because light
+  // from above reaches this half.
   iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
   iris *= 1 - 0.62 * smooth_step(kIris - 0.08, kIris, flat);
   cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));

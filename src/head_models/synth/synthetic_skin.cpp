@@ -71,8 +71,8 @@ std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
 std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
                                                   double edge_cm) const {
   const synth::Identity identity(seed, index);
-  // A texture can represent wavelengths of two texels or more, a mesh wavelengths of four edges or
-  // more.
+  // A texture can represent wavelengths of at least two texels. A mesh can represent wavelengths of
+  // at least four edges.
   const double finest = texel_cm_ / 2;
   return synth::skin_normals(size_, atlas_, texel_cm_, synth::Relief(identity, finest),
                              synth::Relief(identity, std::max(finest, edge_cm)));

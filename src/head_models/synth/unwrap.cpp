@@ -57,8 +57,8 @@ Eigen::Vector2d disc_centre() {
   return {(across(column_distance(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
-/// Half-axes of the edge of an opening, and of the edge of the opening's hole, as fractions of half
-/// the opening's size.
+/// Half-axes of the edge of an opening and of the edge of its hole. The unit is half the opening's
+/// size.
 struct HalfAxes {
   Eigen::Vector2d edge, hole;
 };
