@@ -82,7 +82,7 @@ class FittedSkin {
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   void add_coarser_level(double spacing);
-  /// Returns the reach of the patch around a point; see Patch::radius.
+  /// Returns the reach of the patch around a point; see Patch::reach.
   double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
   void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                    Patch& patch) const;

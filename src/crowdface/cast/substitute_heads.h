@@ -28,7 +28,7 @@ class SubstituteHeads {
   ///
   /// \param shares  Weights, by ascending head.
   std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& shares) const;
-  /// Returns whether the group contains every head in `weights`.
+  /// Returns whether the group contains every head in `shares`.
   bool contains_all(const std::vector<SourceWeight>& shares) const;
 
  private:
