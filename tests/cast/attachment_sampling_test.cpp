@@ -441,6 +441,33 @@ TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
   EXPECT_GT(mean_grey(1), mean_grey(0.5) + 0.2);
 }
 
+// An old head whose detail came from young heads had white hair around a face of forty.
+TEST(HairColour, GreysWithTheHeadsThatLendTheDetail) {
+  const auto mean_grey = [](Index target, Index source) {
+    std::vector<FacePlan> crowd = hair_crowd(200);
+    for (FacePlan& face : crowd) {
+      face.recipe.target = target;
+      face.recipe.regions.resize(2);
+      for (RegionRecipe& region : face.recipe.regions) {
+        region.weights = {{2, 1}};  // the coarse band does not show age
+        region.finer_bands.resize(1);
+        region.finer_bands[0].weights = {{source, 0.8}};
+      }
+    }
+    choose_attachments(crowd_with_hair(), {}, crowd);
+    double sum = 0;
+    for (const FacePlan& face : crowd) sum += face.hair->grey_fraction / 200;
+    return sum;
+  };
+  constexpr Index kYoung = 0, kOld = 2;
+  EXPECT_EQ(mean_grey(kYoung, kYoung), 0);
+  EXPECT_GT(mean_grey(kOld, kOld), 0.7);
+  for (const double between : {mean_grey(kYoung, kOld), mean_grey(kOld, kYoung)}) {
+    EXPECT_GT(between, 0);
+    EXPECT_LT(between, 0.2);
+  }
+}
+
 TEST(HairColour, FollowsSharesExactlyInEachGroup) {
   AttachmentOptions draw = crowd_with_hair();
   draw.hair_colours = {{"", {{"blond", 0.3}}}, {"clan", {{"black", 1}}}};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/skin_draw.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,8 +54,8 @@ TEST(SkinDraw, AChildLiesBetweenItsParents) {
     choose_skin_colours_of_children(draw_of(), crowd);
     EXPECT_TRUE(crowd[0].recipe.colours.empty()) << "nobody's child";
     for (const SourceWeight& one : crowd[1].recipe.colours) EXPECT_GE(one.head, 4) << "men lend";
-    EXPECT_GE(tone_of(crowd[1]), 14 - 1e-9);
-    EXPECT_LE(tone_of(crowd[1]), 26 + 1e-9);
+    EXPECT_GE(tone_of(crowd[1]), 16 - 1e-9);
+    EXPECT_LE(tone_of(crowd[1]), 24 + 1e-9);
     EXPECT_LT(tone_of(crowd[2]), tone_of(crowd[1])) << "the next generation";
     EXPECT_GT(tone_of(crowd[2]), 0);
   }
@@ -67,20 +69,65 @@ TEST(SkinDraw, TwinsHaveOneTone) {
   EXPECT_EQ(crowd[0].recipe.colours, crowd[1].recipe.colours);
 }
 
-TEST(SkinDraw, ColoursOfARecipeStay) {
+TEST(SkinDraw, ColoursBetweenTheParentsStay) {
   FacePlan child = child_of("son", "a", "h", 4);
-  child.recipe.colours = {{7, 1}};
+  child.recipe.colours = {{5, 0.5}, {6, 0.5}};
   std::vector<FacePlan> crowd = {child};
   choose_skin_colours_of_children(draw_of(), crowd);
   EXPECT_EQ(crowd[0].recipe.colours, child.recipe.colours);
 }
 
-TEST(SkinDraw, TheNearestHeadLendsWhereNoneIsBeyond) {
+// `colours: drawn` gives a daughter only the colours of her mother's heads.
+TEST(SkinDraw, ColoursOfOneParentAreReplaced) {
+  FacePlan child = child_of("daughter", "a", "h", 1);
+  child.recipe.colours = {{0, 1}};
+  std::vector<FacePlan> crowd = {child};
+  choose_skin_colours_of_children(draw_of(), crowd);
+  EXPECT_GE(tone_of(crowd[0]), 9 - 1e-9);
+  EXPECT_LE(tone_of(crowd[0]), 21 + 1e-9);
+}
+
+/// Returns the total weight of the heads in [begin, end).
+double weight_of(const FacePlan& face, Index begin, Index end) {
+  double sum = 0;
+  for (const SourceWeight& one : face.recipe.colours) {
+    if (one.head >= begin && one.head < end) sum += one.weight;
+  }
+  return sum;
+}
+
+TEST(SkinDraw, AnotherAgeLendsAsLittleAsPossibleIfNoLikeHeadIsDarkEnough) {
   SkinOptions draw = draw_of();
-  draw.tags[7] = {"male", "old"};  // men without age have the tones 0 to 20
-  std::vector<FacePlan> crowd = {child_of("son", "d", "h", 4)};
-  choose_skin_colours_of_children(draw, crowd);
-  EXPECT_EQ(crowd[0].recipe.colours, (std::vector<SourceWeight>{{6, 1}}));
+  draw.tags[2] = draw.tags[3] = {"female", "old"};  // young women have the tones 0 and 10
+  double darkest = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<FacePlan> crowd = {child_of("girl_" + std::to_string(i), "a", "h", 1)};
+    choose_skin_colours_of_children(draw, crowd);
+    EXPECT_GE(tone_of(crowd[0]), 9 - 1e-9);
+    EXPECT_LE(tone_of(crowd[0]), 21 + 1e-9);
+    darkest = std::max(darkest, tone_of(crowd[0]));
+    EXPECT_EQ(weight_of(crowd[0], 4, 8), 0) << "no man's skin";
+    // Head 3 (tone 30) reaches each tone with less old skin than head 2 (tone 20).
+    const double old = std::max(0.0, (tone_of(crowd[0]) - 10) / 20);
+    EXPECT_NEAR(weight_of(crowd[0], 2, 4), old, 1e-9);
+  }
+  EXPECT_GT(darkest, 19);
+}
+
+TEST(SkinDraw, ADaughterWhoseSexHasOnlyLightHeadsIsDarkerThanHerMother) {
+  SkinOptions draw = draw_of();
+  draw.tones = {0, 1, 2, 3, 0, 10, 20, 30};  // all women are light
+  for (int i = 0; i < 40; ++i) {
+    std::vector<FacePlan> crowd = {child_of("girl_" + std::to_string(i), "b", "h", 1)};
+    choose_skin_colours_of_children(draw, crowd);
+    double tone = 0;
+    for (const SourceWeight& one : crowd[0].recipe.colours) {
+      tone += one.weight * draw.tones[static_cast<std::size_t>(one.head)];
+    }
+    EXPECT_GE(tone, 1 + 0.3 * 29 - 1e-9);
+    EXPECT_LE(tone, 1 + 0.7 * 29 + 1e-9);
+    EXPECT_NEAR(weight_of(crowd[0], 4, 8), (tone - 3) / 27, 1e-9) << "the least of a man's skin";
+  }
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
   own.pheomelanin += kScatter * (scatter[1] - 0.5);
   base_colours_[face.id] = own;
-  own.grey_fraction = std::max(own.grey_fraction, grey_fraction(face, head, key("hair/grey")));
+  own.grey_fraction = std::max(own.grey_fraction, grey_fraction(face, key("hair/grey")));
   return rounded_colour(own);
 }
 
@@ -146,19 +146,39 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
   return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
 }
 
+/// Returns the apparent age of a face, from 0 (young) to 1 (old): the mean over the heads, by their
+/// tags. As in a face's textures, half of the weight goes to the target, the other half to the heads
+/// that lend the finest detail.
+double HairChooser::apparent_age(const Recipe& recipe) const {
+  const auto of_head = [&](Index head) {
+    const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
+    return contains(tags, "old")     ? 0.85
+           : contains(tags, "adult") ? 0.45
+           : contains(tags, "young") ? 0.15
+                                     : 0.3;
+  };
+  double of_target = 0, detail = 0, detail_weight = 0;
+  for (const SourceWeight& one : target_head_weights(recipe)) {
+    of_target += one.weight * of_head(one.head);
+  }
+  for (const RegionRecipe& region : recipe.regions) {
+    for (const SourceWeight& one : band_of(region, band_count(region) - 1).weights) {
+      detail += one.weight * of_head(one.head);
+      detail_weight += one.weight;
+    }
+  }
+  return detail_weight > 0 ? (of_target + detail / detail_weight) / 2 : of_target;
+}
+
 /// Returns the fraction of grey hair at the face's age.
-double HairChooser::grey_fraction(const FacePlan& face, Index head,
+double HairChooser::grey_fraction(const FacePlan& face,
                                   const std::string& random_number_purpose) const {
-  const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
-  const double of_head = contains(tags, "old")     ? 0.85
-                         : contains(tags, "adult") ? 0.45
-                         : contains(tags, "young") ? 0.15
-                                                   : 0.3;
-  // The head has an apparent age. The face's age moves this apparent age towards old or young. The
-  // square root makes grey hair visible at age 0.5 already.
+  const double apparent = apparent_age(face.recipe);
+  // The face's age moves the apparent age towards old or young. The square root makes grey hair
+  // visible at age 0.5 already.
   const double age = face.age.value_or(0);
   const double way = std::sqrt(std::min(1.0, std::abs(age)));
-  const double aged = of_head + way * ((age < 0 ? 0.15 : std::max(0.9, of_head)) - of_head);
+  const double aged = apparent + way * ((age < 0 ? 0.15 : std::max(0.9, apparent)) - apparent);
   // Each person's hair begins to turn grey at a random age, but never while the person is young.
   const double begin =
       random_unit({options_.seed, face.index.value_or(0), random_number_purpose}) - 0.5;

@@ -42,8 +42,8 @@ class HairChooser {
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
   HairColour colour_of_tags(Index head, const std::string& random_number_purpose) const;
-  double grey_fraction(const FacePlan& face, Index head,
-                       const std::string& random_number_purpose) const;
+  double apparent_age(const Recipe& recipe) const;
+  double grey_fraction(const FacePlan& face, const std::string& random_number_purpose) const;
 
   HairOptions options_;
   /// The entry of HairOptions::hair_colours that applies to a face.

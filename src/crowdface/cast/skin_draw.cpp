@@ -2,8 +2,11 @@
 #include "crowdface/cast/skin_draw.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <optional>
+#include <numeric>
+#include <string_view>
+#include <utility>
 
 #include "crowdface/core/contains.h"
 #include "crowdface/core/random.h"
@@ -12,37 +15,50 @@
 namespace crowdface {
 namespace {
 
-/// Returns the heads that have the same sex and the same age class as the given head.
-std::vector<Index> heads_like(Index head, const HeadTags& tags) {
-  std::vector<Index> heads;
-  for (Index h = 0; h < static_cast<Index>(tags.size()); ++h) {
-    const bool same =
-        std::ranges::all_of(std::vector<std::string>{"female", "male", "young", "adult", "old"},
-                            [&](const std::string& tag) {
-                              return contains(tags[static_cast<std::size_t>(h)], tag) ==
-                                     contains(tags[static_cast<std::size_t>(head)], tag);
-                            });
-    if (same) heads.push_back(h);
+/// The range of a child's tone, as fractions of the way from the lighter to the darker parent.
+constexpr double kLightest = 0.3, kDarkest = 0.7;
+
+/// Returns how much the skins of two heads differ in sex and age: the number of tags of sex and age
+/// that only one of the two heads has.
+int differing_tag_count(Index a, Index b, const HeadTags& tags) {
+  int count = 0;
+  for (const std::string_view tag : {"female", "male", "young", "adult", "old"}) {
+    count += contains(tags[static_cast<std::size_t>(a)], tag) !=
+             contains(tags[static_cast<std::size_t>(b)], tag);
   }
-  return heads;
+  return count;
 }
 
-/// Returns a mixture of two of the heads that has the given tone. If all heads are lighter or all
-/// are darker, returns the head with the nearest tone alone.
-std::vector<SourceWeight> mixture_of_tone(double tone, const std::vector<Index>& heads,
-                                          const std::vector<double>& tones) {
-  const auto tone_of = [&](Index head) { return tones[static_cast<std::size_t>(head)]; };
-  std::optional<Index> lighter, darker;
-  for (const Index head : heads) {
-    const double own = tone_of(head);
-    if (own <= tone && (!lighter || own > tone_of(*lighter))) lighter = head;
-    if (own >= tone && (!darker || own < tone_of(*darker))) darker = head;
+/// Returns a mixture of two heads, whose weights give the mixture this tone. Among all such
+/// mixtures, takes the one with the least skin of another sex or age than the given head's, then
+/// the one whose two tones are nearest to each other. If all heads are lighter or all are darker,
+/// returns the head with the nearest tone alone.
+std::vector<SourceWeight> mixture_of_tone(double tone, Index like, const SkinOptions& options) {
+  const auto tone_of = [&](Index head) { return options.tones[static_cast<std::size_t>(head)]; };
+  std::vector<int> differences;
+  const auto count = static_cast<Index>(options.tones.size());
+  for (Index h = 0; h < count; ++h)
+    differences.push_back(differing_tag_count(h, like, options.tags));
+  std::vector<SourceWeight> best;
+  std::pair<double, double> best_cost;
+  for (Index light = 0; light < count; ++light) {
+    if (tone_of(light) > tone) continue;
+    for (Index dark = 0; dark < count; ++dark) {
+      const double width = tone_of(dark) - tone_of(light);
+      if (tone_of(dark) < tone) continue;
+      const double share = width > 0 ? (tone - tone_of(light)) / width : 0;
+      const std::pair cost((1 - share) * differences[static_cast<std::size_t>(light)] +
+                               share * differences[static_cast<std::size_t>(dark)],
+                           width);
+      if (!best.empty() && cost >= best_cost) continue;
+      best_cost = cost;
+      best = {{light, 1 - share}, {dark, share}};
+    }
   }
-  if (!lighter || !darker || tone_of(*darker) == tone_of(*lighter)) {
-    return {{lighter ? *lighter : *darker, 1}};
-  }
-  const double share = (tone - tone_of(*lighter)) / (tone_of(*darker) - tone_of(*lighter));
-  return normalized_weights({{*lighter, 1 - share}, {*darker, share}});
+  if (!best.empty()) return normalized_weights(best);
+  const auto nearest = std::ranges::min_element(
+      options.tones, {}, [&](double other) { return std::abs(other - tone); });
+  return {{nearest - options.tones.begin(), 1}};
 }
 
 }  // namespace
@@ -55,29 +71,28 @@ void choose_skin_colours_of_children(const SkinOptions& draw, std::vector<FacePl
   for (const FacePlan& face : crowd) {
     for (const std::string& parent : face.parents) is_parent[parent] = true;
   }
-  const auto meet = [&](const FacePlan& face) {
-    if (!is_parent.contains(face.id)) return;
-    const std::vector<double> shares = draw.colour_weights(face.recipe);
-    double tone = 0;
-    for (std::size_t h = 0; h < shares.size(); ++h) tone += shares[h] * draw.tones[h];
-    tones[face.id] = tone;
+  const auto tone_of = [&](const Recipe& recipe) {
+    const std::vector<double> shares = draw.colour_weights(recipe);
+    return std::inner_product(shares.begin(), shares.end(), draw.tones.begin(), 0.0);
   };
   for (FacePlan& face : crowd) {
     const bool known =
         !face.parents.empty() && std::ranges::all_of(face.parents, [&](const std::string& parent) {
           return tones.contains(parent);
         });
-    if (known && face.recipe.colours.empty()) {
+    if (known) {
       const std::string purpose =
           concat("skin/",
                  face.family && draw.twin_families.contains(*face.family) ? *face.family : face.id);
-      const double place = random_between({draw.seed, 0, purpose}, 0.2, 0.8);
-      const double mother = tones[face.parents[0]], father = tones[face.parents[1]];
-      face.recipe.colours =
-          mixture_of_tone(mother + place * (father - mother),
-                          heads_like(typical_head(face.recipe, draw.tags), draw.tags), draw.tones);
+      const auto [lighter, darker] = std::minmax(tones[face.parents[0]], tones[face.parents[1]]);
+      const auto at = [&](double share) { return lighter + share * (darker - lighter); };
+      const double own = tone_of(face.recipe);
+      if (face.recipe.colours.empty() || own < at(kLightest) || own > at(kDarkest)) {
+        const double tone = at(random_between({draw.seed, 0, purpose}, kLightest, kDarkest));
+        face.recipe.colours = mixture_of_tone(tone, typical_head(face.recipe, draw.tags), draw);
+      }
     }
-    meet(face);
+    if (is_parent.contains(face.id)) tones[face.id] = tone_of(face.recipe);
   }
 }
 

@@ -26,11 +26,10 @@ struct SkinOptions {
 };
 
 /// Gives each face with parents its own colours, Recipe::colours. The tone of the face's skin then
-/// lies between the tones of its parents, at a random fraction from 0.2 to 0.8. The colours are a
-/// mixture of two heads of the face's sex and age class: the head with the next lighter tone and
-/// the head with the next darker tone. If all such heads are lighter, or all are darker, the head
-/// with the nearest tone alone lends its colours. Faces that already have colours keep their
-/// colours.
+/// lies between the tones of its parents, at a random fraction from 0.3 to 0.7. The colours are a
+/// mixture of two heads that gives this tone with the least possible skin of another sex or age
+/// class; among equal mixtures, the heads with the most similar tones are taken. Colours that the
+/// face already has stay if their tone lies in this range.
 ///
 /// \param crowd  In the order of the plan: parents before children.
 void choose_skin_colours_of_children(const SkinOptions& options, std::vector<FacePlan>& crowd);

@@ -123,14 +123,11 @@ std::set<std::string> twin_families(const Config& config) {
   return names;
 }
 
-/// Gives each child a skin tone between the tones of the parents. Does this only in crowds whose
-/// attachments have a tint; does not change other crowds.
+/// Gives each child a skin tone between the tones of the parents.
 void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>& crowd) {
   const bool has_children =
       std::ranges::any_of(crowd, [](const FacePlan& face) { return !face.parents.empty(); });
-  const bool has_tint = std::ranges::any_of(
-      config.attachments.items, [](const auto& item) { return item.tint != Tint::kNone; });
-  if (!has_children || !has_tint) return;
+  if (!has_children) return;
   std::vector<double> tones = skin_tones(inputs);
   if (tones.empty()) return;
   const HeadColourWeights colour_weights(config, inputs);
